@@ -1,0 +1,111 @@
+//! What can be wrong with a model.
+
+use thiserror::Error;
+
+/// A model that cannot be built.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// A body without points.
+    #[error("body `{body}` has no point")]
+    NoPoints {
+        /// Name of the body.
+        body: String,
+    },
+    /// A point named twice on one body.
+    #[error("body `{body}` runs through point `{point}` twice")]
+    RepeatedPoint {
+        /// Name of the body.
+        body: String,
+        /// Name of the point.
+        point: String,
+    },
+    /// Two bodies, or two joints, of one name.
+    #[error("the name `{name}` is used twice")]
+    RepeatedName {
+        /// The name.
+        name: String,
+    },
+    /// A beam that runs through fewer than two points.
+    #[error("beam `{body}` needs at least two points")]
+    TooFewPoints {
+        /// Name of the body.
+        body: String,
+    },
+    /// A segment of a beam whose frame or stiffness cannot be formed.
+    #[error("segment {segment} of body `{body}`: {source}")]
+    Segment {
+        /// Name of the body.
+        body: String,
+        /// Index of the segment on the body, from 0.
+        segment: usize,
+        /// What is wrong with it.
+        source: hyperstat_elements::ElementError,
+    },
+    /// A joint that joins a body to itself or ground to ground.
+    #[error("joint `{joint}` joins a body to itself")]
+    SelfJoined {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// A negative, infinite or not symmetric positive semidefinite joint stiffness.
+    #[error("joint `{joint}`: {what}")]
+    Stiffness {
+        /// Name of the joint.
+        joint: String,
+        /// What is wrong with the stiffness.
+        what: &'static str,
+    },
+    /// An entity of another model, or a load or position that is not finite.
+    #[error("{what} is not finite")]
+    NotFinite {
+        /// What is not finite.
+        what: &'static str,
+    },
+}
+
+/// A model that cannot be solved as it stands.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// The model has no output node.
+    #[error("the model has no output")]
+    NoOutput,
+    /// Bodies that no chain of joints connects to the ground.
+    #[error("nothing holds {}", names(bodies))]
+    Unheld {
+        /// Names of the bodies.
+        bodies: Vec<String>,
+    },
+    /// A load that works on a motion that nothing resists.
+    #[error("a load on `{node}` works on a motion that nothing resists: {motion}")]
+    LoadOnFreeMotion {
+        /// `body.point` of the load.
+        node: String,
+        /// Index of the load in the model.
+        load: usize,
+        /// The motion in words.
+        motion: String,
+    },
+    /// The stiffness is not positive definite although the rigid mechanism is held: numbers of
+    /// too different size.
+    #[error("the stiffness matrix is singular to working precision")]
+    Singular,
+    /// A matrix too large for this machine.
+    #[error("a model of {unknowns} unknowns is too large")]
+    TooLarge {
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+    /// An element that cannot be formed.
+    #[error(transparent)]
+    Element(#[from] hyperstat_elements::ElementError),
+    /// A joint that cannot be formed.
+    #[error(transparent)]
+    Joint(#[from] hyperstat_joints::JointError),
+}
+
+fn names(bodies: &[String]) -> String {
+    let quoted: Vec<String> = bodies.iter().map(|b| format!("`{b}`")).collect();
+    quoted.join(", ")
+}

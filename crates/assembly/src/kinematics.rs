@@ -1,0 +1,347 @@
+//! Mobility, over-constraint and motions without energy, from the rigid bodies' Jacobian.
+//!
+//! Every body is taken as rigid, with a twist at its first node. Lengths are divided by the
+//! mechanism's size and every condition is a unit row, so that zero and not zero are far apart
+//! (paper-notes: zeros stay below 1e-15, non-zeros above 1e-4) and one tolerance serves all counts.
+
+use hyperstat_joints::{DofSet, rigid_motion};
+use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector3, Vector6};
+
+use crate::directions::{Directions, to_directions};
+use crate::model::{BodyId, BodyKind, Geometry, Model};
+use crate::solution::Motion;
+
+/// Singular values below this are zero: coordinates are typed to six digits or more.
+pub(crate) const RANK_TOLERANCE: f64 = 1e-6;
+/// Singular values between these leave a doubt that the user should know of.
+const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
+
+/// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Kinematics {
+    /// Instantaneous mobility, with every direction that is free by its joint's kind released
+    /// (locked or elastic though it may be); idle motions included.
+    pub mobility: usize,
+    /// Constraints less their rank.
+    pub overconstraint: usize,
+    /// A basis of the motions that need no energy: drives locked, springs at rest.
+    pub motions: Vec<Motion>,
+    /// A singular value between zero and not zero, where there is one: the counts are then
+    /// those of a geometry that is only nearly the one meant.
+    pub doubtful: Option<f64>,
+}
+
+/// Mobility, over-constraint and motions without energy of a model as it stands.
+pub fn analyse(model: &Model) -> Kinematics {
+    analyse_at(model, model.geometry())
+}
+
+/// [`analyse`] in another configuration.
+pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
+    let released = Jacobian::new(model, geometry, |_, _| None);
+    let (rank, _, doubtful_released) = released.null_space();
+    let held = Jacobian::new(model, geometry, |_, directions| Some(directions.clone()));
+    let (_, basis, doubtful_held) = held.null_space();
+    let size = characteristic_length(geometry);
+    let motions = echelon(basis)
+        .iter()
+        .map(|column| motion(model, size, column))
+        .collect();
+    Kinematics {
+        mobility: 6 * model.bodies().len() - rank,
+        overconstraint: released.rows.len() - rank,
+        motions,
+        doubtful: doubtful_released.or(doubtful_held),
+    }
+}
+
+/// Diagonal of the box around all nodes [m]; 1 where they coincide.
+pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
+    let first = geometry
+        .positions
+        .first()
+        .map_or(Vector3::zeros(), |p| p.coords);
+    let (mut low, mut high) = (first, first);
+    for p in &geometry.positions {
+        low = low.inf(&p.coords);
+        high = high.sup(&p.coords);
+    }
+    let diagonal = (high - low).norm();
+    if diagonal > 0.0 { diagonal } else { 1.0 }
+}
+
+/// Unit rows of a joint's conditions on the relative twist at the joint, in global axes with
+/// translations over `size`.
+pub(crate) fn condition_rows(
+    to_directions: &Matrix6<f64>,
+    set: DofSet,
+    size: f64,
+) -> impl Iterator<Item = RowVector6<f64>> {
+    let local = *to_directions;
+    set.iter().map(move |dof| {
+        let mut row = local.row(dof.index()).into_owned();
+        for c in 0..3 {
+            row[c] *= size;
+        }
+        let norm = row.norm();
+        row / norm
+    })
+}
+
+/// Conditions on the scaled twists of all bodies, sparse by rows.
+struct Jacobian {
+    columns: usize,
+    rows: Vec<Vec<(usize, RowVector6<f64>)>>,
+}
+
+impl Jacobian {
+    /// Rows of every joint: those of the directions constrained by kind where `held` gives none,
+    /// else of the rigid and elastic directions.
+    fn new(
+        model: &Model,
+        geometry: &Geometry,
+        held: impl Fn(usize, &Directions) -> Option<Directions>,
+    ) -> Self {
+        let size = characteristic_length(geometry);
+        let mut rows = Vec::new();
+        for (k, joint) in model.joints().iter().enumerate() {
+            let local = to_directions(&joint.joint.basis(), &geometry.frames[k]);
+            let directions = Directions::of(joint);
+            let mut conditions: Vec<RowVector6<f64>> = Vec::new();
+            match held(k, &directions) {
+                None => {
+                    let set = joint.joint.free().complement();
+                    conditions.extend(condition_rows(&local, set, size));
+                }
+                Some(held) => {
+                    conditions.extend(condition_rows(&local, held.rigid, size));
+                    conditions.extend(elastic_rows(&local, &held, size));
+                }
+            }
+            for condition in conditions {
+                let mut row = Vec::with_capacity(2);
+                for (node, sign) in joint.between.iter().zip([1.0, -1.0]) {
+                    let Some(node) = node else { continue };
+                    let body = model.nodes()[node.0].body;
+                    let origin = model.bodies()[body.0].nodes[0];
+                    let arm = geometry.positions[node.0] - geometry.positions[origin.0];
+                    row.push((body.0, condition * rigid_motion(&(arm / size)) * sign));
+                }
+                rows.push(row);
+            }
+        }
+        Self {
+            columns: 6 * model.bodies().len(),
+            rows,
+        }
+    }
+
+    /// Rank, basis of the null space (unit columns) and a doubtful singular value.
+    fn null_space(&self) -> (usize, Vec<DVector<f64>>, Option<f64>) {
+        let height = self.rows.len().max(self.columns);
+        let mut dense = DMatrix::zeros(height, self.columns);
+        for (r, row) in self.rows.iter().enumerate() {
+            for (body, entries) in row {
+                let mut view = dense.fixed_view_mut::<1, 6>(r, 6 * body);
+                view += entries;
+            }
+        }
+        null_space(dense)
+    }
+}
+
+/// Rows that a motion must satisfy for the elastic directions to take no energy.
+fn elastic_rows(local: &Matrix6<f64>, directions: &Directions, size: f64) -> Vec<RowVector6<f64>> {
+    if directions.compliance.is_some() {
+        return condition_rows(local, directions.elastic, size).collect();
+    }
+    let k = &directions.stiffness;
+    let mut rows = Vec::new();
+    for dof in directions.elastic.iter() {
+        let r = dof.index();
+        let mut row = RowVector6::zeros();
+        for other in directions.elastic.iter() {
+            let c = other.index();
+            let mut unit = local.row(c).into_owned();
+            for t in 0..3 {
+                unit[t] *= size;
+            }
+            let norm = unit.norm();
+            row += unit / norm * (k[(r, c)] / (k[(r, r)] * k[(c, c)]).sqrt());
+        }
+        rows.push(row);
+    }
+    rows
+}
+
+/// Rank, null space and doubtful singular value of a matrix with at least as many rows as columns.
+pub(crate) fn null_space(matrix: DMatrix<f64>) -> (usize, Vec<DVector<f64>>, Option<f64>) {
+    let columns = matrix.ncols();
+    if columns == 0 {
+        return (0, Vec::new(), None);
+    }
+    let svd = matrix.svd(false, true);
+    let Some(v_t) = svd.v_t else {
+        unreachable!("asked for");
+    };
+    let mut rank = 0;
+    let mut basis = Vec::new();
+    let mut doubtful: Option<f64> = None;
+    for (k, &value) in svd.singular_values.iter().enumerate() {
+        if value > RANK_TOLERANCE {
+            rank += 1;
+        } else {
+            basis.push(v_t.row(k).transpose());
+        }
+        if DOUBTFUL.contains(&value) {
+            doubtful = Some(doubtful.map_or(value, |d| d.max(value)));
+        }
+    }
+    (rank, basis, doubtful)
+}
+
+/// A basis of the same space in reduced echelon form by complete pivoting: motions of few bodies
+/// each, largest entry 1, so that a person can name them.
+pub(crate) fn echelon(mut basis: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+    for k in 0..basis.len() {
+        let mut best = (k, 0, 0.0);
+        for (c, column) in basis.iter().enumerate().skip(k) {
+            for (r, value) in column.iter().enumerate() {
+                if value.abs() > best.2 * (1.0 + 1e-9) {
+                    best = (c, r, value.abs());
+                }
+            }
+        }
+        let (column, row, _) = best;
+        basis.swap(k, column);
+        let pivot = &basis[k] / basis[k][row];
+        for (c, other) in basis.iter_mut().enumerate() {
+            if c != k {
+                let factor = other[row];
+                *other -= &pivot * factor;
+            }
+        }
+        basis[k] = pivot;
+    }
+    for column in &mut basis {
+        let largest = column.amax();
+        for value in column.iter_mut() {
+            *value /= largest;
+            if value.abs() < 1e-9 {
+                *value = 0.0;
+            }
+        }
+    }
+    basis
+}
+
+/// The motion of a column of scaled twists: translations back in metres.
+fn motion(model: &Model, size: f64, column: &DVector<f64>) -> Motion {
+    let twists = (0..model.bodies().len()).filter_map(|b| {
+        let mut twist: Vector6<f64> = column.fixed_rows::<6>(6 * b).into_owned();
+        for k in 0..3 {
+            twist[k] *= size;
+        }
+        (twist.amax() > 0.0).then_some((BodyId(b), twist))
+    });
+    Motion {
+        twists: twists.collect(),
+    }
+}
+
+/// The displacement of a node under a motion.
+pub(crate) fn node_twist(
+    motion: &Motion,
+    model: &Model,
+    geometry: &Geometry,
+    node: usize,
+) -> Vector6<f64> {
+    let body = model.nodes()[node].body;
+    let Some((_, twist)) = motion.twists.iter().find(|(b, _)| *b == body) else {
+        return Vector6::zeros();
+    };
+    let origin = model.bodies()[body.0].nodes[0];
+    rigid_motion(&(geometry.positions[node] - geometry.positions[origin.0])) * twist
+}
+
+/// A motion in words.
+pub(crate) fn describe(motion: &Motion, model: &Model) -> String {
+    const SHOWN: usize = 4;
+    let mut parts: Vec<String> = motion
+        .twists
+        .iter()
+        .take(SHOWN)
+        .map(|(body, twist)| describe_body(*body, twist, model))
+        .collect();
+    if motion.twists.len() > SHOWN {
+        parts.push(format!(
+            "and {} more bodies move",
+            motion.twists.len() - SHOWN
+        ));
+    }
+    parts.join("; ")
+}
+
+fn describe_body(body: BodyId, twist: &Vector6<f64>, model: &Model) -> String {
+    let geometry = model.geometry();
+    let size = characteristic_length(geometry);
+    let entry = &model.bodies()[body.0];
+    let name = &entry.name;
+    let (v, w) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+    if w.norm() * size < 1e-9 * v.norm() {
+        return format!("`{name}` moves along {}", vector(&v.normalize()));
+    }
+    let axis = w.normalize();
+    let along = v.dot(&axis);
+    let origin = geometry.positions[entry.nodes[0].0];
+    let arm = w.cross(&v) / w.norm_squared();
+    let on_axis = |p: &nalgebra::Point3<f64>| (p - origin - arm).cross(&axis).norm() < 1e-6 * size;
+    let own = entry.nodes.len() > 1
+        && entry
+            .nodes
+            .iter()
+            .all(|n| on_axis(&geometry.positions[n.0]));
+    let pitch = along / w.norm();
+    if pitch.abs() > 1e-6 * size {
+        return format!(
+            "`{name}` screws about {} by {} m per rad",
+            vector(&axis),
+            short(pitch)
+        );
+    }
+    if own {
+        let verb = if entry.kind == BodyKind::Elastic {
+            "spins"
+        } else {
+            "turns"
+        };
+        return format!("`{name}` {verb} about its own axis {}", vector(&axis));
+    }
+    let through = entry
+        .nodes
+        .iter()
+        .find(|n| on_axis(&geometry.positions[n.0]));
+    match through {
+        Some(node) => format!(
+            "`{name}` turns about {} through {}",
+            vector(&axis),
+            model.nodes()[node.0].point
+        ),
+        None => format!(
+            "`{name}` turns about {} through {} m",
+            vector(&axis),
+            vector(&(origin.coords + arm))
+        ),
+    }
+}
+
+fn vector(v: &Vector3<f64>) -> String {
+    format!("({}, {}, {})", short(v[0]), short(v[1]), short(v[2]))
+}
+
+/// A number to four digits, without needless zeros.
+fn short(value: f64) -> String {
+    let rounded = (value * 1e4).round() / 1e4;
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}

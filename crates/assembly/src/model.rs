@@ -1,0 +1,448 @@
+//! The model: bodies, nodes, segments, joints, loads and the output, as plain data.
+//!
+//! Names are kept for reports; everything refers to everything else by index. What a pose
+//! changes stands apart in [`Geometry`].
+
+use hyperstat_elements::{Material, Section, element_frame};
+use hyperstat_joints::{DofSet, Joint};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+
+use crate::error::ModelError;
+
+macro_rules! index {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $name(pub usize);
+    };
+}
+index!(
+    /// Index of a body in [`Model::bodies`].
+    BodyId
+);
+index!(
+    /// Index of a node in [`Model::nodes`].
+    NodeId
+);
+index!(
+    /// Index of a segment in [`Model::segments`].
+    SegmentId
+);
+index!(
+    /// Index of a joint in [`Model::joints`].
+    JointId
+);
+
+/// Whether a body deforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// One rigid body: its nodes move together (Eq. 37).
+    Rigid,
+    /// Beam segments, welded at the nodes they share.
+    Elastic,
+}
+
+/// A body: a name, its nodes and, where it is elastic, its segments.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Name, unique in the model.
+    pub name: String,
+    /// Rigid or elastic.
+    pub kind: BodyKind,
+    /// Nodes in the order of the body's points.
+    pub nodes: Vec<NodeId>,
+    /// Segments in their order along the body; none on a rigid one.
+    pub segments: Vec<SegmentId>,
+}
+
+/// A node: one point of one body.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// The body it belongs to.
+    pub body: BodyId,
+    /// Name of the point.
+    pub point: String,
+}
+
+/// A straight prismatic beam between two nodes of an elastic body.
+#[derive(Debug, Clone)]
+pub struct Segment {
+    /// The body it belongs to.
+    pub body: BodyId,
+    /// First and second node; local x runs from the first to the second.
+    pub ends: [NodeId; 2],
+    /// Material.
+    pub material: Material,
+    /// Section.
+    pub section: Section,
+    /// Number of equal beam elements it is divided into.
+    pub elements: usize,
+}
+
+/// A segment to be added to a body, by the places of its ends in the body's list of points.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// Places of its ends.
+    pub ends: [usize; 2],
+    /// Material.
+    pub material: Material,
+    /// Section.
+    pub section: Section,
+    /// Direction of local y (made normal to x); `None`: the section stands upright.
+    pub y_axis: Option<Vector3<f64>>,
+    /// Number of equal beam elements it is divided into (at least 1).
+    pub elements: usize,
+}
+
+/// Elasticity of a joint, by directions of the joint.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JointStiffness {
+    /// Per direction x y z [N/m], u v w [N·m/rad]; `None`: rigid where constrained or locked,
+    /// free where free. Zero frees a constrained direction and leaves a free or locked one as it is.
+    Directions([Option<f64>; 6]),
+    /// Full symmetric positive semidefinite matrix over all six directions.
+    Matrix(Matrix6<f64>),
+}
+
+impl Default for JointStiffness {
+    fn default() -> Self {
+        Self::Directions([None; 6])
+    }
+}
+
+/// A joint of the mechanism: where it sits, between which nodes, and how stiff it is.
+#[derive(Debug, Clone)]
+pub struct Connection {
+    /// Name, unique in the model.
+    pub name: String,
+    /// First (i) and second (j) node; `None` is the ground.
+    pub between: [Option<NodeId>; 2],
+    /// The joint's kind.
+    pub joint: Box<dyn Joint>,
+    /// Directions that are held (drives).
+    pub locked: DofSet,
+    /// Elasticity from the file; where it is given it replaces the joint's own.
+    pub stiffness: JointStiffness,
+}
+
+/// A wrench on a node, about that node, in global axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// Node it acts on: the body's own node, inside an elastic joint that sits there.
+    pub node: NodeId,
+    /// Force [N] and moment [N·m].
+    pub wrench: Vector6<f64>,
+}
+
+/// What a pose changes: positions, section directions and joint frames, in global axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Geometry {
+    /// Position of every node [m].
+    pub positions: Vec<Point3<f64>>,
+    /// Direction of every segment's local y; `None`: the default of
+    /// [`element_frame`].
+    pub y_axes: Vec<Option<Vector3<f64>>>,
+    /// Joint frame of every joint: columns are its x, y and z.
+    pub frames: Vec<Rotation3<f64>>,
+}
+
+/// A mechanism in one configuration.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Name.
+    pub name: String,
+    bodies: Vec<Body>,
+    nodes: Vec<Node>,
+    segments: Vec<Segment>,
+    joints: Vec<Connection>,
+    loads: Vec<Load>,
+    output: Option<NodeId>,
+    geometry: Geometry,
+}
+
+impl Model {
+    /// A model without bodies.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            bodies: Vec::new(),
+            nodes: Vec::new(),
+            segments: Vec::new(),
+            joints: Vec::new(),
+            loads: Vec::new(),
+            output: None,
+            geometry: Geometry {
+                positions: Vec::new(),
+                y_axes: Vec::new(),
+                frames: Vec::new(),
+            },
+        }
+    }
+
+    /// Adds a rigid body through `points` (name, position [m]).
+    ///
+    /// # Errors
+    /// A repeated body name or point, no point, a position that is not finite.
+    pub fn add_rigid(
+        &mut self,
+        name: &str,
+        points: &[(&str, Point3<f64>)],
+    ) -> Result<BodyId, ModelError> {
+        self.add_body(name, BodyKind::Rigid, points)
+    }
+
+    /// Adds an elastic body through `points`, made of `members` between them.
+    ///
+    /// # Errors
+    /// As [`Model::add_rigid`]; fewer than two points; a member without length, with its
+    /// `y_axis` along it, or with ends or a number of elements out of range.
+    pub fn add_elastic(
+        &mut self,
+        name: &str,
+        points: &[(&str, Point3<f64>)],
+        members: &[Member],
+    ) -> Result<BodyId, ModelError> {
+        if points.len() < 2 || members.is_empty() {
+            return Err(ModelError::TooFewPoints { body: name.into() });
+        }
+        for (k, member) in members.iter().enumerate() {
+            let [a, b] = member.ends;
+            let (Some(a), Some(b)) = (points.get(a), points.get(b)) else {
+                return Err(ModelError::TooFewPoints { body: name.into() });
+            };
+            element_frame(&(b.1 - a.1), member.y_axis.as_ref()).map_err(|source| {
+                ModelError::Segment {
+                    body: name.into(),
+                    segment: k,
+                    source,
+                }
+            })?;
+        }
+        let body = self.add_body(name, BodyKind::Elastic, points)?;
+        for member in members {
+            let nodes = &self.bodies[body.0].nodes;
+            let ends = member.ends.map(|k| nodes[k]);
+            let id = SegmentId(self.segments.len());
+            self.segments.push(Segment {
+                body,
+                ends,
+                material: member.material.clone(),
+                section: member.section.clone(),
+                elements: member.elements.max(1),
+            });
+            self.geometry.y_axes.push(member.y_axis);
+            self.bodies[body.0].segments.push(id);
+        }
+        Ok(body)
+    }
+
+    /// Adds a beam: a chain of segments through `points`, all of one section and material.
+    ///
+    /// # Errors
+    /// As [`Model::add_elastic`].
+    pub fn add_beam(
+        &mut self,
+        name: &str,
+        points: &[(&str, Point3<f64>)],
+        material: &Material,
+        section: &Section,
+        y_axis: Option<Vector3<f64>>,
+        elements: usize,
+    ) -> Result<BodyId, ModelError> {
+        let members: Vec<_> = (1..points.len())
+            .map(|k| Member {
+                ends: [k - 1, k],
+                material: material.clone(),
+                section: section.clone(),
+                y_axis,
+                elements,
+            })
+            .collect();
+        self.add_elastic(name, points, &members)
+    }
+
+    fn add_body(
+        &mut self,
+        name: &str,
+        kind: BodyKind,
+        points: &[(&str, Point3<f64>)],
+    ) -> Result<BodyId, ModelError> {
+        if points.is_empty() {
+            return Err(ModelError::NoPoints { body: name.into() });
+        }
+        if self.bodies.iter().any(|b| b.name == name) {
+            return Err(ModelError::RepeatedName { name: name.into() });
+        }
+        for (k, (point, position)) in points.iter().enumerate() {
+            if points[..k].iter().any(|(other, _)| other == point) {
+                return Err(ModelError::RepeatedPoint {
+                    body: name.into(),
+                    point: (*point).into(),
+                });
+            }
+            if !position.coords.iter().all(|c| c.is_finite()) {
+                return Err(ModelError::NotFinite { what: "a position" });
+            }
+        }
+        let body = BodyId(self.bodies.len());
+        let mut nodes = Vec::with_capacity(points.len());
+        for (point, position) in points {
+            nodes.push(NodeId(self.nodes.len()));
+            self.nodes.push(Node {
+                body,
+                point: (*point).into(),
+            });
+            self.geometry.positions.push(*position);
+        }
+        self.bodies.push(Body {
+            name: name.into(),
+            kind,
+            nodes,
+            segments: Vec::new(),
+        });
+        Ok(body)
+    }
+
+    /// Adds a joint whose frame (columns x, y, z in global axes) is `frame`.
+    ///
+    /// # Errors
+    /// A repeated joint name, a joint of a body with itself, a stiffness that is not
+    /// finite, not symmetric or not positive semidefinite.
+    pub fn add_joint(
+        &mut self,
+        connection: Connection,
+        frame: Rotation3<f64>,
+    ) -> Result<JointId, ModelError> {
+        let joint = || connection.name.clone();
+        if self.joints.iter().any(|j| j.name == connection.name) {
+            return Err(ModelError::RepeatedName { name: joint() });
+        }
+        let body = |n: Option<NodeId>| n.map(|n| self.nodes[n.0].body);
+        if body(connection.between[0]) == body(connection.between[1]) {
+            return Err(ModelError::SelfJoined { joint: joint() });
+        }
+        check_stiffness(&connection.stiffness).map_err(|what| ModelError::Stiffness {
+            joint: joint(),
+            what,
+        })?;
+        self.joints.push(connection);
+        self.geometry.frames.push(frame);
+        Ok(JointId(self.joints.len() - 1))
+    }
+
+    /// Adds a load: a wrench (force [N], moment [N·m], global axes) on a node.
+    ///
+    /// # Errors
+    /// A wrench that is not finite.
+    pub fn add_load(&mut self, node: NodeId, wrench: Vector6<f64>) -> Result<(), ModelError> {
+        if !wrench.iter().all(|c| c.is_finite()) {
+            return Err(ModelError::NotFinite { what: "a load" });
+        }
+        self.loads.push(Load { node, wrench });
+        Ok(())
+    }
+
+    /// Takes all loads off.
+    pub fn clear_loads(&mut self) {
+        self.loads.clear();
+    }
+
+    /// Makes `node` the output.
+    pub fn set_output(&mut self, node: NodeId) {
+        self.output = Some(node);
+    }
+
+    /// Puts the mechanism into another configuration of the same topology: `geometry` has as
+    /// many positions, directions and frames as the model's own.
+    pub fn set_geometry(&mut self, geometry: Geometry) {
+        debug_assert_eq!(geometry.positions.len(), self.nodes.len());
+        self.geometry = geometry;
+    }
+
+    /// All bodies.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+    /// All nodes.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+    /// All segments.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+    /// All joints.
+    pub fn joints(&self) -> &[Connection] {
+        &self.joints
+    }
+    /// All loads.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+    /// The output node, once it is set.
+    pub fn output(&self) -> Option<NodeId> {
+        self.output
+    }
+    /// The configuration the model was built in.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+    /// The body of this name.
+    pub fn body(&self, name: &str) -> Option<BodyId> {
+        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+    }
+    /// The node of `body` at `point`.
+    pub fn node(&self, body: &str, point: &str) -> Option<NodeId> {
+        let body = self.body(body)?;
+        let nodes = &self.bodies[body.0].nodes;
+        nodes
+            .iter()
+            .copied()
+            .find(|n| self.nodes[n.0].point == point)
+    }
+    /// `body.point` of a node.
+    pub fn node_name(&self, node: NodeId) -> String {
+        let node = &self.nodes[node.0];
+        format!("{}.{}", self.bodies[node.body.0].name, node.point)
+    }
+}
+
+fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
+    match stiffness {
+        JointStiffness::Directions(values) => {
+            if values
+                .iter()
+                .flatten()
+                .any(|k| !(k.is_finite() && *k >= 0.0))
+            {
+                return Err("a stiffness is a finite number, zero or more");
+            }
+        }
+        JointStiffness::Matrix(k) => {
+            if !k.iter().all(|v| v.is_finite()) {
+                return Err("the stiffness matrix holds a number that is not finite");
+            }
+            let scale = |r: usize, c: usize| (k[(r, r)].abs() * k[(c, c)].abs()).sqrt();
+            for r in 0..6 {
+                for c in 0..r {
+                    if (k[(r, c)] - k[(c, r)]).abs() > 1e-9 * scale(r, c) {
+                        return Err("the stiffness matrix is not symmetric");
+                    }
+                }
+            }
+            let unit = Matrix6::from_fn(|r, c| {
+                let s = scale(r, c);
+                if s > 0.0 { k[(r, c)] / s } else { 0.0 }
+            });
+            let off = (0..36).any(|e| {
+                let (r, c) = (e / 6, e % 6);
+                scale(r, c) == 0.0 && k[(r, c)] != 0.0
+            });
+            let negative = (0..6).any(|d| k[(d, d)] < 0.0);
+            if off || negative || unit.symmetric_eigenvalues().min() < -1e-9 {
+                return Err("the stiffness matrix is not positive semidefinite");
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,351 @@
+//! What is worked out once a topology: coordinates and their order, elements, sparsity pattern,
+//! symbolic factorization; and the buffers that one thread needs for a pose.
+
+use hyperstat_joints::Dof;
+
+use crate::coordinates::TreeBlocks;
+use crate::elimination::Elimination;
+use crate::error::SolveError;
+use crate::kinematics::{analyse_at, characteristic_length};
+use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::sparse::{Factor, Pattern};
+use crate::topology::Topology;
+
+/// Columns of loads and solutions that are worked on together.
+pub(crate) const COLUMNS: usize = 7;
+
+/// A topology made ready: one plan serves every pose of a mechanism.
+#[derive(Debug)]
+pub struct Plan {
+    pub(crate) topology: Topology,
+    pub(crate) output: NodeId,
+    /// IDC of every tree coordinate, where its component has no closing joint.
+    pub(crate) idc_of: Vec<Option<usize>>,
+    /// Components with closing joints.
+    pub(crate) closed: Vec<Closed>,
+    /// IDCs of the columns of every carrier's block.
+    pub(crate) columns: Vec<Vec<usize>>,
+    /// Start of every carrier's reduced block; `None`: its tree block serves.
+    pub(crate) reduced_starts: Vec<Option<usize>>,
+    reduced_len: usize,
+    /// Whether motions without energy are to be looked for at every pose.
+    pub(crate) has_idle: bool,
+    /// Number of IDCs.
+    pub(crate) unknowns: usize,
+    /// Number of IDCs that are factored: all but the output's, where those are independent.
+    pub(crate) inner: usize,
+    pub(crate) elements: Vec<ElementPlan>,
+    pub(crate) pattern: Pattern,
+    /// Places of every element's upper triangle in the assembled values.
+    pub(crate) places: Vec<usize>,
+}
+
+/// A component whose closing joints are eliminated.
+#[derive(Debug)]
+pub(crate) struct Closed {
+    pub component: usize,
+    /// Coordinates to keep independent if possible (the output's six, or none).
+    pub spared: usize,
+    /// IDC of every independent coordinate, in ascending order of the coordinates with the
+    /// spared ones last.
+    pub idcs: Vec<usize>,
+}
+
+/// What an element is made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A run of segments with its absorbed joints.
+    Cluster(usize),
+    /// The elastic directions of a joint that keep coordinates of their own.
+    Spring(JointId),
+}
+
+/// An element: deformations `δ = D U + δ₀` over its IDCs, and their stiffness.
+#[derive(Debug)]
+pub(crate) struct ElementPlan {
+    pub source: Source,
+    /// Number of deformations.
+    pub rows: usize,
+    /// IDCs, ascending: `inner` inner ones, then the output's.
+    pub columns: Vec<usize>,
+    pub inner: usize,
+    /// Nodes it depends on, each with the places in `columns` of its carrier's columns.
+    pub nodes: Vec<(NodeId, Vec<usize>)>,
+    pub operator_start: usize,
+    pub stiffness_start: usize,
+    pub initial_start: usize,
+    pub places_start: usize,
+}
+
+/// Buffers of one thread; made by [`Plan::workspace`].
+#[derive(Debug)]
+pub struct Workspace {
+    pub(crate) tree: TreeBlocks,
+    pub(crate) reduced: Vec<f64>,
+    /// Which component of which node every IDC is, in this pose.
+    pub(crate) identities: Vec<(NodeId, Dof)>,
+    /// Deformation operators D of all elements (rows × columns, column-major).
+    pub(crate) operators: Vec<f64>,
+    /// Stiffnesses of the deformations.
+    pub(crate) stiffnesses: Vec<f64>,
+    /// Deformations that loads inside absorbed joints start from.
+    pub(crate) initial: Vec<f64>,
+    /// Stiffness of the inner IDCs: the pattern's lower triangle.
+    pub(crate) values: Vec<f64>,
+    pub(crate) factor: Factor,
+    /// Loads on the IDCs and solutions, [`COLUMNS`] columns each: six for the output's unit
+    /// motions or unit forces, one for the model's loads.
+    pub(crate) loads: Vec<f64>,
+    pub(crate) solutions: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
+    pub(crate) right_sides: Vec<f64>,
+    /// Deformations and forces of one element.
+    pub(crate) scratch: Vec<f64>,
+    pub(crate) forces: Vec<f64>,
+}
+
+impl Plan {
+    /// Plan of a model in its own configuration.
+    ///
+    /// # Errors
+    /// No output, a body or joint that cannot be formed.
+    pub fn new(model: &Model) -> Result<Self, SolveError> {
+        Self::at(model, model.geometry())
+    }
+
+    /// Plan of a model in another configuration.
+    pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        let output = model.output().ok_or(SolveError::NoOutput)?;
+        let topology = Topology::new(model, geometry, output);
+        let mut tree = TreeBlocks::new(&topology);
+        tree.evaluate(&topology, model, geometry)?;
+        let size = characteristic_length(geometry);
+
+        let output_carrier = topology.carrier_of[output.0];
+        let mut eliminations: Vec<Option<Elimination>> = Vec::new();
+        let mut output_component = 0;
+        for (k, component) in topology.components.iter().enumerate() {
+            let holds_output = component.root == Some(output_carrier);
+            if holds_output {
+                output_component = k;
+            }
+            eliminations.push((!component.closings.is_empty()).then(|| {
+                let spared = if holds_output { 6 } else { 0 };
+                tree.close(component, &topology, model, geometry, size, spared)
+            }));
+        }
+        let output_free = match &eliminations[output_component] {
+            Some(solved) => solved.independent.iter().take_while(|c| **c < 6).count() == 6,
+            None => true,
+        };
+
+        // Number the IDCs: components in order, the output's six last where they are independent.
+        let mut next = 0;
+        let mut idc_of = vec![None; topology.coordinates];
+        let mut closed = Vec::new();
+        for (k, (component, elimination)) in
+            topology.components.iter().zip(&eliminations).enumerate()
+        {
+            let holds_output = k == output_component;
+            match elimination {
+                None => {
+                    for coordinate in component.coordinates.clone() {
+                        let of_output = holds_output && output_free && {
+                            (topology.output_start..topology.output_start + 6).contains(&coordinate)
+                        };
+                        if !of_output {
+                            idc_of[coordinate] = Some(next);
+                            next += 1;
+                        }
+                    }
+                }
+                Some(solved) => {
+                    let last = if holds_output && output_free { 6 } else { 0 };
+                    let own = solved.independent.len() - last;
+                    closed.push(Closed {
+                        component: k,
+                        spared: if holds_output { 6 } else { 0 },
+                        idcs: (next..next + own).collect(),
+                    });
+                    next += own;
+                }
+            }
+        }
+        let inner = next;
+        let unknowns = if output_free { inner + 6 } else { inner };
+        if output_free {
+            match closed.iter_mut().find(|c| c.component == output_component) {
+                Some(closed) => closed.idcs.extend(inner..unknowns),
+                None => {
+                    for k in 0..6 {
+                        idc_of[topology.output_start + k] = Some(inner + k);
+                    }
+                }
+            }
+        }
+
+        let mut columns: Vec<Vec<usize>> = topology
+            .carriers
+            .iter()
+            .map(|c| c.coordinates.iter().filter_map(|t| idc_of[*t]).collect())
+            .collect();
+        let mut reduced_starts = vec![None; topology.carriers.len()];
+        let mut reduced_len = 0;
+        for closed in &closed {
+            let component = &topology.components[closed.component];
+            let members = component
+                .root
+                .into_iter()
+                .chain(component.ties.iter().map(|t| t.child));
+            for carrier in members {
+                columns[carrier].clone_from(&closed.idcs);
+                reduced_starts[carrier] = Some(reduced_len);
+                reduced_len += 6 * closed.idcs.len();
+            }
+        }
+
+        let mut elements = elements(model, &topology, &columns);
+        let mut inner_groups: Vec<Vec<usize>> = Vec::with_capacity(elements.len());
+        for element in &elements {
+            let inner_columns = element.columns.iter().copied().filter(|c| *c < inner);
+            inner_groups.push(inner_columns.collect());
+        }
+        let pattern = Pattern::new(inner, inner_groups.iter().map(Vec::as_slice))
+            .ok_or(SolveError::TooLarge { unknowns })?;
+        let places = places(&mut elements, &pattern);
+        Ok(Self {
+            topology,
+            output,
+            idc_of,
+            closed,
+            columns,
+            reduced_starts,
+            reduced_len,
+            has_idle: !analyse_at(model, geometry).motions.is_empty(),
+            unknowns,
+            inner,
+            elements,
+            pattern,
+            places,
+        })
+    }
+
+    /// Number of independent displacement coordinates, after loop elimination.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Buffers for one thread.
+    pub fn workspace(&self) -> Workspace {
+        let last = self.elements.last();
+        let triangle = |e: &ElementPlan| e.rows * e.rows;
+        let width = |e: &ElementPlan| e.rows * e.columns.len().max(COLUMNS);
+        let widest = self.elements.iter().map(width).max().unwrap_or(0);
+        Workspace {
+            tree: TreeBlocks::new(&self.topology),
+            reduced: vec![0.0; self.reduced_len],
+            identities: vec![(NodeId(0), Dof::X); self.unknowns],
+            operators: vec![0.0; last.map_or(0, |e| e.operator_start + e.rows * e.columns.len())],
+            stiffnesses: vec![0.0; last.map_or(0, |e| e.stiffness_start + triangle(e))],
+            initial: vec![0.0; last.map_or(0, |e| e.initial_start + e.rows)],
+            values: vec![0.0; self.pattern.len()],
+            factor: self.pattern.factor_buffers(COLUMNS),
+            loads: vec![0.0; COLUMNS * self.unknowns],
+            solutions: vec![0.0; COLUMNS * self.unknowns],
+            residuals: vec![0.0; COLUMNS * self.unknowns],
+            right_sides: vec![0.0; COLUMNS * self.inner],
+            scratch: vec![0.0; widest],
+            forces: vec![0.0; widest],
+        }
+    }
+
+    /// Whether the output's six coordinates are independent.
+    pub(crate) fn output_is_independent(&self) -> bool {
+        self.inner < self.unknowns
+    }
+
+    /// Block of a carrier (6 × columns, column-major).
+    pub(crate) fn block<'a>(&self, workspace: &'a Workspace, carrier: usize) -> &'a [f64] {
+        let length = 6 * self.columns[carrier].len();
+        match self.reduced_starts[carrier] {
+            Some(start) => &workspace.reduced[start..start + length],
+            None => {
+                let start = workspace.tree.starts[carrier];
+                &workspace.tree.values[start..start + length]
+            }
+        }
+    }
+}
+
+/// One element a cluster, and one a joint whose elastic directions keep their coordinates.
+fn elements(model: &Model, topology: &Topology, columns: &[Vec<usize>]) -> Vec<ElementPlan> {
+    let clusters = topology.clusters.iter().enumerate().map(|(k, cluster)| {
+        let rows = 6 * (cluster.nodes.len() - 1);
+        (Source::Cluster(k), rows, cluster.nodes.clone())
+    });
+    let springs = topology.joints.iter().enumerate().filter_map(|(k, role)| {
+        if role.absorbed.is_some() || role.directions.elastic.is_empty() {
+            return None;
+        }
+        let nodes: Vec<NodeId> = model.joints()[k]
+            .between
+            .iter()
+            .flatten()
+            .copied()
+            .collect();
+        Some((
+            Source::Spring(JointId(k)),
+            role.directions.elastic.len(),
+            nodes,
+        ))
+    });
+    let mut elements: Vec<ElementPlan> = Vec::new();
+    let (mut operator_start, mut stiffness_start, mut initial_start) = (0, 0, 0);
+    for (source, rows, nodes) in clusters.chain(springs) {
+        let mut all: Vec<usize> = nodes
+            .iter()
+            .flat_map(|n| &columns[topology.carrier_of[n.0]])
+            .copied()
+            .collect();
+        all.sort_unstable();
+        all.dedup();
+        let nodes = nodes
+            .into_iter()
+            .map(|n| {
+                let own = &columns[topology.carrier_of[n.0]];
+                let place = |c: &usize| all.partition_point(|other| other < c);
+                (n, own.iter().map(place).collect())
+            })
+            .collect();
+        let count = all.len();
+        elements.push(ElementPlan {
+            source,
+            rows,
+            columns: all,
+            inner: 0,
+            nodes,
+            operator_start,
+            stiffness_start,
+            initial_start,
+            places_start: 0,
+        });
+        operator_start += rows * count;
+        stiffness_start += rows * rows;
+        initial_start += rows;
+    }
+    elements
+}
+
+/// Where every pair (a ≤ b) of an element's inner columns goes in the assembled values.
+fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
+    let mut places = Vec::new();
+    for element in elements {
+        element.places_start = places.len();
+        element.inner = element.columns.partition_point(|c| *c < pattern.size());
+        for (b, &row) in element.columns[..element.inner].iter().enumerate() {
+            let columns = &element.columns[..=b];
+            places.extend(columns.iter().map(|column| pattern.place(row, *column)));
+        }
+    }
+    places
+}

@@ -1,0 +1,342 @@
+//! Recovery of everything else: displacements of all nodes, end forces, joint wrenches.
+
+use hyperstat_joints::{Dof, DofSet};
+use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, Vector6};
+
+use crate::coordinates::shift;
+use crate::directions::{rotation6, to_directions};
+use crate::error::SolveError;
+use crate::kinematics::{RANK_TOLERANCE, characteristic_length};
+use crate::model::{Geometry, Model, NodeId};
+use crate::numeric::{
+    cluster_frame, joint_compliance, multiply, node_displacement, node_load, segment_beam,
+};
+use crate::plan::{Plan, Source, Workspace};
+use crate::solution::SegmentForces;
+use crate::solve::LOADS;
+
+/// What is recovered from the IDCs.
+pub(crate) struct Recovered {
+    pub displacements: Vec<Vector6<f64>>,
+    pub joint_wrenches: Vec<Option<Vector6<f64>>>,
+    pub segments: Vec<SegmentForces>,
+}
+
+/// Recovers displacements and forces under the model's loads.
+pub(crate) fn recover(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &Workspace,
+) -> Result<Recovered, SolveError> {
+    let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
+        .map(|n| node_displacement(plan, geometry, workspace, LOADS, NodeId(n)))
+        .collect();
+    // What the elements take at their nodes: the sum of all other wrenches on the node.
+    let mut demand = vec![Vector6::zeros(); model.nodes().len()];
+    let mut segments: Vec<Option<SegmentForces>> = vec![None; model.segments().len()];
+    for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
+        let Source::Cluster(k) = element.source else {
+            continue;
+        };
+        let cluster = &plan.topology.clusters[k];
+        let frame = cluster_frame(cluster, geometry)?;
+        // Wrenches at the nodes after the first, in global axes, and through every segment's end.
+        let mut through = Vector6::zeros();
+        for r in (1..cluster.nodes.len()).rev() {
+            let node = cluster.nodes[r];
+            let at_node = turned(
+                &frame,
+                &Vector6::from_column_slice(&forces[6 * (r - 1)..6 * r]),
+            );
+            demand[node.0] += at_node;
+            through += at_node;
+            let before = cluster.nodes[r - 1];
+            let (id, reversed) = cluster.segments[r - 1];
+            let (_, own, span) = segment_beam(model, geometry, id)?;
+            let at_before = shift(geometry, before, node).transpose() * through;
+            let to_own = own.inverse();
+            let (far, near) = (turned(&to_own, &through), -turned(&to_own, &at_before));
+            segments[id.0] = Some(SegmentForces {
+                frame: own,
+                length: span.norm(),
+                ends: if reversed { [far, near] } else { [near, far] },
+            });
+            through = at_before;
+        }
+        demand[cluster.nodes[0].0] -= through;
+    }
+    for cluster in &plan.topology.clusters {
+        for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
+            if let Some(joint) = joint {
+                let wrench = demand[node.0] - node_load(model, *node);
+                let compliance = joint_compliance(plan, model, geometry, *joint);
+                displacements[node.0] -= compliance * wrench;
+            }
+        }
+    }
+    let joint_wrenches = joint_wrenches(plan, model, geometry, workspace, &demand);
+    Ok(Recovered {
+        displacements,
+        joint_wrenches,
+        segments: segments.into_iter().flatten().collect(),
+    })
+}
+
+/// Forces `k (D U + δ₀)` of all elements.
+fn element_forces(plan: &Plan, workspace: &Workspace) -> Vec<Vec<f64>> {
+    let n = plan.unknowns;
+    let mut all = Vec::with_capacity(plan.elements.len());
+    for element in &plan.elements {
+        let (rows, count) = (element.rows, element.columns.len());
+        let start = element.operator_start;
+        let d = &workspace.operators[start..start + rows * count];
+        let k =
+            &workspace.stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
+        let mut deformation =
+            workspace.initial[element.initial_start..element.initial_start + rows].to_vec();
+        for (&idc, column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+            let u = workspace.solutions[LOADS * n + idc];
+            for (sum, entry) in deformation.iter_mut().zip(column) {
+                *sum += u * entry;
+            }
+        }
+        let mut force = vec![0.0; rows];
+        multiply(k, &deformation, rows, &mut force);
+        all.push(force);
+    }
+    all
+}
+
+/// A wrench or twist in turned axes.
+fn turned(rotation: &Rotation3<f64>, v: &Vector6<f64>) -> Vector6<f64> {
+    let linear = rotation * Vector3::new(v[0], v[1], v[2]);
+    let angular = rotation * Vector3::new(v[3], v[4], v[5]);
+    Vector6::new(
+        linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
+    )
+}
+
+/// A joint as equilibrium sees it.
+struct JointForces {
+    /// Wrench on the second body, global axes, for a unit along each direction.
+    basis: Matrix6<f64>,
+    /// Directions whose force equilibrium must find.
+    unknown: DofSet,
+    /// Forces of the springs that keep coordinates of their own.
+    known: Vector6<f64>,
+}
+
+/// Wrenches of all joints from the equilibrium of their carriers, group by group; `None` where
+/// redundant rigid constraints leave one undetermined.
+fn joint_wrenches(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &Workspace,
+    demand: &[Vector6<f64>],
+) -> Vec<Option<Vector6<f64>>> {
+    let count = model.joints().len();
+    let mut springs = vec![Vector6::zeros(); count];
+    for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
+        if let Source::Spring(joint) = element.source {
+            let elastic = plan.topology.joints[joint.0].directions.elastic;
+            for (dof, force) in elastic.iter().zip(forces) {
+                springs[joint.0][dof.index()] = force;
+            }
+        }
+    }
+    let joints: Vec<JointForces> = (0..count)
+        .map(|k| {
+            let local = to_directions(&model.joints()[k].joint.basis(), &geometry.frames[k]);
+            let role = &plan.topology.joints[k];
+            JointForces {
+                basis: local.transpose(),
+                unknown: role.moving.complement(),
+                known: springs[k],
+            }
+        })
+        .collect();
+
+    // Wrench that the joints of a carrier must give it, at its reference.
+    let carriers = &plan.topology.carriers;
+    let mut needed = vec![Vector6::zeros(); carriers.len()];
+    for (n, wrench) in demand.iter().enumerate() {
+        let carrier = plan.topology.carrier_of[n];
+        let arm = shift(geometry, carriers[carrier].reference, NodeId(n));
+        needed[carrier] += arm.transpose() * (wrench - node_load(model, NodeId(n)));
+    }
+    let ends: Vec<Vec<(usize, f64, Matrix6<f64>)>> = model
+        .joints()
+        .iter()
+        .map(|joint| {
+            let sides = joint.between.iter().zip([-1.0, 1.0]);
+            sides
+                .filter_map(|(node, sign)| {
+                    let node = (*node)?;
+                    let carrier = plan.topology.carrier_of[node.0];
+                    let arm = shift(geometry, carriers[carrier].reference, node);
+                    Some((carrier, sign, arm.transpose()))
+                })
+                .collect()
+        })
+        .collect();
+    for (joint, ends) in joints.iter().zip(&ends) {
+        for (carrier, sign, arm) in ends {
+            needed[*carrier] -= arm * joint.basis * joint.known * *sign;
+        }
+    }
+
+    let size = characteristic_length(geometry);
+    let mut forces: Vec<Option<Vector6<f64>>> = joints.iter().map(|j| Some(j.known)).collect();
+    for group in groups(carriers.len(), &ends) {
+        equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
+    }
+    (0..count)
+        .map(|k| {
+            let wrench = joints[k].basis * forces[k]?;
+            Some(rotation6(&geometry.frames[k]).transpose() * wrench)
+        })
+        .collect()
+}
+
+/// Carriers and joints that are connected, ground apart.
+struct Group {
+    carriers: Vec<usize>,
+    joints: Vec<usize>,
+}
+
+fn groups(carriers: usize, ends: &[Vec<(usize, f64, Matrix6<f64>)>]) -> Vec<Group> {
+    let mut group_of: Vec<usize> = (0..carriers).collect();
+    fn find(group_of: &mut [usize], mut k: usize) -> usize {
+        while group_of[k] != k {
+            group_of[k] = group_of[group_of[k]];
+            k = group_of[k];
+        }
+        k
+    }
+    for ends in ends {
+        if let [(a, ..), (b, ..)] = ends.as_slice() {
+            let (a, b) = (find(&mut group_of, *a), find(&mut group_of, *b));
+            group_of[b] = a;
+        }
+    }
+    let mut groups: Vec<Group> = Vec::new();
+    let mut place = vec![usize::MAX; carriers];
+    for (joint, ends) in ends.iter().enumerate() {
+        let Some((carrier, ..)) = ends.first() else {
+            continue;
+        };
+        let root = find(&mut group_of, *carrier);
+        if place[root] == usize::MAX {
+            place[root] = groups.len();
+            groups.push(Group {
+                carriers: Vec::new(),
+                joints: Vec::new(),
+            });
+        }
+        groups[place[root]].joints.push(joint);
+    }
+    for carrier in 0..carriers {
+        let root = find(&mut group_of, carrier);
+        if place[root] != usize::MAX {
+            groups[place[root]].carriers.push(carrier);
+        }
+    }
+    groups
+}
+
+/// Solves a group's equilibrium for the unknown joint forces, moments over `size`.
+fn equilibrium(
+    group: &Group,
+    joints: &[JointForces],
+    ends: &[Vec<(usize, f64, Matrix6<f64>)>],
+    needed: &[Vector6<f64>],
+    size: f64,
+    forces: &mut [Option<Vector6<f64>>],
+) {
+    let unknowns: Vec<(usize, Dof)> = group
+        .joints
+        .iter()
+        .flat_map(|&j| joints[j].unknown.iter().map(move |dof| (j, dof)))
+        .collect();
+    if unknowns.is_empty() {
+        return;
+    }
+    let rows = 6 * group.carriers.len();
+    let mut matrix = DMatrix::zeros(rows.max(unknowns.len()), unknowns.len());
+    let mut right_side = DVector::zeros(matrix.nrows());
+    let over_size = |mut w: Vector6<f64>| {
+        for k in 3..6 {
+            w[k] /= size;
+        }
+        w
+    };
+    let mut scales = Vec::with_capacity(unknowns.len());
+    for (column, (joint, dof)) in unknowns.iter().enumerate() {
+        let unit = joints[*joint].basis.column(dof.index()).into_owned();
+        let scale = over_size(unit).norm();
+        scales.push(scale);
+        for (carrier, sign, arm) in &ends[*joint] {
+            if let Ok(row) = group.carriers.binary_search(carrier) {
+                let share = over_size(arm * unit) * (sign / scale);
+                let mut view = matrix.fixed_view_mut::<6, 1>(6 * row, column);
+                view += share;
+            }
+        }
+    }
+    for (row, carrier) in group.carriers.iter().enumerate() {
+        right_side
+            .fixed_rows_mut::<6>(6 * row)
+            .copy_from(&over_size(needed[*carrier]));
+    }
+    let original = matrix.clone();
+    let svd = matrix.svd(true, true);
+    let mut solution = svd
+        .solve(&right_side, RANK_TOLERANCE)
+        .unwrap_or_else(|_| DVector::zeros(unknowns.len()));
+    let rest = &right_side - &original * &solution;
+    if let Ok(correction) = svd.solve(&rest, RANK_TOLERANCE) {
+        solution += correction;
+    }
+    let mut undetermined = vec![false; unknowns.len()];
+    if let Some(v_t) = &svd.v_t {
+        for (k, value) in svd.singular_values.iter().enumerate() {
+            if *value <= RANK_TOLERANCE {
+                for (flag, weight) in undetermined.iter_mut().zip(v_t.row(k).iter()) {
+                    *flag |= weight.abs() > RANK_TOLERANCE;
+                }
+            }
+        }
+    }
+    for (k, (joint, dof)) in unknowns.iter().enumerate() {
+        if undetermined[k] {
+            forces[*joint] = None;
+        } else if let Some(force) = &mut forces[*joint] {
+            force[dof.index()] = solution[k] / scales[k];
+        }
+    }
+}
+
+/// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes: its elastic
+/// curve between the displacements of its ends.
+///
+/// # Errors
+/// A segment that cannot be formed.
+pub fn segment_displacement(
+    model: &Model,
+    geometry: &Geometry,
+    displacements: &[Vector6<f64>],
+    segment: crate::model::SegmentId,
+    xi: f64,
+) -> Result<Vector6<f64>, SolveError> {
+    let (beam, frame, _) = segment_beam(model, geometry, segment)?;
+    let to_local = frame.inverse();
+    let [a, b] = model.segments()[segment.0].ends;
+    let local = beam.displacement(
+        xi,
+        &turned(&to_local, &displacements[a.0]),
+        &turned(&to_local, &displacements[b.0]),
+    );
+    Ok(turned(&frame, &local))
+}

@@ -1,0 +1,191 @@
+//! Motions that need no energy, sorted into idle ones and motions of the output.
+
+use nalgebra::{DMatrix, DVector, Vector6};
+
+use crate::error::SolveError;
+use crate::kinematics::{
+    Kinematics, RANK_TOLERANCE, analyse_at, characteristic_length, echelon, node_twist, null_space,
+};
+use crate::model::{Geometry, Model, NodeId};
+use crate::plan::{Plan, Workspace};
+use crate::solution::Motion;
+
+/// A load works on a motion where its share of `|force| |motion|` is above this.
+const WORKING: f64 = 1e-6;
+
+/// What the drives, constraints and springs of a configuration leave without resistance.
+#[derive(Debug, Clone)]
+pub(crate) struct Restraint {
+    pub kinematics: Kinematics,
+    /// Motions that leave the output where it is.
+    pub idle: Vec<Motion>,
+    /// Motions that move the output, one for each of its free twists.
+    pub moving: Vec<Motion>,
+    /// Twists of the output without energy; orthonormal with translations over `size`.
+    pub free_twists: Vec<Vector6<f64>>,
+    pub size: f64,
+}
+
+impl Restraint {
+    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Self {
+        let kinematics = analyse_at(model, geometry);
+        let size = characteristic_length(geometry);
+        let (idle, moving) = split(&kinematics.motions, |motion| {
+            scaled(&node_twist(motion, model, geometry, output.0), size)
+        });
+        let twists = moving
+            .iter()
+            .map(|m| scaled(&node_twist(m, model, geometry, output.0), size));
+        let free_twists = orthonormal(twists.collect());
+        Self {
+            kinematics,
+            idle,
+            moving,
+            free_twists,
+            size,
+        }
+    }
+
+    /// Refuses loads that work on a motion that nothing resists.
+    pub fn check_loads(&self, model: &Model, geometry: &Geometry) -> Result<(), SolveError> {
+        for motion in self.idle.iter().chain(&self.moving) {
+            let mut work = 0.0;
+            let mut scale = 0.0;
+            let mut largest = (0, 0.0);
+            for (k, load) in model.loads().iter().enumerate() {
+                let twist = node_twist(motion, model, geometry, load.node.0);
+                let share = load.wrench.dot(&twist);
+                work += share;
+                let force = load.wrench.fixed_rows::<3>(0).norm();
+                let moment = load.wrench.fixed_rows::<3>(3).norm();
+                scale += force * self.size + moment;
+                if share.abs() > largest.1 {
+                    largest = (k, share.abs());
+                }
+            }
+            if work.abs() > WORKING * scale {
+                let load = largest.0;
+                return Err(SolveError::LoadOnFreeMotion {
+                    node: model.node_name(model.loads()[load].node),
+                    load,
+                    motion: motion.describe(model),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// One inner coordinate a motion without energy, to be held at zero: the coordinates with
+    /// the largest minor, by complete pivoting.
+    pub fn pins(
+        &self,
+        plan: &Plan,
+        model: &Model,
+        geometry: &Geometry,
+        workspace: &Workspace,
+    ) -> Vec<usize> {
+        let moving = if plan.output_is_independent() {
+            &[][..]
+        } else {
+            &self.moving[..]
+        };
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        for motion in self.idle.iter().chain(moving) {
+            let entry = |idc: usize, _: usize| {
+                let (node, dof) = workspace.identities[idc];
+                scaled(&node_twist(motion, model, geometry, node.0), self.size)[dof.index()]
+            };
+            columns.push(DVector::from_fn(plan.inner, entry));
+        }
+        let mut pins = Vec::new();
+        for k in 0..columns.len() {
+            let mut best = (k, 0, 0.0);
+            for (c, column) in columns.iter().enumerate().skip(k) {
+                let row = column.iamax();
+                if column[row].abs() > best.2 {
+                    best = (c, row, column[row].abs());
+                }
+            }
+            if best.2 <= RANK_TOLERANCE {
+                break;
+            }
+            columns.swap(k, best.0);
+            let row = best.1;
+            let pivot = &columns[k] / columns[k][row];
+            for column in &mut columns[k + 1..] {
+                let factor = column[row];
+                *column -= &pivot * factor;
+            }
+            pins.push(row);
+        }
+        pins
+    }
+}
+
+/// A twist with its translations over `size`.
+pub(crate) fn scaled(twist: &Vector6<f64>, size: f64) -> Vector6<f64> {
+    let mut out = *twist;
+    for k in 0..3 {
+        out[k] /= size;
+    }
+    out
+}
+
+/// Splits a basis of motions into those without a twist of the output and the rest.
+fn split(
+    motions: &[Motion],
+    twist: impl Fn(&Motion) -> Vector6<f64>,
+) -> (Vec<Motion>, Vec<Motion>) {
+    let twists: Vec<Vector6<f64>> = motions.iter().map(&twist).collect();
+    if twists.iter().all(|t| t.amax() <= RANK_TOLERANCE) {
+        return (motions.to_vec(), Vec::new());
+    }
+    let count = motions.len();
+    let mut matrix = DMatrix::zeros(count.max(6), count);
+    for (k, t) in twists.iter().enumerate() {
+        matrix.fixed_view_mut::<6, 1>(0, k).copy_from(t);
+    }
+    let (_, idle, _) = null_space(matrix);
+    let idle = echelon(idle);
+    // The motions that are no pivot of an idle combination move the output independently.
+    let mut pivots = Vec::new();
+    for combination in &idle {
+        let free = (0..count).filter(|k| !pivots.contains(k));
+        let pivot = free.max_by(|a, b| combination[*a].abs().total_cmp(&combination[*b].abs()));
+        pivots.extend(pivot);
+    }
+    let combined = idle.iter().map(|c| combine(motions, c)).collect();
+    let rest = (0..count).filter(|k| !pivots.contains(k));
+    (combined, rest.map(|k| motions[k].clone()).collect())
+}
+
+fn combine(motions: &[Motion], weights: &DVector<f64>) -> Motion {
+    let mut twists: Vec<(crate::model::BodyId, Vector6<f64>)> = Vec::new();
+    for (motion, weight) in motions.iter().zip(weights.iter()) {
+        for (body, twist) in &motion.twists {
+            match twists.iter_mut().find(|(b, _)| b == body) {
+                Some((_, sum)) => *sum += twist * *weight,
+                None => twists.push((*body, twist * *weight)),
+            }
+        }
+    }
+    twists.retain(|(_, t)| t.amax() > 1e-9);
+    twists.sort_by_key(|(b, _)| *b);
+    Motion { twists }
+}
+
+/// Orthonormal basis of the span of `vectors`.
+fn orthonormal(vectors: Vec<Vector6<f64>>) -> Vec<Vector6<f64>> {
+    let mut basis: Vec<Vector6<f64>> = Vec::new();
+    for mut v in vectors {
+        for _ in 0..2 {
+            for b in &basis {
+                v -= b * b.dot(&v);
+            }
+        }
+        if v.norm() > RANK_TOLERANCE {
+            basis.push(v.normalize());
+        }
+    }
+    basis
+}

@@ -1,0 +1,101 @@
+//! What a solve gives.
+
+use nalgebra::{Matrix6, Rotation3, Vector6};
+
+use crate::model::{BodyId, JointId, Model};
+
+/// Everything about one configuration under the model's loads.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Solution {
+    /// Number of independent displacement coordinates, after loop elimination, idle motions included.
+    pub unknowns: usize,
+    /// Instantaneous mobility: every body rigid, every direction that is free by its joint's kind released.
+    pub mobility: usize,
+    /// Constraints less their rank, every body rigid.
+    pub overconstraint: usize,
+    /// Motions without energy that leave the output where it is, drives locked.
+    pub idle: Vec<Motion>,
+    /// The output's stiffness, compliance and displacement.
+    pub output: Output,
+    /// Displacement of every node, the body's own (inside an absorbed joint), by `NodeId`, global axes.
+    pub displacements: Vec<Vector6<f64>>,
+    /// Wrench on the second body of every joint, at the joint, in the joint frame, by `JointId`;
+    /// `None` where redundant rigid constraints leave it undetermined.
+    pub joint_wrenches: Vec<Option<Vector6<f64>>>,
+    /// End forces of every segment, by `SegmentId`.
+    pub segments: Vec<SegmentForces>,
+    /// What the user should know about the numbers.
+    pub warnings: Vec<Warning>,
+}
+
+impl Solution {
+    /// Joints whose wrench redundant rigid constraints leave undetermined.
+    pub fn undetermined(&self) -> Vec<JointId> {
+        let none = |(k, w): (usize, &Option<_>)| w.is_none().then_some(JointId(k));
+        self.joint_wrenches
+            .iter()
+            .enumerate()
+            .filter_map(none)
+            .collect()
+    }
+}
+
+/// The output node: 6×6 matrices and vectors in global axes, at the node, linear part first.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Output {
+    /// Stiffness K_o (Eq. 45); `None` where the output is held rigidly in some direction.
+    pub stiffness: Option<Matrix6<f64>>,
+    /// Compliance K_o⁻¹; `None` where the output has a free motion.
+    pub compliance: Option<Matrix6<f64>>,
+    /// Displacement under the loads.
+    pub displacement: Vector6<f64>,
+    /// Twists of the output that rigid constraints forbid (an orthonormal basis of them).
+    pub rigid_directions: Vec<Vector6<f64>>,
+    /// Twists of the output that need no energy, drives locked.
+    pub free_motions: Vec<Vector6<f64>>,
+}
+
+/// A motion of rigid bodies: the twist of every body that moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Bodies that move, and each one's twist in global axes at the body's first node,
+    /// scaled so that the motion's largest entry is 1 (rotations in rad, translations over
+    /// the mechanism's size).
+    pub twists: Vec<(BodyId, Vector6<f64>)>,
+}
+
+impl Motion {
+    /// The motion in words, such as "`rod3` turns about (0, 0.6, 0.8) through rod3.B".
+    pub fn describe(&self, model: &Model) -> String {
+        crate::kinematics::describe(self, model)
+    }
+}
+
+/// Forces at the ends of a segment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SegmentForces {
+    /// Element frame: columns are local x, y, z in global axes.
+    pub frame: Rotation3<f64>,
+    /// Length [m].
+    pub length: f64,
+    /// Wrench on the segment at its first and second node, in the element frame.
+    pub ends: [Vector6<f64>; 2],
+}
+
+/// A remark on the numbers of a solution.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// A number lies between zero and not zero: the counts may be those of a neighbouring geometry.
+    NearSingular {
+        /// The relative singular value that lies between the tolerances.
+        value: f64,
+    },
+    /// The residual could not be brought to rounding: digits are lost.
+    LostDigits {
+        /// Relative size of what is left.
+        residual: f64,
+    },
+}

@@ -1,0 +1,173 @@
+//! Sparse symmetric factorization: the only module that names faer.
+//!
+//! [`Pattern`] is worked out once a topology: structure, fill-reducing order (AMD) and symbolic
+//! Cholesky. [`Factor`] holds the buffers of one thread; factoring and solving allocate nothing.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side, Spec};
+
+/// Structure of a symmetric matrix (lower triangle by columns) and of its factor.
+#[derive(Debug)]
+pub(crate) struct Pattern {
+    size: usize,
+    column_starts: Vec<usize>,
+    rows: Vec<usize>,
+    symbolic: Option<SymbolicCholesky<usize>>,
+}
+
+/// Factor and scratch memory of one thread.
+pub(crate) struct Factor {
+    values: Vec<f64>,
+    scratch: MemBuffer,
+}
+
+impl std::fmt::Debug for Factor {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Factor")
+            .field("values", &self.values.len())
+            .finish_non_exhaustive()
+    }
+}
+
+/// The matrix is not positive definite to working precision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct NotPositive;
+
+impl Pattern {
+    /// The pattern that couples all coordinates within each of `groups` (indices below `size`,
+    /// ascending within a group); every diagonal entry is present.
+    pub fn new<'a>(size: usize, groups: impl Iterator<Item = &'a [usize]>) -> Option<Self> {
+        let mut columns: Vec<Vec<usize>> = (0..size).map(|k| vec![k]).collect();
+        for group in groups {
+            for (k, &column) in group.iter().enumerate() {
+                columns[column].extend_from_slice(&group[k + 1..]);
+            }
+        }
+        let mut column_starts = Vec::with_capacity(size + 1);
+        let mut rows = Vec::new();
+        column_starts.push(0);
+        for mut column in columns {
+            column.sort_unstable();
+            column.dedup();
+            rows.append(&mut column);
+            column_starts.push(rows.len());
+        }
+        let symbolic = if size == 0 {
+            None
+        } else {
+            let structure =
+                SymbolicSparseColMatRef::new_checked(size, size, &column_starts, None, &rows);
+            let params = CholeskySymbolicParams::default();
+            Some(
+                factorize_symbolic_cholesky(structure, Side::Lower, SymmetricOrdering::Amd, params)
+                    .ok()?,
+            )
+        };
+        Some(Self {
+            size,
+            column_starts,
+            rows,
+            symbolic,
+        })
+    }
+
+    /// Number of stored values (lower triangle).
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Place of entry (row, column), row ≥ column, in the values; it must be in the pattern.
+    pub fn place(&self, row: usize, column: usize) -> usize {
+        let range = self.column_starts[column]..self.column_starts[column + 1];
+        match self.rows[range.clone()].binary_search(&row) {
+            Ok(k) => range.start + k,
+            Err(_) => unreachable!("entry ({row}, {column}) is not in the pattern"),
+        }
+    }
+
+    /// Diagonal entry of column `k`.
+    pub fn diagonal(&self, k: usize, values: &[f64]) -> f64 {
+        values[self.column_starts[k]]
+    }
+
+    /// Makes row and column `k` of `values` those of `scale` times the identity.
+    pub fn pin(&self, k: usize, scale: f64, values: &mut [f64]) {
+        for column in 0..=k {
+            let range = self.column_starts[column]..self.column_starts[column + 1];
+            if let Ok(place) = self.rows[range.clone()].binary_search(&k) {
+                values[range.start + place] = 0.0;
+            }
+        }
+        let own = self.column_starts[k];
+        values[own..self.column_starts[k + 1]].fill(0.0);
+        values[own] = scale;
+    }
+
+    /// Buffers for one thread and up to `columns` right-hand sides.
+    pub fn factor_buffers(&self, columns: usize) -> Factor {
+        let Some(symbolic) = &self.symbolic else {
+            return Factor {
+                values: Vec::new(),
+                scratch: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
+            };
+        };
+        let need = symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
+            .or(symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+        Factor {
+            values: vec![0.0; symbolic.len_val()],
+            scratch: MemBuffer::new(need),
+        }
+    }
+
+    /// Cholesky factorization of `values`.
+    pub fn factorize(&self, values: &[f64], factor: &mut Factor) -> Result<(), NotPositive> {
+        let Some(symbolic) = &self.symbolic else {
+            return Ok(());
+        };
+        let structure = SymbolicSparseColMatRef::new_checked(
+            self.size,
+            self.size,
+            &self.column_starts,
+            None,
+            &self.rows,
+        );
+        symbolic
+            .factorize_numeric_llt(
+                &mut factor.values,
+                SparseColMatRef::new(structure, values),
+                Side::Lower,
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut factor.scratch),
+                Spec::default(),
+            )
+            .map(|_| ())
+            .map_err(|_| NotPositive)
+    }
+
+    /// Solves in place for the columns of `rhs` (column-major, `size` rows).
+    pub fn solve(&self, factor: &mut Factor, rhs: &mut [f64]) {
+        let Some(symbolic) = &self.symbolic else {
+            return;
+        };
+        let columns = rhs.len() / self.size;
+        LltRef::new(symbolic, &factor.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(rhs, self.size, columns),
+            Par::Seq,
+            MemStack::new(&mut factor.scratch),
+        );
+    }
+}

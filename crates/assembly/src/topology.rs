@@ -1,0 +1,464 @@
+//! What depends on the topology alone: carriers of displacement, absorbed joints, the spanning
+//! trees along which joints hand on displacements, and the clusters of segments.
+//!
+//! A *carrier* is what has six displacement coordinates: a node of an elastic body, or a whole
+//! rigid body. Joints tie carriers into trees; a joint that would close a loop gives conditions
+//! instead (paper-notes, "Where elimination runs out of nodes").
+
+use std::ops::Range;
+
+use hyperstat_elements::Beam;
+use hyperstat_joints::DofSet;
+
+use crate::directions::Directions;
+use crate::model::{BodyKind, Geometry, JointId, Model, NodeId, SegmentId};
+
+/// A joint softer than this share of the beam's own stiffness keeps coordinates of its own:
+/// absorbed, its compliance would swallow the beam's digits.
+const SOFTEST_ABSORBED: f64 = 1e-8;
+/// Longest run of segments joined through absorbed joints.
+const LONGEST_CLUSTER: usize = 8;
+
+/// A carrier of six displacement coordinates, kept at `reference`.
+#[derive(Debug, Clone)]
+pub(crate) struct Carrier {
+    pub reference: NodeId,
+    /// Tree coordinates its displacement depends on, in the order of its block's columns.
+    pub coordinates: Vec<usize>,
+}
+
+/// What the model makes of a joint.
+#[derive(Debug, Clone)]
+pub(crate) struct JointRole {
+    pub directions: Directions,
+    /// Node inside whose subassembly the elastic directions are absorbed.
+    pub absorbed: Option<NodeId>,
+    /// Directions with coordinates of their own.
+    pub moving: DofSet,
+}
+
+/// A joint along which displacement is handed from `parent` to `child`.
+#[derive(Debug, Clone)]
+pub(crate) struct Tie {
+    pub joint: JointId,
+    /// `None` is the ground.
+    pub parent: Option<usize>,
+    pub parent_node: Option<NodeId>,
+    pub child: usize,
+    pub child_node: NodeId,
+    /// Tree coordinates of the moving directions.
+    pub coordinates: Range<usize>,
+}
+
+/// Carriers tied together by joints, ground apart.
+#[derive(Debug, Clone)]
+pub(crate) struct Component {
+    /// Carrier with six coordinates of its own, unless the tree hangs from the ground.
+    pub root: Option<usize>,
+    pub ties: Vec<Tie>,
+    /// Joints whose rigid directions are conditions on the tree's coordinates.
+    pub closings: Vec<JointId>,
+    pub coordinates: Range<usize>,
+}
+
+/// A run of segments that forms one subassembly element.
+#[derive(Debug, Clone)]
+pub(crate) struct Cluster {
+    /// Nodes along the run.
+    pub nodes: Vec<NodeId>,
+    /// Segments along the run; `true` where it is run through from its second node.
+    pub segments: Vec<(SegmentId, bool)>,
+    /// Absorbed joint at each node.
+    pub joints: Vec<Option<JointId>>,
+}
+
+/// Topology of a model.
+#[derive(Debug, Clone)]
+pub(crate) struct Topology {
+    pub carriers: Vec<Carrier>,
+    /// Carrier of every node.
+    pub carrier_of: Vec<usize>,
+    pub joints: Vec<JointRole>,
+    pub components: Vec<Component>,
+    pub clusters: Vec<Cluster>,
+    /// Number of tree coordinates.
+    pub coordinates: usize,
+    /// First of the output carrier's six tree coordinates.
+    pub output_start: usize,
+}
+
+impl Topology {
+    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Self {
+        let (mut carriers, carrier_of) = carriers(model, output);
+        let joints = roles(model, geometry, output);
+        let clusters = clusters(model, &joints);
+        let mut coordinates = 0;
+        let (components, output_start) = components(
+            model,
+            &joints,
+            &mut carriers,
+            &carrier_of,
+            carrier_of[output.0],
+            &mut coordinates,
+        );
+        Self {
+            carriers,
+            carrier_of,
+            joints,
+            components,
+            clusters,
+            coordinates,
+            output_start,
+        }
+    }
+}
+
+/// One carrier a node of an elastic body, one a rigid body; the output is its carrier's reference.
+fn carriers(model: &Model, output: NodeId) -> (Vec<Carrier>, Vec<usize>) {
+    let mut carriers = Vec::new();
+    let mut carrier_of = vec![0; model.nodes().len()];
+    let mut add = |reference| {
+        carriers.push(Carrier {
+            reference,
+            coordinates: Vec::new(),
+        });
+        carriers.len() - 1
+    };
+    for body in model.bodies() {
+        match body.kind {
+            BodyKind::Rigid => {
+                let holds_output = body.nodes.contains(&output);
+                let carrier = add(if holds_output { output } else { body.nodes[0] });
+                for node in &body.nodes {
+                    carrier_of[node.0] = carrier;
+                }
+            }
+            BodyKind::Elastic => {
+                for node in &body.nodes {
+                    carrier_of[node.0] = add(*node);
+                }
+            }
+        }
+    }
+    (carriers, carrier_of)
+}
+
+/// Roles of all joints: which are absorbed, and which directions keep coordinates.
+fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
+    let mut joints_at = vec![0usize; model.nodes().len()];
+    for joint in model.joints() {
+        for node in joint.between.iter().flatten() {
+            joints_at[node.0] += 1;
+        }
+    }
+    let mut segments_at: Vec<Vec<SegmentId>> = vec![Vec::new(); model.nodes().len()];
+    for (k, segment) in model.segments().iter().enumerate() {
+        for end in segment.ends {
+            segments_at[end.0].push(SegmentId(k));
+        }
+    }
+    let mut run = Runs::new(model.segments().len());
+    let mut roles = Vec::with_capacity(model.joints().len());
+    for joint in model.joints() {
+        let directions = Directions::of(joint);
+        let eligible = |node: &NodeId| {
+            *node != output
+                && joints_at[node.0] == 1
+                && (1..=2).contains(&segments_at[node.0].len())
+                && stiff_enough(&directions, &segments_at[node.0], model, geometry)
+        };
+        let mut sides: Vec<NodeId> = if directions.elastic.is_empty() {
+            Vec::new()
+        } else {
+            let nodes = joint.between.iter().rev().flatten();
+            nodes.copied().filter(eligible).collect()
+        };
+        let nodes_on_body = |n: &NodeId| model.bodies()[model.nodes()[n.0].body.0].nodes.len();
+        sides.sort_by_key(|n| (segments_at[n.0].len(), nodes_on_body(n)));
+        let absorbed = sides
+            .into_iter()
+            .find(|n| match segments_at[n.0].as_slice() {
+                [a, b] => run.join(a.0, b.0),
+                _ => true,
+            });
+        let moving = match absorbed {
+            Some(_) => directions.free,
+            None => directions.moving(),
+        };
+        roles.push(JointRole {
+            directions,
+            absorbed,
+            moving,
+        });
+    }
+    roles
+}
+
+/// Whether a joint's springs are stiff enough beside the beams at its node to be absorbed.
+fn stiff_enough(
+    directions: &Directions,
+    segments: &[SegmentId],
+    model: &Model,
+    geometry: &Geometry,
+) -> bool {
+    let Some(compliance) = &directions.compliance else {
+        return false;
+    };
+    let mut stiffest = [0.0_f64; 2];
+    for id in segments {
+        let segment = &model.segments()[id.0];
+        let [a, b] = segment.ends.map(|n| geometry.positions[n.0]);
+        if let Ok(beam) = Beam::new(&segment.material, &segment.section, (b - a).norm()) {
+            let k = beam.stiffness();
+            for d in 0..6 {
+                stiffest[d / 3] = stiffest[d / 3].max(k[(d, d)]);
+            }
+        }
+    }
+    (0..6).all(|d| compliance[(d, d)] * stiffest[d / 3] * SOFTEST_ABSORBED <= 1.0)
+}
+
+/// Sets of segments joined at absorbed joints, kept short.
+struct Runs {
+    parent: Vec<usize>,
+    length: Vec<usize>,
+}
+
+impl Runs {
+    fn new(count: usize) -> Self {
+        Self {
+            parent: (0..count).collect(),
+            length: vec![1; count],
+        }
+    }
+
+    fn find(&mut self, mut k: usize) -> usize {
+        while self.parent[k] != k {
+            self.parent[k] = self.parent[self.parent[k]];
+            k = self.parent[k];
+        }
+        k
+    }
+
+    /// Joins two runs unless they are one already (a ring) or would grow too long.
+    fn join(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.find(a), self.find(b));
+        let length = self.length[a] + self.length[b];
+        if a == b || length > LONGEST_CLUSTER {
+            return false;
+        }
+        self.parent[b] = a;
+        self.length[a] = length;
+        true
+    }
+}
+
+/// Runs of segments through absorbed middle joints; every other segment is a run of its own.
+fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
+    let mut absorbed_at = vec![None; model.nodes().len()];
+    for (k, role) in roles.iter().enumerate() {
+        if let Some(node) = role.absorbed {
+            absorbed_at[node.0] = Some(JointId(k));
+        }
+    }
+    let mut segments_at: Vec<Vec<usize>> = vec![Vec::new(); model.nodes().len()];
+    for (k, segment) in model.segments().iter().enumerate() {
+        for end in segment.ends {
+            segments_at[end.0].push(k);
+        }
+    }
+    let inner = |node: NodeId| absorbed_at[node.0].is_some() && segments_at[node.0].len() == 2;
+    let mut seen = vec![false; model.segments().len()];
+    let mut clusters = Vec::new();
+    for start in 0..model.segments().len() {
+        if seen[start] {
+            continue;
+        }
+        // Walk back to the run's beginning, then forward along it.
+        let (mut segment, mut first) = (start, model.segments()[start].ends[0]);
+        while inner(first) {
+            let Some(&before) = segments_at[first.0].iter().find(|s| **s != segment) else {
+                break;
+            };
+            segment = before;
+            first = other_end(model, segment, first);
+        }
+        let mut nodes = vec![first];
+        let mut segments = Vec::new();
+        loop {
+            seen[segment] = true;
+            let last = nodes[nodes.len() - 1];
+            segments.push((
+                SegmentId(segment),
+                model.segments()[segment].ends[0] != last,
+            ));
+            let next = other_end(model, segment, last);
+            nodes.push(next);
+            match segments_at[next.0].iter().find(|s| **s != segment) {
+                Some(&after) if inner(next) => segment = after,
+                _ => break,
+            }
+        }
+        let joints = nodes.iter().map(|n| absorbed_at[n.0]).collect();
+        // An end node shared by two runs carries no absorbed joint (it would be inside a run).
+        clusters.push(Cluster {
+            nodes,
+            segments,
+            joints,
+        });
+    }
+    clusters
+}
+
+fn other_end(model: &Model, segment: usize, node: NodeId) -> NodeId {
+    let [a, b] = model.segments()[segment].ends;
+    if a == node { b } else { a }
+}
+
+/// Spanning trees: from the output's carrier, from the ground, or from the carrier with the most
+/// joints; joints with the fewest moving directions first.
+fn components(
+    model: &Model,
+    roles: &[JointRole],
+    carriers: &mut [Carrier],
+    carrier_of: &[usize],
+    output: usize,
+    coordinates: &mut usize,
+) -> (Vec<Component>, usize) {
+    struct Edge {
+        joint: usize,
+        ends: [Option<usize>; 2],
+    }
+    let edges: Vec<Edge> = (0..model.joints().len())
+        .filter(|&k| roles[k].moving != DofSet::ALL)
+        .map(|joint| Edge {
+            joint,
+            ends: model.joints()[joint]
+                .between
+                .map(|n| n.map(|n| carrier_of[n.0])),
+        })
+        .collect();
+    let mut edges_at: Vec<Vec<usize>> = vec![Vec::new(); carriers.len()];
+    for (k, edge) in edges.iter().enumerate() {
+        for end in edge.ends.iter().flatten() {
+            edges_at[*end].push(k);
+        }
+    }
+    let members = connected(carriers.len(), &edges_at, |k| edges[k].ends);
+    let mut components = Vec::with_capacity(members.len());
+    let mut reached = vec![false; carriers.len()];
+    let mut output_start = 0;
+    for group in members {
+        let start = *coordinates;
+        let grounded = group
+            .iter()
+            .flat_map(|c| &edges_at[*c])
+            .any(|&e| edges[e].ends.contains(&None));
+        let root = if group.contains(&output) {
+            Some(output)
+        } else if grounded {
+            None
+        } else {
+            group
+                .iter()
+                .copied()
+                .max_by_key(|c| (edges_at[*c].len(), usize::MAX - c))
+        };
+        if let Some(root) = root {
+            if root == output {
+                output_start = *coordinates;
+            }
+            carriers[root].coordinates = (*coordinates..*coordinates + 6).collect();
+            *coordinates += 6;
+            reached[root] = true;
+        }
+        let inside = |end: &Option<usize>, reached: &[bool]| match end {
+            Some(c) => reached[*c],
+            None => root.is_none(),
+        };
+        let mut own: Vec<usize> = group.iter().flat_map(|c| edges_at[*c].clone()).collect();
+        own.sort_by_key(|&e| (roles[edges[e].joint].moving.len(), edges[e].joint));
+        own.dedup();
+        let mut ties = Vec::new();
+        let mut used = vec![false; own.len()];
+        loop {
+            let next = own.iter().enumerate().position(|(k, &e)| {
+                let [a, b] = &edges[e].ends;
+                !used[k]
+                    && inside(a, &reached) != inside(b, &reached)
+                    && (a.is_some() || root.is_none())
+                    && (b.is_some() || root.is_none())
+            });
+            let Some(k) = next else { break };
+            used[k] = true;
+            let edge = &edges[own[k]];
+            let between = model.joints()[edge.joint].between;
+            let child_side = usize::from(inside(&edge.ends[0], &reached));
+            let (Some(child), Some(child_node)) = (edge.ends[child_side], between[child_side])
+            else {
+                continue;
+            };
+            let parent = edge.ends[1 - child_side];
+            let count = roles[edge.joint].moving.len();
+            let range = *coordinates..*coordinates + count;
+            *coordinates += count;
+            let mut columns = parent.map_or(Vec::new(), |p| carriers[p].coordinates.clone());
+            columns.extend(range.clone());
+            carriers[child].coordinates = columns;
+            carriers[child].reference = child_node;
+            reached[child] = true;
+            ties.push(Tie {
+                joint: JointId(edge.joint),
+                parent,
+                parent_node: between[1 - child_side],
+                child,
+                child_node,
+                coordinates: range,
+            });
+        }
+        let closings = own
+            .iter()
+            .zip(&used)
+            .filter(|(_, used)| !**used)
+            .map(|(&e, _)| JointId(edges[e].joint))
+            .collect();
+        components.push(Component {
+            root,
+            ties,
+            closings,
+            coordinates: start..*coordinates,
+        });
+    }
+    (components, output_start)
+}
+
+/// Groups of carriers connected by edges, ground apart, in order of their first carrier.
+fn connected(
+    count: usize,
+    edges_at: &[Vec<usize>],
+    ends: impl Fn(usize) -> [Option<usize>; 2],
+) -> Vec<Vec<usize>> {
+    let mut group_of = vec![usize::MAX; count];
+    let mut groups = Vec::new();
+    for start in 0..count {
+        if group_of[start] != usize::MAX {
+            continue;
+        }
+        let mut group = vec![start];
+        group_of[start] = groups.len();
+        let mut next = 0;
+        while next < group.len() {
+            for &edge in &edges_at[group[next]] {
+                for end in ends(edge).into_iter().flatten() {
+                    if group_of[end] == usize::MAX {
+                        group_of[end] = groups.len();
+                        group.push(end);
+                    }
+                }
+            }
+            next += 1;
+        }
+        groups.push(group);
+    }
+    groups
+}
