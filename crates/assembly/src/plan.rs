@@ -97,6 +97,8 @@ pub struct Workspace {
     /// motions or unit forces, one for the model's loads.
     pub(crate) loads: Vec<f64>,
     pub(crate) solutions: Vec<f64>,
+    /// What the loads' column of the solutions lacks, below its rounding.
+    pub(crate) remainder: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
     pub(crate) right_sides: Vec<f64>,
     /// Deformations and forces of one element.
@@ -252,6 +254,7 @@ impl Plan {
             factor: self.pattern.factor_buffers(COLUMNS),
             loads: vec![0.0; COLUMNS * self.unknowns],
             solutions: vec![0.0; COLUMNS * self.unknowns],
+            remainder: vec![0.0; self.unknowns],
             residuals: vec![0.0; COLUMNS * self.unknowns],
             right_sides: vec![0.0; COLUMNS * self.inner],
             scratch: vec![0.0; widest],

@@ -83,27 +83,33 @@ pub(crate) fn recover(
     })
 }
 
-/// Forces `k (D U + δ₀)` of all elements.
+/// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
 fn element_forces(plan: &Plan, workspace: &Workspace) -> Vec<Vec<f64>> {
     let n = plan.unknowns;
+    let solution = &workspace.solutions[LOADS * n..(LOADS + 1) * n];
     let mut all = Vec::with_capacity(plan.elements.len());
     for element in &plan.elements {
         let (rows, count) = (element.rows, element.columns.len());
         let start = element.operator_start;
         let d = &workspace.operators[start..start + rows * count];
-        let k =
-            &workspace.stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
-        let mut deformation =
-            workspace.initial[element.initial_start..element.initial_start + rows].to_vec();
+        let start = element.stiffness_start;
+        let k = &workspace.stiffnesses[start..start + rows * rows];
+        let initial = &workspace.initial[element.initial_start..element.initial_start + rows];
+        let mut deformations = [initial.to_vec(), vec![0.0; rows]].concat();
+        let (whole, small) = deformations.split_at_mut(rows);
         for (&idc, column) in element.columns.iter().zip(d.chunks_exact(rows)) {
-            let u = workspace.solutions[LOADS * n + idc];
-            for (sum, entry) in deformation.iter_mut().zip(column) {
-                *sum += u * entry;
+            for (row, entry) in column.iter().enumerate() {
+                whole[row] += solution[idc] * entry;
+                small[row] += workspace.remainder[idc] * entry;
             }
         }
-        let mut force = vec![0.0; rows];
-        multiply(k, &deformation, rows, &mut force);
-        all.push(force);
+        let mut forces = vec![0.0; 2 * rows];
+        multiply(k, &deformations, rows, &mut forces);
+        all.push(
+            (0..rows)
+                .map(|row| forces[row] + forces[rows + row])
+                .collect(),
+        );
     }
     all
 }

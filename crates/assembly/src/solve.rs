@@ -355,6 +355,7 @@ impl Plan {
                 None
             };
             let displacement = node_displacement(self, geometry, workspace, LOADS, self.output);
+            self.find_remainder(workspace, pins, None);
             return Ok(Output {
                 stiffness,
                 compliance: (!free).then_some(compliance),
@@ -390,6 +391,7 @@ impl Plan {
             self.correct(workspace, pins);
         }
         let displacement = read(&workspace.solutions[LOADS * n..], self.inner);
+        self.find_remainder(workspace, pins, Some(&compliance));
         Ok(Output {
             stiffness: Some(stiffness),
             compliance: (!free).then_some(compliance),
@@ -397,6 +399,35 @@ impl Plan {
             rigid_directions: Vec::new(),
             free_motions,
         })
+    }
+
+    /// Finds what the loads' column still lacks, too small to be added to it: the forces of the
+    /// elements take it in, so that they balance at every node to rounding.
+    fn find_remainder(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        compliance: Option<&Matrix6<f64>>,
+    ) {
+        let (n, inner) = (self.unknowns, self.inner);
+        let step = compliance.map(|c| c * self.output_force(workspace));
+        if step.is_none() {
+            self.residuals(workspace);
+        }
+        let right_side = &mut workspace.right_sides[..inner];
+        right_side.copy_from_slice(&workspace.residuals[LOADS * n..LOADS * n + inner]);
+        for &pin in pins {
+            right_side[pin] = 0.0;
+        }
+        self.pattern.solve(&mut workspace.factor, right_side);
+        workspace.remainder.fill(0.0);
+        workspace.remainder[..inner].copy_from_slice(right_side);
+        for (k, step) in step.iter().flatten().enumerate() {
+            let motion = &workspace.solutions[k * n..(k + 1) * n];
+            for (entry, motion) in workspace.remainder.iter_mut().zip(motion) {
+                *entry += motion * step;
+            }
+        }
     }
 
     /// Twists of the output that no IDC gives it.
