@@ -1,0 +1,97 @@
+//! The paper's trajectory (Eq. 65) by the prebuilt delta and one plan, against the reference.
+
+use hyperstat_assembly::{Plan, solve};
+use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt};
+use hyperstat_tests::{reference_text, stiffness, stiffness_difference, vector_differences};
+use nalgebra::{Matrix6, Vector6};
+
+/// A sweep takes one refinement step, a solve as many as help.
+const AGREEMENT: f64 = 1e-12;
+
+struct Row {
+    pose: [f64; 3],
+    displacement: Vector6<f64>,
+    stiffness: Matrix6<f64>,
+}
+
+fn rows(file: &str) -> Vec<Row> {
+    let text = reference_text(file);
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let records = reader.deserialize::<Vec<f64>>();
+    records
+        .map(|record| {
+            let v = record.expect("numbers");
+            let mut stiffness = Matrix6::zeros();
+            let pairs = (0..6).flat_map(|r| (r..6).map(move |c| (r, c)));
+            for ((r, c), value) in pairs.zip(&v[10..]) {
+                stiffness[(r, c)] = *value;
+                stiffness[(c, r)] = *value;
+            }
+            Row {
+                pose: [v[1], v[2], v[3]],
+                displacement: Vector6::from_column_slice(&v[4..10]),
+                stiffness,
+            }
+        })
+        .collect()
+}
+
+fn compare(delta: &Delta, file: &str) {
+    let rows = rows(file);
+    assert_eq!(rows.len(), 61);
+    let mut model = delta.model(&rows[0].pose).expect("a reachable pose");
+    let output = model.output().expect("an output");
+    model
+        .add_load(output, Vector6::new(-20.0, 10.0, 100.0, 5.0, 5.0, 8.0))
+        .expect("a finite load");
+    let plan = Plan::new(&model).expect("a plan");
+    assert_eq!(plan.unknowns(), 114);
+    let mut workspace = plan.workspace();
+    let mut geometry = model.geometry().clone();
+    for row in &rows {
+        delta
+            .place(&row.pose, &mut geometry)
+            .expect("a reachable pose");
+        let swept = plan
+            .sweep(&model, &geometry, &mut workspace)
+            .expect("a result");
+        let k = swept.stiffness.expect("a stiffness");
+        assert!(
+            stiffness_difference(&k, &row.stiffness) < AGREEMENT,
+            "{:?}",
+            row.pose
+        );
+        let u = swept.displacement.expect("a displacement");
+        let found = vector_differences([(&u, &row.displacement)], [0.0; 2]);
+        assert!(
+            found.iter().all(|d| *d < AGREEMENT),
+            "{:?} {found:?}",
+            row.pose
+        );
+
+        model.set_geometry(geometry.clone());
+        let solution = solve(&model).expect("a solution");
+        assert!(stiffness_difference(&stiffness(&solution), &row.stiffness) < AGREEMENT);
+        let pair = (&solution.output.displacement, &row.displacement);
+        let found = vector_differences([pair], [0.0; 2]);
+        assert!(
+            found.iter().all(|d| *d < AGREEMENT),
+            "{:?} {found:?}",
+            row.pose
+        );
+    }
+}
+
+#[test]
+fn rigid_joints() {
+    compare(&Delta::paper(), "delta_trajectory_rigid.csv");
+}
+
+#[test]
+fn elastic_joints() {
+    let delta = Delta {
+        joint_stiffness: [Some(1e8), Some(1e8), Some(1e8), Some(1e5), None, Some(1e5)],
+        ..Delta::paper()
+    };
+    compare(&delta, "delta_trajectory_elastic.csv");
+}
