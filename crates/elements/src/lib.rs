@@ -1,0 +1,25 @@
+//! Building blocks of stiffness models: materials, sections, beams and subassembly elements.
+//!
+#![doc = include_str!("../README.md")]
+//!
+//! # Conventions
+//!
+//! SI units. A displacement lists translations before rotations (Δx Δy Δz φx φy φz), a wrench
+//! its force before its moment (Fx Fy Fz Mx My Mz). The element frame has x along the beam from
+//! node 1 to node 2, y and z along the section's axes. Equation numbers are those of the paper
+//! on elastostatic stiffness models of over-constrained parallel manipulators that this
+//! workspace implements, as corrected in its book.
+
+mod beam;
+mod error;
+mod frame;
+mod material;
+mod section;
+pub mod stress;
+pub mod subassembly;
+
+pub use beam::{Beam, Matrix12, SectionStrain};
+pub use error::ElementError;
+pub use frame::{element_frame, rotate_matrix6, rotate_matrix12, rotate_vector6, transport};
+pub use material::{Elasticity, Material};
+pub use section::{Section, SectionShape};

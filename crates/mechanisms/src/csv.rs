@@ -1,0 +1,184 @@
+//! Poses in a table of comma-separated numbers, with a line of column names at its top.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::error::LoadError;
+use crate::names;
+use crate::poses::Given;
+use crate::source::{Place, Source};
+
+/// Names of the columns: a table has the first three or all six.
+pub(crate) const COLUMNS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Reads all poses of a table; empty lines are passed over.
+pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6]>, LoadError> {
+    let place = |span| Place {
+        source: Arc::clone(table),
+        span,
+    };
+    let mut lines = lines(table.text());
+    let Some(header) = lines.next() else {
+        return Err(place(0..0)
+            .error("the table of poses is empty")
+            .with_help("its first line names the columns: x,y,z or x,y,z,rx,ry,rz"));
+    };
+    let columns = columns(table, header, &place)?;
+    let mut poses = Vec::new();
+    for line in lines {
+        let cells: Vec<_> = cells(table.text(), &line).collect();
+        if cells.len() != columns.len() {
+            return Err(place(line).error(format!(
+                "expected {} numbers, one a column, found {}",
+                columns.len(),
+                cells.len()
+            )));
+        }
+        let mut pose = [0.0; 6];
+        for (cell, &column) in cells.into_iter().zip(&columns) {
+            let text = unquoted(&table.text()[cell.clone()]);
+            let place = place(cell);
+            pose[column] = match text.parse::<f64>() {
+                Ok(number) if number.is_finite() => number,
+                Ok(_) => return Err(place.error(format!("`{text}` is not a finite number"))),
+                Err(_) => return Err(place.error(format!("expected a number, found `{text}`"))),
+            };
+            given.check(column, pose[column], &place)?;
+        }
+        poses.push(pose);
+    }
+    if poses.is_empty() {
+        return Err(place(table.text().len()..table.text().len())
+            .error("the table names its columns and holds no pose"));
+    }
+    Ok(poses)
+}
+
+/// The place in a pose of every column of the header.
+fn columns(
+    table: &Source,
+    header: Range<usize>,
+    place: &impl Fn(Range<usize>) -> Place,
+) -> Result<Vec<usize>, LoadError> {
+    let mut columns = Vec::new();
+    for cell in cells(table.text(), &header) {
+        let name = unquoted(&table.text()[cell.clone()]);
+        let Some(column) = COLUMNS.iter().position(|known| *known == name) else {
+            return Err(place(cell)
+                .error(format!("unknown column `{name}`"))
+                .with_help(names::help(name, "columns", COLUMNS)));
+        };
+        if columns.contains(&column) {
+            return Err(place(cell).error(format!("the column `{name}` is given twice")));
+        }
+        columns.push(column);
+    }
+    let wanted = if columns.len() <= 3 { 3 } else { 6 };
+    if let Some(missing) = (0..wanted).find(|column| !columns.contains(column)) {
+        return Err(place(header)
+            .error(format!("the column `{}` is missing", COLUMNS[missing]))
+            .with_help("the columns are x,y,z or x,y,z,rx,ry,rz"));
+    }
+    Ok(columns)
+}
+
+/// The lines that are not blank, without their line breaks.
+fn lines(text: &str) -> impl Iterator<Item = Range<usize>> {
+    let mut start = 0;
+    text.split_inclusive('\n').filter_map(move |line| {
+        let from = start;
+        start += line.len();
+        let content = line.trim_end();
+        (!content.is_empty()).then(|| from..from + content.len())
+    })
+}
+
+/// The cells of a line, without the white space around them.
+fn cells<'t>(text: &'t str, line: &Range<usize>) -> impl Iterator<Item = Range<usize>> + 't {
+    let mut start = line.start;
+    text[line.clone()].split(',').map(move |cell| {
+        let from = start + (cell.len() - cell.trim_start().len());
+        start += cell.len() + 1;
+        from..from + cell.trim().len()
+    })
+}
+
+/// A cell without the quotes that some programs put around it.
+fn unquoted(cell: &str) -> &str {
+    let inner = cell.strip_prefix('"').and_then(|c| c.strip_suffix('"'));
+    inner.unwrap_or(cell).trim()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    const DELTA: Given<'_> = Given {
+        kind: "Delta",
+        coordinates: 3,
+    };
+
+    fn table(text: &str) -> Result<Vec<[f64; 6]>, String> {
+        let source = Source::new(Path::new("p.csv"), text);
+        read(&source, &DELTA).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn reads_tables_as_programs_write_them() {
+        let poses = vec![[0.1, 2.0, -3e-1, 0.0, 0.0, 0.0]];
+        assert_eq!(table("x,y,z\n0.1,2,-3e-1\n").unwrap(), poses);
+        assert_eq!(
+            table("\u{feff}\"y\", x ,z\r\n\r\n2, 0.1 ,-0.3").unwrap(),
+            poses
+        );
+        assert_eq!(
+            table("x,y,z,rx,ry,rz\n0.1,2,-.3,0,0,-0\n").unwrap()[0][..3],
+            poses[0][..3]
+        );
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_place() {
+        let cases = [
+            ("", "p.csv:1:1: the table of poses is empty"),
+            (
+                "x,y,z\n",
+                "p.csv:2:1: the table names its columns and holds no pose",
+            ),
+            ("x,y\n1,2", "p.csv:1:1: the column `z` is missing"),
+            ("x,y,z,rx\n1,2,3,4", "p.csv:1:1: the column `ry` is missing"),
+            ("x,y,t,z\n", "p.csv:1:5: unknown column `t`"),
+            ("x,y,x\n", "p.csv:1:5: the column `x` is given twice"),
+            (
+                "x,y,z\n1,2\n",
+                "p.csv:2:1: expected 3 numbers, one a column, found 2",
+            ),
+            (
+                "x,y,z\n1,2,3,\n",
+                "p.csv:2:1: expected 3 numbers, one a column, found 4",
+            ),
+            (
+                "x,y,z\n1,2,3\n1, a,3\n",
+                "p.csv:3:4: expected a number, found `a`",
+            ),
+            ("x,y,z\n1,,3\n", "p.csv:2:3: expected a number, found ``"),
+            (
+                "x,y,z\n1,2,NaN\n",
+                "p.csv:2:5: `NaN` is not a finite number",
+            ),
+            (
+                "x,y,z\n1,2,1e999\n",
+                "p.csv:2:5: `1e999` is not a finite number",
+            ),
+            (
+                "x,y,z,rx,ry,rz\n1,2,3,0,0.5,0\n",
+                "p.csv:2:9: `Delta` cannot follow this coordinate",
+            ),
+        ];
+        for (text, message) in cases {
+            assert_eq!(table(text).unwrap_err(), message, "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! What can be wrong with a file, and where.
+
+use std::fmt;
+use std::io;
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// A place in a text file: what an error message points at.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Location {
+    /// The file, as it was named.
+    pub path: PathBuf,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// Number of characters of that line that are meant, at least 1.
+    pub width: usize,
+    /// Text of that line, without its line break.
+    pub text: String,
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
+    }
+}
+
+/// A file that cannot be used. The text of the error is `path:line:column: message`.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum LoadError {
+    /// A file that cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why it cannot be read.
+        source: io::Error,
+    },
+    /// A mistake at a place of a file.
+    #[error("{location}: {message}")]
+    At {
+        /// Where.
+        location: Box<Location>,
+        /// What is wrong.
+        message: String,
+        /// What would be right, where that can be said.
+        help: Option<String>,
+    },
+}
+
+impl LoadError {
+    /// The place of the mistake; `None` where the file could not be read at all.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Read { .. } => None,
+            Self::At { location, .. } => Some(location),
+        }
+    }
+
+    /// What is wrong, without the place.
+    pub fn message(&self) -> String {
+        match self {
+            Self::Read { source, .. } => format!("cannot be read: {source}"),
+            Self::At { message, .. } => message.clone(),
+        }
+    }
+
+    /// What would be right, where that can be said.
+    pub fn help(&self) -> Option<&str> {
+        match self {
+            Self::Read { .. } => None,
+            Self::At { help, .. } => help.as_deref(),
+        }
+    }
+
+    /// The same error with this help; nothing changes for a file that cannot be read.
+    #[must_use]
+    pub fn with_help(mut self, text: impl Into<String>) -> Self {
+        if let Self::At { help, .. } = &mut self {
+            *help = Some(text.into());
+        }
+        self
+    }
+}

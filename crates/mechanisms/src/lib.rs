@@ -1,0 +1,41 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Where to start
+//!
+//! [`load`] reads a file into an [`Input`]: one [`Mechanism`], whose `model` goes to
+//! `hyperstat_assembly`, or a [`Batch`] of [`Job`]s. SI units; vectors in global axes; a pose is
+//! x y z \[m\] and a rotation vector rx ry rz \[rad\] from the home orientation.
+
+mod batch;
+mod bodies;
+mod brackets;
+mod csv;
+mod error;
+mod fields;
+mod figures;
+mod fragment;
+mod joints;
+mod kinds;
+mod load;
+mod loads;
+mod materials;
+mod mechanism;
+mod names;
+mod nodes;
+mod parameters;
+mod poses;
+pub mod prebuilt;
+mod registry;
+mod source;
+mod syntax;
+mod table;
+
+pub use batch::{Batch, Job};
+pub use error::{LoadError, Location};
+pub use figures::{Figure, Scale};
+pub use load::{
+    Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
+};
+pub use mechanism::Mechanism;
+pub use prebuilt::PoseError;
+pub use registry::{Arguments, Orientation, ParsedJoint, Registry};

@@ -1,0 +1,137 @@
+//! The way in: a path or a text becomes a mechanism or a batch.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::batch::Batch;
+use crate::error::LoadError;
+use crate::fragment::Fragment;
+use crate::mechanism::Mechanism;
+use crate::parameters;
+use crate::registry::Registry;
+use crate::source::Source;
+
+/// What a file holds.
+#[derive(Debug)]
+#[allow(clippy::large_enum_variant)]
+pub enum Input {
+    /// One mechanism.
+    Mechanism(Mechanism),
+    /// A batch of jobs.
+    Batch(Batch),
+}
+
+/// Reads a mechanism or a batch file: a batch has `jobs`.
+///
+/// # Errors
+/// The file cannot be read, or the first mistake in it or in a file that it names.
+pub fn load(path: &Path, registry: &Registry) -> Result<Input, LoadError> {
+    read(&Source::read(path)?, registry)
+}
+
+/// Reads a mechanism or a batch from `text`, which messages call `path`; other files that it
+/// names are found relative to `path`.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_str(text: &str, path: &Path, registry: &Registry) -> Result<Input, LoadError> {
+    read(&Source::new(path, text), registry)
+}
+
+/// Reads a mechanism file.
+///
+/// # Errors
+/// As [`load`]; a file that holds a batch.
+pub fn load_mechanism(path: &Path, registry: &Registry) -> Result<Mechanism, LoadError> {
+    read_mechanism(&Source::read(path)?, registry)
+}
+
+/// Reads a mechanism from `text`, which messages call `path`.
+///
+/// # Errors
+/// As [`load_mechanism`].
+pub fn mechanism_from_str(
+    text: &str,
+    path: &Path,
+    registry: &Registry,
+) -> Result<Mechanism, LoadError> {
+    read_mechanism(&Source::new(path, text), registry)
+}
+
+/// Reads a batch file.
+///
+/// # Errors
+/// As [`load`]; a file that holds a mechanism.
+pub fn load_batch(path: &Path, registry: &Registry) -> Result<Batch, LoadError> {
+    read_batch(&Source::read(path)?, registry)
+}
+
+/// Reads a batch from `text`, which messages call `path`; other files that it names are found
+/// relative to `path`.
+///
+/// # Errors
+/// As [`load_batch`].
+pub fn batch_from_str(text: &str, path: &Path, registry: &Registry) -> Result<Batch, LoadError> {
+    read_batch(&Source::new(path, text), registry)
+}
+
+/// Reads the mechanism file whose path stands at `path` in another file.
+pub(crate) fn mechanism_of(
+    path: Fragment<'_>,
+    registry: &Registry,
+) -> Result<Mechanism, LoadError> {
+    let source = read_named(path)?;
+    read_mechanism(&source, registry)
+}
+
+/// Reads the file whose path stands at `path` in another file, relative to that file.
+pub(crate) fn read_named(path: Fragment<'_>) -> Result<Arc<Source>, LoadError> {
+    let file = path.source().relative(&path.string()?);
+    Source::read(&file).map_err(|error| match error {
+        LoadError::Read { path: file, source } => {
+            path.error(format!("cannot read {}: {source}", file.display()))
+        }
+        other => other,
+    })
+}
+
+fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
+    let value = Fragment::of_file(source)?;
+    if is_batch(value) {
+        return Batch::read(value, registry).map(Input::Batch);
+    }
+    match value.variant("") {
+        Ok((kind, _)) if parameters::KINDS.contains(&kind.text()) => {
+            return Err(kind
+                .error(format!("`{}` stands in a job of a batch", kind.text()))
+                .with_help("write `(jobs: [(name: \"…\", mechanism: …, poses: …)])`"));
+        }
+        _ => {}
+    }
+    Mechanism::read(value, registry).map(Input::Mechanism)
+}
+
+fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism, LoadError> {
+    let value = Fragment::of_file(source)?;
+    if is_batch(value) {
+        return Err(value
+            .error("expected a mechanism, found a batch of jobs")
+            .with_help("name one of the mechanism files that the batch uses"));
+    }
+    Mechanism::read(value, registry)
+}
+
+fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {
+    let value = Fragment::of_file(source)?;
+    if !is_batch(value) {
+        return Err(value
+            .error("expected a batch of jobs, found no field `jobs`")
+            .with_help("a batch is `(jobs: [(name: …, mechanism: File(\"file.ron\"))])`"));
+    }
+    Batch::read(value, registry)
+}
+
+fn is_batch(value: Fragment<'_>) -> bool {
+    let fields = value.named("").unwrap_or_default();
+    fields.iter().any(|(name, _)| name.text() == "jobs")
+}

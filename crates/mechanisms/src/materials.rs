@@ -1,0 +1,88 @@
+//! Materials and sections, as tables of a mechanism file or in place in a prebuilt one.
+
+use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::fragment::Fragment;
+use crate::names;
+
+/// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
+pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
+    let known = ["young", "poisson", "shear", "density"];
+    let fields = Fields::read(fragment, owner, &known, &["expansion", "yield"])?;
+    let young = fields.number("young")?;
+    let poisson = fields.optional_number("poisson")?;
+    let shear = fields.optional_number("shear")?;
+    let elasticity = match (poisson, shear) {
+        (Some(poisson), None) => Elasticity::Poisson(poisson),
+        (None, Some(shear)) => Elasticity::Shear(shear),
+        (Some(_), Some(_)) => {
+            return Err(fields
+                .error("shear", format!("{owner} has both `poisson` and `shear`"))
+                .with_help("each follows from the other: remove one of the two"));
+        }
+        (None, None) => {
+            return Err(fragment
+                .error(format!("{owner} has neither `poisson` nor `shear`"))
+                .with_help("add one of them, such as `poisson: 0.3`"));
+        }
+    };
+    Material::new(young, elasticity, fields.optional_number("density")?)
+        .map_err(|error| fields.element_error(&error))
+}
+
+/// Reads `Circle(…)`, `Tube(…)`, `Rectangle(…)` or `General(…)`.
+pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, LoadError> {
+    const KINDS: [&str; 4] = ["Circle", "Tube", "Rectangle", "General"];
+    let (kind, arguments) = fragment.variant("a section, such as `Circle(diameter: 0.02)`")?;
+    let known: &[&str] = match kind.text() {
+        "Circle" => &["diameter", "shear_y", "shear_z"],
+        "Tube" => &["outer", "inner", "shear_y", "shear_z"],
+        "Rectangle" => &["width", "height", "shear_y", "shear_z"],
+        "General" => &[
+            "area",
+            "iy",
+            "iz",
+            "torsion",
+            "shear_y",
+            "shear_z",
+            "y_max",
+            "z_max",
+            "torsion_modulus",
+        ],
+        other => {
+            return Err(kind
+                .error(format!("unknown kind of section `{other}`"))
+                .with_help(names::help(other, "kinds of section", KINDS)));
+        }
+    };
+    let fields = match arguments {
+        Some(given) => Fields::read(given, owner, known, &[])?.within(fragment),
+        None => Fields::none(fragment, owner),
+    };
+    let shape = match kind.text() {
+        "Circle" => SectionShape::Circle {
+            diameter: fields.number("diameter")?,
+        },
+        "Tube" => SectionShape::Tube {
+            outer: fields.number("outer")?,
+            inner: fields.number("inner")?,
+        },
+        "Rectangle" => SectionShape::Rectangle {
+            width: fields.number("width")?,
+            height: fields.number("height")?,
+        },
+        _ => SectionShape::General {
+            area: fields.number("area")?,
+            iy: fields.number("iy")?,
+            iz: fields.number("iz")?,
+            torsion: fields.number("torsion")?,
+            y_max: fields.optional_number("y_max")?,
+            z_max: fields.optional_number("z_max")?,
+            torsion_modulus: fields.optional_number("torsion_modulus")?,
+        },
+    };
+    let [shear_y, shear_z] = ["shear_y", "shear_z"].map(|name| fields.optional_number(name));
+    Section::new(shape, shear_y?, shear_z?).map_err(|error| fields.element_error(&error))
+}

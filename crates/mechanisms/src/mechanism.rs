@@ -1,0 +1,116 @@
+//! One mechanism, as a file describes it.
+
+use hyperstat_assembly::{BodyId, JointId, Model};
+use nalgebra::Point3;
+
+use crate::bodies::{self, Tables, check_name};
+use crate::error::{LoadError, Location};
+use crate::fields::Fields;
+use crate::fragment::Fragment;
+use crate::registry::Registry;
+use crate::source::Place;
+use crate::table::Table;
+use crate::{joints, loads, materials, nodes};
+
+/// A mechanism read from a file: its model, and the place of every part of it.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// The model, with its loads and output.
+    pub model: Model,
+    bodies: Vec<Place>,
+    joints: Vec<Place>,
+    loads: Vec<Place>,
+    output: Place,
+}
+
+impl Mechanism {
+    /// Reads the value of a mechanism file.
+    pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
+        let known = [
+            "name",
+            "materials",
+            "sections",
+            "points",
+            "bodies",
+            "joints",
+            "loads",
+            "output",
+        ];
+        let reserved = ["gravity", "masses", "cases"];
+        let fields = Fields::read(fragment, "the mechanism", &known, &reserved)?;
+        let mut model = Model::new(fields.required("name")?.string()?);
+        let tables = Tables {
+            materials: Table::read(fields.get("materials"), "material", |entry, owner| {
+                materials::material(entry.value, owner)
+            })?,
+            sections: Table::read(fields.get("sections"), "section", |entry, owner| {
+                materials::section(entry.value, owner)
+            })?,
+            points: Table::read(Some(fields.required("points")?), "point", |entry, _| {
+                check_name(entry, "point")?;
+                entry.value.vector().map(Point3::from)
+            })?,
+        };
+        let mut bodies = Vec::new();
+        for entry in fields.required("bodies")?.map()? {
+            bodies::read(&entry, &tables, &mut model)?;
+            bodies.push(entry.key.place());
+        }
+        let mut joints = Vec::new();
+        let point = |at: Fragment<'_>| tables.points.find(at).and_then(|_| at.string());
+        for entry in fields.required("joints")?.map()? {
+            joints::read(&entry, point, registry, &mut model)?;
+            joints.push(entry.key.place());
+        }
+        let loads = match fields.get("loads") {
+            Some(list) => loads::read(list, &mut model)?,
+            None => Vec::new(),
+        };
+        let output = fields.required("output")?;
+        model.set_output(nodes::on(&model, output, "the output")?);
+        Ok(Self {
+            model,
+            bodies,
+            joints,
+            loads,
+            output: output.place(),
+        })
+    }
+
+    /// Puts the loads of `list` in place of the mechanism's own.
+    pub(crate) fn replace_loads(&mut self, list: Fragment<'_>) -> Result<(), LoadError> {
+        self.model.clear_loads();
+        self.loads = loads::read(list, &mut self.model)?;
+        Ok(())
+    }
+
+    /// Place of a body's name.
+    ///
+    /// # Panics
+    /// If the body is not one of this mechanism's model.
+    pub fn locate_body(&self, body: BodyId) -> Location {
+        self.bodies[body.0].location()
+    }
+
+    /// Place of a joint's name.
+    ///
+    /// # Panics
+    /// If the joint is not one of this mechanism's model.
+    pub fn locate_joint(&self, joint: JointId) -> Location {
+        self.joints[joint.0].location()
+    }
+
+    /// Place of the value of `output`.
+    pub fn locate_output(&self) -> Location {
+        self.output.location()
+    }
+
+    /// Place of a load, by its index in [`Model::loads`]; in the batch file where a job's loads
+    /// replaced the mechanism's own.
+    ///
+    /// # Panics
+    /// If the model has fewer loads.
+    pub fn locate_load(&self, load: usize) -> Location {
+        self.loads[load].location()
+    }
+}

@@ -1,0 +1,56 @@
+//! Bodies and nodes of a model, by the names that a file gives them.
+
+use hyperstat_assembly::{BodyId, Model, NodeId};
+
+use crate::bodies::GROUND;
+use crate::error::LoadError;
+use crate::fragment::Fragment;
+use crate::names;
+
+/// The body of a name in a file; not the ground.
+pub(crate) fn body(model: &Model, name: Fragment<'_>) -> Result<BodyId, LoadError> {
+    let text = name.string()?;
+    model.body(&text).ok_or_else(|| {
+        let known = model.bodies().iter().map(|body| body.name.as_str());
+        name.error(format!("unknown body `{text}`"))
+            .with_help(names::help(&text, "bodies", known))
+    })
+}
+
+/// The node of `body` at the point `name`, which stands at `at` in the file.
+pub(crate) fn node(
+    model: &Model,
+    body: BodyId,
+    at: Fragment<'_>,
+    name: &str,
+) -> Result<NodeId, LoadError> {
+    let body = &model.bodies()[body.0];
+    let point = |node: &NodeId| model.nodes()[node.0].point.as_str();
+    let found = body.nodes.iter().find(|node| point(node) == name);
+    found.copied().ok_or_else(|| {
+        let points: Vec<&str> = body.nodes.iter().map(point).collect();
+        at.error(format!(
+            "body `{}` does not run through point `{name}`",
+            body.name
+        ))
+        .with_help(names::help(
+            name,
+            &format!("points of `{}`", body.name),
+            points,
+        ))
+    })
+}
+
+/// The node that a pair `("body", "point")` names; `what` says what stands there.
+pub(crate) fn on(model: &Model, pair: Fragment<'_>, what: &str) -> Result<NodeId, LoadError> {
+    let [body, point] = pair.array("a body and a point of it, `(\"body\", \"point\")`")?;
+    if body.string()? == GROUND {
+        return Err(body
+            .error(format!(
+                "{what} cannot be on the ground, which does not move"
+            ))
+            .with_help("name a body of the file"));
+    }
+    let body = self::body(model, body)?;
+    node(model, body, point, &point.string()?)
+}

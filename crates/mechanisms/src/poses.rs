@@ -1,0 +1,192 @@
+//! The poses of a job: a list, a grid or a table in a file of its own.
+
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::fragment::Fragment;
+use crate::source::Place;
+use crate::{csv, load, names};
+
+/// Poses x y z \[m\] and rotation vector \[rad\] of the output; zero where not given.
+#[derive(Debug)]
+pub(crate) enum Poses {
+    /// The mechanism's own configuration.
+    Own,
+    /// These.
+    List(Vec<[f64; 6]>),
+    /// All combinations of values of x, y and z, x fastest.
+    Grid([Values; 3]),
+}
+
+/// What poses a mechanism can be given.
+pub(crate) struct Given<'k> {
+    /// The mechanism's kind.
+    pub(crate) kind: &'k str,
+    /// The number of coordinates that it follows; the others stay zero.
+    pub(crate) coordinates: usize,
+}
+
+impl Given<'_> {
+    /// Refuses a coordinate that the mechanism cannot follow.
+    pub(crate) fn check(&self, index: usize, value: f64, at: &Place) -> Result<(), LoadError> {
+        if index < self.coordinates || value == 0.0 {
+            return Ok(());
+        }
+        let names = &csv::COLUMNS[..self.coordinates];
+        Err(at
+            .error(format!("`{}` cannot follow this coordinate", self.kind))
+            .with_help(format!(
+                "a pose of it is {}; the others stay zero",
+                names.join(", ")
+            )))
+    }
+}
+
+/// Evenly spaced numbers.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Values {
+    first: f64,
+    last: f64,
+    count: usize,
+}
+
+impl Values {
+    fn get(&self, k: usize) -> f64 {
+        if k == 0 {
+            return self.first;
+        }
+        let t = k as f64 / (self.count - 1) as f64;
+        self.first * (1.0 - t) + self.last * t
+    }
+}
+
+impl Poses {
+    /// Number of poses.
+    pub(crate) fn len(&self) -> usize {
+        match self {
+            Self::Own => 1,
+            Self::List(poses) => poses.len(),
+            Self::Grid(axes) => axes.iter().map(|axis| axis.count).product(),
+        }
+    }
+
+    /// Pose `k`, from 0.
+    pub(crate) fn get(&self, k: usize) -> [f64; 6] {
+        match self {
+            Self::Own => [0.0; 6],
+            Self::List(poses) => poses[k],
+            Self::Grid([x, y, z]) => {
+                let (row, column) = (k / x.count, k % x.count);
+                let (layer, row) = (row / y.count, row % y.count);
+                [x.get(column), y.get(row), z.get(layer), 0.0, 0.0, 0.0]
+            }
+        }
+    }
+
+    /// Reads `Csv(…)`, `List(…)` or `Grid(…)`.
+    pub(crate) fn read(fragment: Fragment<'_>, given: &Given<'_>) -> Result<Self, LoadError> {
+        let expected = "poses, `Csv(\"file.csv\")`, `List([…])` or `Grid(…)`";
+        let (kind, arguments) = fragment.variant(expected)?;
+        let arguments = || arguments.ok_or_else(|| fragment.expected(expected));
+        match kind.text() {
+            "Csv" => {
+                let [path] = arguments()?.array("one path, `Csv(\"file.csv\")`")?;
+                let table = load::read_named(path)?;
+                csv::read(&table, given).map(Self::List)
+            }
+            "List" => {
+                let [list] = arguments()?.array("one list, `List([(x, y, z), …])`")?;
+                list_of_poses(list, given).map(Self::List)
+            }
+            "Grid" => grid(arguments()?, fragment),
+            other => Err(kind
+                .error(format!("unknown kind of poses `{other}`"))
+                .with_help(names::help(
+                    other,
+                    "kinds of poses",
+                    ["Csv", "List", "Grid"],
+                ))),
+        }
+    }
+}
+
+fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>, LoadError> {
+    let expected = "a pose of 3 or 6 numbers, `(x, y, z)` or `(x, y, z, rx, ry, rz)`";
+    let mut poses = Vec::new();
+    for item in list.list("a list of poses, `[(x, y, z), …]`")? {
+        let numbers = item.tuple(expected)?;
+        if ![3, 6].contains(&numbers.len()) {
+            return Err(item.expected(expected));
+        }
+        let mut pose = [0.0; 6];
+        for (k, number) in numbers.iter().enumerate() {
+            pose[k] = number.number()?;
+            given.check(k, pose[k], &number.place())?;
+        }
+        poses.push(pose);
+    }
+    if poses.is_empty() {
+        return Err(list.error("the list of poses is empty"));
+    }
+    Ok(poses)
+}
+
+fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<Poses, LoadError> {
+    let fields = Fields::read(arguments, "`Grid`", &["x", "y", "z"], &[])?.within(whole);
+    let axis = |name| values(fields.required(name)?);
+    let axes = [axis("x")?, axis("y")?, axis("z")?];
+    let total = axes
+        .iter()
+        .try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
+    if total.is_none() {
+        return Err(whole.error("the grid has more poses than can be counted"));
+    }
+    Ok(Poses::Grid(axes))
+}
+
+fn values(fragment: Fragment<'_>) -> Result<Values, LoadError> {
+    let [first, last, count] = fragment.array("three values, `(first, last, count)`")?;
+    let expected = "a whole number of values, 1 or more";
+    let values = Values {
+        first: first.number()?,
+        last: last.number()?,
+        count: count.parse(expected)?,
+    };
+    if values.count == 0 {
+        return Err(count.expected(expected));
+    }
+    if values.count == 1 && values.first != values.last {
+        return Err(count
+            .error("one value cannot be both the first and the last, which differ")
+            .with_help("raise the count to 2, or give the same number twice"));
+    }
+    Ok(values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_runs_through_x_first_and_ends_exactly() {
+        let axis = |first, last, count| Values { first, last, count };
+        let grid = Poses::Grid([axis(-0.2, 0.2, 5), axis(0.1, 0.3, 3), axis(0.5, 0.5, 1)]);
+        assert_eq!(grid.len(), 15);
+        assert_eq!(grid.get(0), [-0.2, 0.1, 0.5, 0.0, 0.0, 0.0]);
+        assert_eq!(grid.get(2)[0], 0.0);
+        assert_eq!(grid.get(4)[..2], [0.2, 0.1]);
+        assert_eq!(grid.get(5)[..2], [-0.2, 0.2]);
+        assert_eq!(grid.get(14), [0.2, 0.3, 0.5, 0.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn a_large_grid_takes_no_memory() {
+        let axis = Values {
+            first: -1.0,
+            last: 1.0,
+            count: 1 << 20,
+        };
+        let grid = Poses::Grid([axis; 3]);
+        assert_eq!(grid.len(), 1 << 60);
+        assert_eq!(grid.get((1 << 60) - 1)[..3], [1.0; 3]);
+    }
+}

@@ -1,0 +1,74 @@
+//! What can be wrong with a prebuilt mechanism's parameters or with a pose asked of it.
+
+use hyperstat_assembly::ModelError;
+use hyperstat_joints::JointError;
+use thiserror::Error;
+
+/// A pose for which there is no configuration.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum PoseError {
+    /// The mechanism's parts are too short or too long for the pose.
+    #[error("out of reach: {what}")]
+    Unreachable {
+        /// Which part, why, and by which lengths.
+        what: String,
+    },
+    /// At the pose the mechanism's configuration is not defined: a direction or a place of one
+    /// of its parts may be any of infinitely many.
+    #[error("singular pose: {what}")]
+    Singular {
+        /// Which part, and why.
+        what: String,
+    },
+    /// A pose of the wrong number of coordinates.
+    #[error("`{kind}` takes {expected} pose coordinates, {found} are given")]
+    Coordinates {
+        /// The mechanism's kind.
+        kind: String,
+        /// Number of coordinates it takes.
+        expected: usize,
+        /// Number of coordinates given.
+        found: usize,
+    },
+    /// A pose coordinate that is not a finite number.
+    #[error("pose coordinate {index} is {value}, not a finite number")]
+    NotFinite {
+        /// Place of the coordinate, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A geometry that belongs to another model.
+    #[error(
+        "the geometry holds {found:?} nodes, segments and joints, \
+         this mechanism's model {expected:?}"
+    )]
+    ForeignGeometry {
+        /// Numbers of nodes, segments and joints of the mechanism.
+        expected: [usize; 3],
+        /// Those of the geometry.
+        found: [usize; 3],
+    },
+    /// A parameter of the mechanism out of its physical range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+    /// A joint frame that cannot be formed at this pose.
+    #[error(transparent)]
+    Joint(#[from] JointError),
+    /// A body or joint that cannot be part of a model at this pose.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+}
+
+/// A parameter of a prebuilt mechanism out of its physical range.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("`{field}`: {message}")]
+pub struct ParameterError {
+    /// Name of the field.
+    pub field: &'static str,
+    /// What is wrong with it, with its value.
+    pub message: String,
+    /// What would be right, where that can be said.
+    pub help: Option<String>,
+}

@@ -1,0 +1,145 @@
+//! Prebuilt mechanisms: a few numbers and a pose in, a [`Model`] out.
+//!
+//! A [`Prebuilt`] knows its own topology and solves its own inverse kinematics, so a pose of the
+//! output is all that a sweep has to give. Two are built in, the paper's two case studies; any
+//! other type may implement the trait.
+//!
+//! # `Delta`: the over-constrained delta of the paper's §4
+//!
+//! Clavel's delta with revolute joints only. The base carries three equal limbs, limb i being
+//! limb 1 turned by 120° (i − 1) about z. A limb is an arm and a parallelogram of two rods
+//! between two cross links:
+//!
+//! ```text
+//!   z                          Limb 1 seen along −x. A, B and C are revolute
+//!   │                          joints along x; A is the drive, which is locked.
+//!   P ─── C                    O–A is base_radius, P–C platform_radius,
+//!   │       ╲                  A–B arm_length, B–C rod_length.
+//!   │         ╲
+//!   │           ╲  rods
+//!   │             ╲
+//!   │               B
+//!   │             ╱
+//!   │           ╱  arm
+//!   O ──────── A ────── y, outward
+//!
+//!   Ca ─── C ─── Cb  wrist     The parallelogram seen along the axes of its
+//!   │             │            four joints, (C − B) × x; a is the −x side.
+//!   │ roda   rodb │            Ba–Bb is rod_spacing. Elbow and wrist are the
+//!   │             │            cross links, described by `bar`.
+//!   Ba ─── B ─── Bb  elbow
+//! ```
+//!
+//! | body | runs through | local y along |
+//! |---|---|---|
+//! | `arm` | A, B | the axis of A |
+//! | `elbow` | Ba, B, Bb | the parallelogram's axes |
+//! | `wrist` | Ca, C, Cb | the parallelogram's axes |
+//! | `roda` | Ba, Ca | the parallelogram's axes |
+//! | `rodb` | Bb, Cb | the parallelogram's axes |
+//!
+//! | joint | between | axis (y of its frame) | x of its frame |
+//! |---|---|---|---|
+//! | `A` | ground, `arm` | the limb's (x in limb 1) | outward |
+//! | `B` | `arm`, `elbow` | the limb's | along the arm |
+//! | `Ba`, `Ca` | `elbow` or `wrist`, `roda` | the parallelogram's | C − B |
+//! | `Bb`, `Cb` | `elbow` or `wrist`, `rodb` | the parallelogram's | C − B |
+//! | `C` | `wrist`, `platform` | the limb's | C − B, made normal to the axis |
+//!
+//! Every name carries the limb's number: `arm1`, `Ba1`. The rigid `platform` holds P, C1, C2 and
+//! C3; P is the output. A pose is the position x, y, z of P (m); the orientation is constant.
+//! Sixteen bodies and 21 revolute joints give −9 by Grübler's count, yet the platform moves:
+//! with the drives released the mobility is 3 and the degree of over-constraint 12.
+//!
+//! Topology and joints are those of the paper, which prints no lengths, sections or moduli;
+//! [`Delta::paper`] holds this project's own. The mechanism was introduced by R. Clavel,
+//! *Conception d'un robot parallèle rapide à 4 degrés de liberté*, thesis 925, EPFL, 1991.
+//!
+//! # `SingleFreedom`: case study 1, the paper's §3
+//!
+//! ```text
+//!   ▒ A ═══════ B ┄┄ O ┄┄ C ═══════ D ▒   ─► x
+//!        AB     k_B    BC   k_C   CD
+//! ```
+//!
+//! Two beams held at their outer ends and a rigid body of 0.1 m between them; the joints B and
+//! C are elastic along x. The structure does not move: its pose takes no coordinates.
+
+mod delta;
+mod error;
+mod parameter;
+mod single_freedom;
+#[cfg(test)]
+mod written_out;
+
+use std::fmt::Debug;
+
+use hyperstat_assembly::{Geometry, Model};
+use hyperstat_elements::{Material, Section};
+
+pub use delta::{Delta, Elbow, RodEnds};
+pub use error::{ParameterError, PoseError};
+pub use single_freedom::SingleFreedom;
+
+/// A mechanism that builds its own model for a pose of its output.
+pub trait Prebuilt: Debug + Send + Sync {
+    /// Its name in a batch file, such as `Delta`.
+    fn kind(&self) -> &str;
+
+    /// Number of pose coordinates it takes: the first of x, y, z (m) and the rotation vector
+    /// rx, ry, rz (rad) of the output. The others follow from its kinematics.
+    fn coordinates(&self) -> usize;
+
+    /// The model at `pose`, without loads.
+    ///
+    /// # Errors
+    /// A parameter out of its range, a pose of another number of coordinates, not finite, out
+    /// of reach or singular.
+    fn model(&self, pose: &[f64]) -> Result<Model, PoseError>;
+
+    /// Brings `geometry`, which has the numbering of [`Prebuilt::model`]'s, to `pose`, and
+    /// returns the whole pose x y z (m) rx ry rz (rad) of the output. Allocates nothing unless
+    /// it fails; where it fails it leaves `geometry` as it was.
+    ///
+    /// # Errors
+    /// As [`Prebuilt::model`]; a geometry of another model.
+    fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError>;
+}
+
+/// Section and material of a link.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// Section.
+    pub section: Section,
+    /// Material.
+    pub material: Material,
+}
+
+/// Takes exactly `N` finite coordinates from a pose.
+fn coordinates<const N: usize>(kind: &str, pose: &[f64]) -> Result<[f64; N], PoseError> {
+    let given = <[f64; N]>::try_from(pose).map_err(|_| PoseError::Coordinates {
+        kind: kind.into(),
+        expected: N,
+        found: pose.len(),
+    })?;
+    match given.iter().position(|c| !c.is_finite()) {
+        None => Ok(given),
+        Some(index) => Err(PoseError::NotFinite {
+            index,
+            value: given[index],
+        }),
+    }
+}
+
+/// Refuses a geometry that has other numbers of nodes, segments and joints than `expected`.
+fn check_numbering(geometry: &Geometry, expected: [usize; 3]) -> Result<(), PoseError> {
+    let found = [
+        geometry.positions.len(),
+        geometry.y_axes.len(),
+        geometry.frames.len(),
+    ];
+    if found == expected {
+        return Ok(());
+    }
+    Err(PoseError::ForeignGeometry { expected, found })
+}

@@ -1,0 +1,159 @@
+//! The text of a file, and places in it.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::error::{LoadError, Location};
+
+/// A text file: its name in messages and its text.
+#[derive(Debug)]
+pub(crate) struct Source {
+    path: PathBuf,
+    text: String,
+}
+
+impl Source {
+    /// `text`, which messages call `path`; a byte order mark is dropped.
+    pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
+        Arc::new(Self {
+            path: path.into(),
+            text: text.strip_prefix('\u{feff}').unwrap_or(text).into(),
+        })
+    }
+
+    /// Reads a file.
+    pub(crate) fn read(path: &Path) -> Result<Arc<Self>, LoadError> {
+        let bytes = std::fs::read(path).map_err(|source| LoadError::Read {
+            path: path.into(),
+            source,
+        })?;
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self::new(path, &text)),
+            Err(error) => {
+                let valid = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes());
+                let place = Place {
+                    source: Self::new(path, &text),
+                    span: valid..valid,
+                };
+                Err(place
+                    .error("the file is not UTF-8 text")
+                    .with_help("save it with the encoding UTF-8"))
+            }
+        }
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// `path` as seen from the folder of this file.
+    pub(crate) fn relative(&self, path: &str) -> PathBuf {
+        match self.path.parent() {
+            Some(folder) => folder.join(path),
+            None => path.into(),
+        }
+    }
+
+    fn locate(&self, span: &Range<usize>) -> Location {
+        let start = boundary(&self.text, span.start);
+        let (before, rest) = self.text.split_at(start);
+        let line_start = before.rfind('\n').map_or(0, |k| k + 1);
+        let line_end = rest.find('\n').map_or(self.text.len(), |k| start + k);
+        let end = boundary(&self.text, span.end.min(line_end));
+        Location {
+            path: self.path.clone(),
+            line: 1 + before.matches('\n').count(),
+            column: 1 + self.text[line_start..start].chars().count(),
+            width: self.text[start..end.max(start)]
+                .trim_end()
+                .chars()
+                .count()
+                .max(1),
+            text: self.text[line_start..line_end]
+                .trim_end_matches('\r')
+                .into(),
+        }
+    }
+
+    /// Byte offset of a line and a column in characters, both from 1.
+    pub(crate) fn offset(&self, line: usize, column: usize) -> usize {
+        let mut start = 0;
+        for _ in 1..line {
+            start += self.text[start..].find('\n').map_or(0, |k| k + 1);
+        }
+        let mut characters = self.text[start..].char_indices();
+        characters
+            .nth(column.saturating_sub(1))
+            .map_or(self.text.len(), |(k, _)| start + k)
+    }
+}
+
+/// The last character boundary of `text` at or before `offset`.
+fn boundary(text: &str, offset: usize) -> usize {
+    let offset = offset.min(text.len());
+    (0..=offset)
+        .rev()
+        .find(|&k| text.is_char_boundary(k))
+        .unwrap_or(0)
+}
+
+/// A range of bytes of a source, kept for messages that come after reading.
+#[derive(Debug, Clone)]
+pub(crate) struct Place {
+    pub(crate) source: Arc<Source>,
+    pub(crate) span: Range<usize>,
+}
+
+impl Place {
+    pub(crate) fn location(&self) -> Location {
+        self.source.locate(&self.span)
+    }
+
+    pub(crate) fn error(&self, message: impl Into<String>) -> LoadError {
+        LoadError::At {
+            location: Box::new(self.location()),
+            message: message.into(),
+            help: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn locate(text: &str, span: Range<usize>) -> (usize, usize, usize, String) {
+        let source = Source::new(Path::new("f.ron"), text);
+        let place = Place { source, span };
+        let at = place.location();
+        (at.line, at.column, at.width, at.text)
+    }
+
+    #[test]
+    fn columns_and_widths_count_characters() {
+        let text = "å: 1,\r\nβγ: 22,\n";
+        let start = text.find("22").unwrap();
+        assert_eq!(locate(text, start..start + 2), (2, 5, 2, "βγ: 22,".into()));
+        assert_eq!(locate(text, 0..2), (1, 1, 1, "å: 1,".into()));
+        assert_eq!(locate(text, start..text.len()), (2, 5, 3, "βγ: 22,".into()));
+    }
+
+    #[test]
+    fn ends_and_odd_offsets_are_places_too() {
+        assert_eq!(locate("", 0..0), (1, 1, 1, String::new()));
+        assert_eq!(locate("a\n", 2..2), (2, 1, 1, String::new()));
+        assert_eq!(locate("åb", 1..9).1, 1);
+    }
+
+    #[test]
+    fn offset_is_the_inverse_of_location() {
+        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx");
+        for (k, _) in source.text().char_indices() {
+            let at = source.locate(&(k..k));
+            assert_eq!(source.offset(at.line, at.column), k);
+        }
+        assert_eq!(source.offset(99, 99), source.text().len());
+    }
+}

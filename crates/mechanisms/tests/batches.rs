@@ -1,0 +1,192 @@
+//! Batch files: jobs, their mechanisms, poses, loads and figures.
+
+use std::path::Path;
+
+use hyperstat_mechanisms::{
+    Batch, Figure, Input, Registry, Scale, batch_from_str, load, load_batch, load_mechanism,
+};
+use nalgebra::Vector6;
+
+fn examples() -> &'static Path {
+    Path::new("../../examples")
+}
+
+/// A batch whose file stands among the examples.
+fn read(text: &str) -> Batch {
+    batch_from_str(text, &examples().join("test.ron"), &Registry::builtin())
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+const DELTA: &str = "Delta(
+    base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60, rod_spacing: 0.12,
+    arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
+    bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3)),
+    rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3)),
+)";
+
+fn delta(rest: &str) -> Batch {
+    read(&format!(
+        "(jobs: [(name: \"d\", mechanism: {DELTA}, {rest})])"
+    ))
+}
+
+#[test]
+fn the_paper_s_batch_holds_both_case_studies() {
+    let batch = load_batch(&examples().join("paper.ron"), &Registry::builtin())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let jobs: Vec<_> = batch
+        .jobs
+        .iter()
+        .map(|job| (job.name.as_str(), job.len()))
+        .collect();
+    assert_eq!(
+        jobs,
+        [
+            ("single-freedom-elastic", 1),
+            ("single-freedom-rigid", 1),
+            ("delta-rigid-trajectory", 61),
+            ("delta-elastic-trajectory", 61),
+        ]
+    );
+    let figures = [
+        Figure::Trajectory { scale: Scale::Auto },
+        Figure::Deformed {
+            pose: 0,
+            scale: Scale::Auto,
+        },
+    ];
+    for job in &batch.jobs[2..] {
+        assert_eq!(job.figures, figures);
+        let model = job.model().unwrap();
+        let load = &model.loads()[0];
+        assert_eq!(model.node_name(load.node), "platform.P");
+        assert_eq!(load.wrench, Vector6::new(-20.0, 10.0, 100.0, 5.0, 5.0, 8.0));
+        let mut geometry = model.geometry().clone();
+        for (k, target) in (0..61).map(|k| (k, job.target(k))) {
+            assert_eq!(job.place(k, &mut geometry).unwrap(), target);
+            let at = geometry.positions[model.output().unwrap().0];
+            assert!((at.coords - nalgebra::Vector3::from_row_slice(&target[..3])).amax() < 1e-15);
+        }
+    }
+}
+
+/// Eq. 65 of the paper at t = 0, 0.1, …, 6.
+#[test]
+fn the_trajectory_is_the_paper_s() {
+    let batch = load_batch(&examples().join("paper.ron"), &Registry::builtin()).unwrap();
+    for k in 0..=60 {
+        let t = k as f64 / 10.0;
+        let (x, z) = if t <= 2.0 {
+            (-0.2, 0.45 + 0.05 * t)
+        } else if t <= 4.0 {
+            (-0.2 + 0.2 * (t - 2.0), 0.55)
+        } else {
+            (0.2, 0.55 - 0.05 * (t - 4.0))
+        };
+        let found = Vector6::from(batch.jobs[2].target(k));
+        let wanted = Vector6::new(x, -0.2, z, 0.0, 0.0, 0.0);
+        assert!((found - wanted).amax() < 1e-15, "t = {t}");
+    }
+}
+
+#[test]
+fn the_examples_are_read() {
+    for name in ["delta.ron", "single_freedom.ron", "portal.ron"] {
+        let mechanism = load_mechanism(&examples().join(name), &Registry::builtin());
+        assert!(mechanism.is_ok(), "{mechanism:?}");
+    }
+    let input = load(&examples().join("paper.ron"), &Registry::builtin()).unwrap();
+    assert!(matches!(input, Input::Batch(_)));
+    let input = load(&examples().join("delta.ron"), &Registry::builtin()).unwrap();
+    assert!(matches!(input, Input::Mechanism(_)));
+}
+
+#[test]
+fn a_file_s_job_has_its_configuration_and_loads() {
+    let batch = read(r#"(jobs: [(name: "own", mechanism: File("portal.ron"))])"#);
+    let job = &batch.jobs[0];
+    assert_eq!(job.len(), 1);
+    let own = load_mechanism(&examples().join("portal.ron"), &Registry::builtin()).unwrap();
+    let model = job.model().unwrap();
+    assert_eq!(model.loads(), own.model.loads());
+    let mut geometry = model.geometry().clone();
+    geometry.positions[0].x = 9.0;
+    assert_eq!(
+        job.place(0, &mut geometry).unwrap(),
+        [0.1, 0.5, 0.2, 0.0, 0.0, 0.0]
+    );
+    assert_eq!(&geometry, own.model.geometry());
+    let place = job.mechanism().unwrap().locate_load(0);
+    assert_eq!(place.path, examples().join("portal.ron"));
+}
+
+#[test]
+fn a_job_s_loads_replace_the_file_s() {
+    let batch = read(
+        r#"(jobs: [
+            (name: "other", mechanism: File("portal.ron"), loads: [(on: ("platform", "B"), moment: (0, 0, 2))]),
+            (name: "none", mechanism: File("portal.ron"), loads: []),
+        ])"#,
+    );
+    let model = batch.jobs[0].model().unwrap();
+    assert_eq!(model.loads().len(), 1);
+    assert_eq!(model.node_name(model.loads()[0].node), "platform.B");
+    assert_eq!(
+        model.loads()[0].wrench,
+        Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, 2.0)
+    );
+    let place = batch.jobs[0].mechanism().unwrap().locate_load(0);
+    assert_eq!((place.path, place.line), (examples().join("test.ron"), 2));
+    assert!(batch.jobs[1].model().unwrap().loads().is_empty());
+    let at = batch.jobs[1].location();
+    assert_eq!((at.line, at.column, at.width), (3, 20, 6));
+}
+
+#[test]
+fn poses_out_of_reach_are_errors_of_their_own() {
+    let batch = delta(
+        r#"poses: List([(0, 0, 5.0), (0.1, 0.0, 0.5, 0.0, 0.0, 0.0)]),
+           loads: [(on: ("platform", "P"), force: (1, 0, 0))]"#,
+    );
+    let job = &batch.jobs[0];
+    let model = job.model().unwrap();
+    assert_eq!(model.loads().len(), 1);
+    let mut geometry = model.geometry().clone();
+    assert!(job.place(0, &mut geometry).is_err());
+    assert_eq!(&geometry, model.geometry());
+    assert_eq!(job.target(0), [0.0, 0.0, 5.0, 0.0, 0.0, 0.0]);
+    assert_eq!(
+        job.place(1, &mut geometry).unwrap(),
+        [0.1, 0.0, 0.5, 0.0, 0.0, 0.0]
+    );
+
+    let batch = delta("poses: List([(0, 0, 5.0)])");
+    assert!(batch.jobs[0].model().is_err());
+}
+
+#[test]
+fn a_grid_is_not_written_out() {
+    let batch =
+        delta("poses: Grid(x: (-0.2, 0.2, 41), y: (-0.1, 0.1, 21), z: (0.45, 0.55, 1000000))");
+    let job = &batch.jobs[0];
+    assert_eq!(job.len(), 41 * 21 * 1_000_000);
+    assert_eq!(job.target(0)[..3], [-0.2, -0.1, 0.45]);
+    assert_eq!(job.target(40)[..2], [0.2, -0.1]);
+    assert_eq!(job.target(41)[0], -0.2);
+    assert_eq!(job.target(job.len() - 1)[..3], [0.2, 0.1, 0.55]);
+}
+
+#[test]
+fn figures_have_defaults() {
+    let batch = delta(
+        "poses: List([(0, 0, 0.5), (0, 0, 0.6)]), figures: [Trajectory, Deformed(pose: 1, scale: 50)]",
+    );
+    let wanted = [
+        Figure::Trajectory { scale: Scale::Auto },
+        Figure::Deformed {
+            pose: 1,
+            scale: Scale::Factor(50.0),
+        },
+    ];
+    assert_eq!(batch.jobs[0].figures, wanted);
+}

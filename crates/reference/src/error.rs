@@ -1,0 +1,53 @@
+//! What keeps a model from being solved.
+
+use thiserror::Error;
+
+/// A model that the dense solvers cannot answer for.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum ReferenceError {
+    /// The model has no output node.
+    #[error("the model has no output node")]
+    NoOutput,
+    /// More coordinates than a dense matrix should have.
+    #[error(
+        "the model has {coordinates} displacement coordinates; the dense solver takes at most {limit}"
+    )]
+    TooLarge {
+        /// Six for every node, the inner nodes of subdivided segments too.
+        coordinates: usize,
+        /// Most that are taken.
+        limit: usize,
+    },
+    /// A segment without length, or whose local y runs along it.
+    #[error("segment {segment} of body `{body}` has no length, or its y axis runs along it")]
+    Segment {
+        /// Name of the body.
+        body: String,
+        /// Index of the segment on the body, from 0.
+        segment: usize,
+    },
+    /// A joint whose six directions are not independent.
+    #[error("the six directions of joint `{joint}` are not independent")]
+    JointBasis {
+        /// Name of the joint.
+        joint: String,
+    },
+    /// The loads work on a motion that nothing resists.
+    #[error("the loads move body `{body}`, and nothing resists the motion")]
+    Unrestrained {
+        /// Name of the body that moves most.
+        body: String,
+    },
+    /// Elimination met a zero pivot, or numbers that are not finite.
+    #[error("the matrix of the system is singular")]
+    Singular,
+    /// Refinement did not settle.
+    #[error(
+        "refinement stopped at a relative change of {change:e}: the numbers are not to be trusted"
+    )]
+    NotConverged {
+        /// Last change of the displacements over the displacements.
+        change: f64,
+    },
+}

@@ -1,0 +1,18 @@
+//! Independent dense solvers for stiffness models of mechanisms.
+//!
+#![doc = include_str!("../README.md")]
+
+mod beam;
+mod error;
+mod independence;
+mod joint;
+mod kinematics;
+mod row;
+mod saddle;
+mod solution;
+mod structure;
+mod traditional;
+
+pub use error::ReferenceError;
+pub use solution::{ReferenceSolution, solve};
+pub use traditional::{TraditionalOptions, TraditionalSolution, traditional};
