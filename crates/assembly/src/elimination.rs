@@ -1,78 +1,132 @@
-//! Loop elimination: conditions among the coordinates of one tree, solved by rank.
+//! Linear conditions solved by rank: Gauss–Jordan elimination with complete pivoting.
 //!
-//! Redundant rows are dropped and counted. After the trees are formed a redundant row is pure
-//! rounding, so rank is judged against the unreduced conditions: unit rows, lengths over the
-//! mechanism's size (paper-notes, "Rank of closing rows").
+//! It closes loops (dependent coordinates from independent ones), counts mobility, finds motions
+//! without energy and joint forces. Redundant rows are dropped and counted. After trees are formed
+//! a redundant row is pure rounding, so rank is judged against the unreduced conditions: callers
+//! give unit rows with lengths over the mechanism's size (paper-notes, "Rank of closing rows").
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
-use crate::kinematics::RANK_TOLERANCE;
-
-/// While a pivot this large is left outside the output's coordinates, those are spared.
+/// Pivots up to this are zero: coordinates are typed to six digits or more.
+pub(crate) const RANK_TOLERANCE: f64 = 1e-6;
+/// Pivots in this range leave a doubt about the rank that the user should know of.
+const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
+/// While a pivot this large is left outside the spared coordinates, those are spared.
 const SPARING: f64 = 1e-3;
 
-/// Dependent coordinates as a linear function of the independent ones.
+/// The solutions of `conditions · x = right side`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Elimination {
-    /// Independent coordinates, ascending.
+    /// Coordinates that may be chosen freely, ascending.
     pub independent: Vec<usize>,
-    /// All coordinates from the independent ones: `x = map · x[independent]`.
+    /// All coordinates from the independent ones: `x = map · x[independent]` without right side.
+    /// Its columns are a basis of the null space.
     pub map: DMatrix<f64>,
+    /// The solution whose independent coordinates are zero.
+    pub particular: DVector<f64>,
+    /// A pivot, taken or left, between zero and not zero.
+    pub doubtful: Option<f64>,
 }
 
 impl Elimination {
-    /// Solves `conditions · x = 0` for as many coordinates as the rank allows; the first
-    /// `spared` coordinates (the output's) become dependent only where nothing else can.
-    pub fn new(mut conditions: DMatrix<f64>, spared: usize) -> Self {
+    /// Solves `conditions · x = 0`; the first `spared` coordinates become dependent only where
+    /// nothing else can.
+    pub fn new(conditions: DMatrix<f64>, spared: usize) -> Self {
+        let height = conditions.nrows();
+        Self::with_right_side(conditions, DVector::zeros(height), spared)
+    }
+
+    /// Solves `conditions · x = right_side`, whose inconsistent part is left out.
+    pub fn with_right_side(
+        mut conditions: DMatrix<f64>,
+        mut right_side: DVector<f64>,
+        spared: usize,
+    ) -> Self {
         let (rows, columns) = conditions.shape();
         let mut pivots: Vec<(usize, usize)> = Vec::new();
-        let mut row_used = vec![false; rows];
-        let mut column_used = vec![false; columns];
-        while pivots.len() < rows.min(columns) {
-            let mut best = (0, 0, 0.0);
-            let mut best_spared = (0, 0, 0.0);
-            for c in (0..columns).filter(|c| !column_used[*c]) {
-                for r in (0..rows).filter(|r| !row_used[*r]) {
-                    let size = conditions[(r, c)].abs();
-                    let target = if c < spared {
-                        &mut best_spared
-                    } else {
-                        &mut best
-                    };
-                    if size > target.2 * (1.0 + 1e-9) {
-                        *target = (r, c, size);
-                    }
-                }
+        let mut rows_left: Vec<usize> = (0..rows).collect();
+        let mut columns_left: Vec<usize> = (0..columns).collect();
+        let mut doubtful: Option<f64> = None;
+        while !rows_left.is_empty() && !columns_left.is_empty() {
+            let (row, column) = choose(&conditions, &rows_left, &columns_left, spared);
+            let size = conditions[(row, column)].abs();
+            if DOUBTFUL.contains(&size) {
+                doubtful = Some(doubtful.map_or(size, |d| d.max(size)));
             }
-            let take_spared = best.2 <= SPARING && best_spared.2 > best.2;
-            let (row, column, size) = if take_spared { best_spared } else { best };
             if size <= RANK_TOLERANCE {
                 break;
             }
-            let pivot = conditions.row(row) / conditions[(row, column)];
+            let scale = 1.0 / conditions[(row, column)];
+            conditions.row_mut(row).scale_mut(scale);
+            conditions[(row, column)] = 1.0;
+            right_side[row] *= scale;
+            let pivot = conditions.row(row).into_owned();
             for r in (0..rows).filter(|r| *r != row) {
                 let factor = conditions[(r, column)];
                 if factor != 0.0 {
-                    let mut target = conditions.row_mut(r);
-                    target -= &pivot * factor;
+                    for &c in &columns_left {
+                        conditions[(r, c)] -= factor * pivot[c];
+                    }
                     conditions[(r, column)] = 0.0;
+                    right_side[r] -= factor * right_side[row];
                 }
             }
-            conditions.row_mut(row).copy_from(&pivot);
-            row_used[row] = true;
-            column_used[column] = true;
+            rows_left.retain(|r| *r != row);
+            columns_left.retain(|c| *c != column);
             pivots.push((row, column));
         }
-        let independent: Vec<usize> = (0..columns).filter(|c| !column_used[*c]).collect();
-        let mut map = DMatrix::zeros(columns, independent.len());
-        for (k, &c) in independent.iter().enumerate() {
-            map[(c, k)] = 1.0;
-            for &(row, column) in &pivots {
+        let mut map = DMatrix::zeros(columns, columns_left.len());
+        let mut particular = DVector::zeros(columns);
+        for &(row, column) in &pivots {
+            particular[column] = right_side[row];
+            for (k, &c) in columns_left.iter().enumerate() {
                 map[(column, k)] = -conditions[(row, c)];
             }
         }
-        Self { independent, map }
+        for (k, &c) in columns_left.iter().enumerate() {
+            map[(c, k)] = 1.0;
+        }
+        Self {
+            independent: columns_left,
+            map,
+            particular,
+            doubtful,
+        }
     }
+
+    /// Rank of the conditions.
+    pub fn rank(&self) -> usize {
+        self.map.nrows() - self.independent.len()
+    }
+
+    /// Columns of the null space's basis.
+    pub fn null_space(&self) -> Vec<DVector<f64>> {
+        self.map.column_iter().map(|c| c.into_owned()).collect()
+    }
+}
+
+/// The largest entry left, in the first place of equals (to 1e-9); among the spared columns only
+/// where the others have none above [`SPARING`].
+fn choose(
+    conditions: &DMatrix<f64>,
+    rows: &[usize],
+    columns: &[usize],
+    spared: usize,
+) -> (usize, usize) {
+    let mut best = [(rows[0], columns[0], 0.0); 2];
+    for &c in columns {
+        let target = &mut best[usize::from(c < spared)];
+        for &r in rows {
+            let size = conditions[(r, c)].abs();
+            if size > target.2 * (1.0 + 1e-9) {
+                *target = (r, c, size);
+            }
+        }
+    }
+    let [other, spare] = best;
+    let take_spare = other.2 <= SPARING && spare.2 > other.2;
+    let (row, column, _) = if take_spare { spare } else { other };
+    (row, column)
 }
 
 #[cfg(test)]
@@ -100,5 +154,21 @@ mod tests {
         assert_eq!(Elimination::new(a, 1).independent, [0]);
         let held = DMatrix::from_row_slice(1, 2, &[1.0, 0.0]);
         assert_eq!(Elimination::new(held, 1).independent, [1]);
+    }
+
+    #[test]
+    fn a_right_side_is_met() {
+        let a = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 1.0, 1.0]);
+        let b = DVector::from_row_slice(&[6.0, 12.0, 2.0]);
+        let solved = Elimination::with_right_side(a.clone(), b.clone(), 0);
+        assert_eq!(solved.rank(), 2);
+        assert!((a * solved.particular - b).amax() < 1e-14);
+    }
+
+    #[test]
+    fn a_pivot_between_zero_and_not_zero_is_doubtful() {
+        let a = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 3e-8]);
+        let solved = Elimination::new(a, 0);
+        assert_eq!((solved.rank(), solved.doubtful), (1, Some(3e-8)));
     }
 }

@@ -8,13 +8,9 @@ use hyperstat_joints::{DofSet, rigid_motion};
 use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector3, Vector6};
 
 use crate::directions::{Directions, to_directions};
+use crate::elimination::Elimination;
 use crate::model::{BodyId, BodyKind, Geometry, Model};
 use crate::solution::Motion;
-
-/// Singular values below this are zero: coordinates are typed to six digits or more.
-pub(crate) const RANK_TOLERANCE: f64 = 1e-6;
-/// Singular values between these leave a doubt that the user should know of.
-const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
 
 /// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.
 #[derive(Debug, Clone)]
@@ -27,7 +23,7 @@ pub struct Kinematics {
     pub overconstraint: usize,
     /// A basis of the motions that need no energy: drives locked, springs at rest.
     pub motions: Vec<Motion>,
-    /// A singular value between zero and not zero, where there is one: the counts are then
+    /// A pivot between zero and not zero (1e-12 to 1e-4), where there is one: the counts are then
     /// those of a geometry that is only nearly the one meant.
     pub doubtful: Option<f64>,
 }
@@ -40,19 +36,20 @@ pub fn analyse(model: &Model) -> Kinematics {
 /// [`analyse`] in another configuration.
 pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
     let released = Jacobian::new(model, geometry, |_, _| None);
-    let (rank, _, doubtful_released) = released.null_space();
+    let constraints = released.rows.len();
+    let released = released.eliminated();
     let held = Jacobian::new(model, geometry, |_, directions| Some(directions.clone()));
-    let (_, basis, doubtful_held) = held.null_space();
+    let held = held.eliminated();
     let size = characteristic_length(geometry);
-    let motions = echelon(basis)
+    let motions = echelon(held.null_space())
         .iter()
         .map(|column| motion(model, size, column))
         .collect();
     Kinematics {
-        mobility: 6 * model.bodies().len() - rank,
-        overconstraint: released.rows.len() - rank,
+        mobility: 6 * model.bodies().len() - released.rank(),
+        overconstraint: constraints - released.rank(),
         motions,
-        doubtful: doubtful_released.or(doubtful_held),
+        doubtful: released.doubtful.or(held.doubtful),
     }
 }
 
@@ -137,17 +134,15 @@ impl Jacobian {
         }
     }
 
-    /// Rank, basis of the null space (unit columns) and a doubtful singular value.
-    fn null_space(&self) -> (usize, Vec<DVector<f64>>, Option<f64>) {
-        let height = self.rows.len().max(self.columns);
-        let mut dense = DMatrix::zeros(height, self.columns);
+    fn eliminated(&self) -> Elimination {
+        let mut dense = DMatrix::zeros(self.rows.len(), self.columns);
         for (r, row) in self.rows.iter().enumerate() {
             for (body, entries) in row {
                 let mut view = dense.fixed_view_mut::<1, 6>(r, 6 * body);
                 view += entries;
             }
         }
-        null_space(dense)
+        Elimination::new(dense, 0)
     }
 }
 
@@ -173,32 +168,6 @@ fn elastic_rows(local: &Matrix6<f64>, directions: &Directions, size: f64) -> Vec
         rows.push(row);
     }
     rows
-}
-
-/// Rank, null space and doubtful singular value of a matrix with at least as many rows as columns.
-pub(crate) fn null_space(matrix: DMatrix<f64>) -> (usize, Vec<DVector<f64>>, Option<f64>) {
-    let columns = matrix.ncols();
-    if columns == 0 {
-        return (0, Vec::new(), None);
-    }
-    let svd = matrix.svd(false, true);
-    let Some(v_t) = svd.v_t else {
-        unreachable!("asked for");
-    };
-    let mut rank = 0;
-    let mut basis = Vec::new();
-    let mut doubtful: Option<f64> = None;
-    for (k, &value) in svd.singular_values.iter().enumerate() {
-        if value > RANK_TOLERANCE {
-            rank += 1;
-        } else {
-            basis.push(v_t.row(k).transpose());
-        }
-        if DOUBTFUL.contains(&value) {
-            doubtful = Some(doubtful.map_or(value, |d| d.max(value)));
-        }
-    }
-    (rank, basis, doubtful)
 }
 
 /// A basis of the same space in reduced echelon form by complete pivoting: motions of few bodies

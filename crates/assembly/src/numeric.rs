@@ -1,19 +1,19 @@
 //! The numeric pass of one pose: carriers' blocks, elements, assembled stiffness (Eqs. 40–42).
 
 use hyperstat_elements::subassembly::{
-    ChainSegment, add_joint_compliance, chain_flexibility, invert_flexibility,
+    ElasticJoint, JointFactor, StiffSegment, absorb_joints, chain_stiffness,
 };
 use hyperstat_elements::{Beam, element_frame, rotate_matrix6};
 use hyperstat_joints::rigid_motion;
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
 use crate::coordinates::{read, shift, write};
-use crate::directions::{rotation6, to_directions};
+use crate::directions::to_directions;
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
 use crate::plan::{COLUMNS, ElementPlan, Plan, Source, Workspace};
-use crate::topology::Cluster;
+use crate::topology::{Cluster, LONGEST_CLUSTER};
 
 /// Why a plan cannot take a pose.
 #[derive(Debug)]
@@ -151,19 +151,19 @@ pub(crate) fn cluster_frame(
     Ok(element_frame(&span, geometry.y_axes[id.0].as_ref())?)
 }
 
-/// Compliance of an absorbed joint in global axes.
-pub(crate) fn joint_compliance(
+/// An absorbed joint: its compliance in its own frame, and that frame in global axes.
+pub(crate) fn absorbed_joint(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
     joint: JointId,
-) -> Matrix6<f64> {
-    let own = plan.topology.joints[joint.0]
-        .directions
-        .compliance
-        .unwrap_or(Matrix6::zeros());
-    let turned = rotation6(&geometry.frames[joint.0]) * model.joints()[joint.0].joint.basis();
-    turned * own * turned.transpose()
+) -> ElasticJoint {
+    let own = plan.topology.joints[joint.0].directions.compliance;
+    let basis = model.joints()[joint.0].joint.basis();
+    ElasticJoint {
+        compliance: basis * own.unwrap_or(Matrix6::zeros()) * basis.transpose(),
+        frame: geometry.frames[joint.0],
+    }
 }
 
 fn cluster_element(
@@ -219,50 +219,62 @@ fn cluster_element(
         stiffness.copy_from_slice(beam.cantilever_stiffness().as_slice());
         return Ok(());
     }
-    let mut segments = [ChainSegment {
-        compliance: Matrix6::zeros(),
+    let mut segments = [StiffSegment {
+        stiffness: Matrix6::zeros(),
         span: Vector3::zeros(),
-    }; 8];
-    let mut arms = [Vector3::zeros(); 8];
+    }; LONGEST_CLUSTER];
+    let mut arms = [Vector3::zeros(); LONGEST_CLUSTER];
     for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
         let (beam, own, span) = segment_beam(model, geometry, *id)?;
         // Run through backwards, the segment is the same beam turned by π about its z axis.
         let turned = if *reversed { own * half_turn() } else { own };
-        segments[k] = ChainSegment {
-            compliance: rotate_matrix6(&beam.cantilever_compliance(), &(to_local * turned)),
+        segments[k] = StiffSegment {
+            stiffness: rotate_matrix6(&beam.cantilever_stiffness(), &(to_local * turned)),
             span: to_local * if *reversed { -span } else { span },
         };
         arms[k] = to_local * (geometry.positions[cluster.nodes[k + 1].0] - base);
     }
     let count = cluster.segments.len();
-    chain_flexibility(&segments[..count], stiffness);
+    chain_stiffness(&segments[..count], stiffness);
+    let mut factors = [JointFactor {
+        node: 0,
+        factor: Matrix6::zeros(),
+    }; LONGEST_CLUSTER + 1];
+    let mut absorbed = 0;
     for (r, joint) in cluster.joints.iter().enumerate() {
         let Some(joint) = joint else { continue };
-        let compliance = joint_compliance(plan, model, geometry, *joint);
-        let local = rotate_matrix6(&compliance, &to_local);
-        add_joint_compliance(r, &local, &arms[..count], stiffness);
+        let elastic = absorbed_joint(plan, model, geometry, *joint);
+        let local = ElasticJoint {
+            frame: to_local * elastic.frame,
+            ..elastic.clone()
+        };
+        factors[absorbed] = JointFactor {
+            node: r,
+            factor: local.factor(),
+        };
+        absorbed += 1;
         let load = node_load(model, cluster.nodes[r]);
         if load != Vector6::zeros() {
             let initial =
                 &mut workspace.initial[element.initial_start..element.initial_start + rows];
-            let give = compliance * load;
+            let give = elastic.turned_compliance() * load;
             if r == 0 {
                 for (b, other) in cluster.nodes.iter().enumerate().skip(1) {
                     let arm = geometry.positions[other.0] - base;
-                    add_turned(
-                        initial,
-                        6 * (b - 1),
-                        &to_local,
-                        &(rigid_motion(&arm) * give),
-                        -1.0,
-                    );
+                    let moved = rigid_motion(&arm) * give;
+                    add_turned(initial, 6 * (b - 1), &to_local, &moved, -1.0);
                 }
             } else {
                 add_turned(initial, 6 * (r - 1), &to_local, &give, 1.0);
             }
         }
     }
-    invert_flexibility(rows, stiffness)?;
+    absorb_joints(
+        &factors[..absorbed],
+        &arms[..count],
+        stiffness,
+        &mut workspace.absorption,
+    )?;
     Ok(())
 }
 

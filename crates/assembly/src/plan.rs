@@ -1,6 +1,7 @@
 //! What is worked out once a topology: coordinates and their order, elements, sparsity pattern,
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
+use hyperstat_elements::subassembly::absorption_workspace;
 use hyperstat_joints::Dof;
 
 use crate::coordinates::TreeBlocks;
@@ -104,6 +105,8 @@ pub struct Workspace {
     /// Deformations and forces of one element.
     pub(crate) scratch: Vec<f64>,
     pub(crate) forces: Vec<f64>,
+    /// For absorbing the joints of one cluster.
+    pub(crate) absorption: Vec<f64>,
 }
 
 impl Plan {
@@ -243,6 +246,10 @@ impl Plan {
         let triangle = |e: &ElementPlan| e.rows * e.rows;
         let width = |e: &ElementPlan| e.rows * e.columns.len().max(COLUMNS);
         let widest = self.elements.iter().map(width).max().unwrap_or(0);
+        let absorption = self.topology.clusters.iter().map(|cluster| {
+            let joints = cluster.joints.iter().flatten().count();
+            absorption_workspace(cluster.segments.len(), joints)
+        });
         Workspace {
             tree: TreeBlocks::new(&self.topology),
             reduced: vec![0.0; self.reduced_len],
@@ -259,6 +266,7 @@ impl Plan {
             right_sides: vec![0.0; COLUMNS * self.inner],
             scratch: vec![0.0; widest],
             forces: vec![0.0; widest],
+            absorption: vec![0.0; absorption.max().unwrap_or(0)],
         }
     }
 

@@ -5,11 +5,12 @@ use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, Vector6};
 
 use crate::coordinates::shift;
 use crate::directions::{rotation6, to_directions};
+use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
-use crate::kinematics::{RANK_TOLERANCE, characteristic_length};
+use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model, NodeId};
 use crate::numeric::{
-    cluster_frame, joint_compliance, multiply, node_displacement, node_load, segment_beam,
+    absorbed_joint, cluster_frame, multiply, node_displacement, node_load, segment_beam,
 };
 use crate::plan::{Plan, Source, Workspace};
 use crate::solution::SegmentForces;
@@ -70,8 +71,8 @@ pub(crate) fn recover(
         for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
             if let Some(joint) = joint {
                 let wrench = demand[node.0] - node_load(model, *node);
-                let compliance = joint_compliance(plan, model, geometry, *joint);
-                displacements[node.0] -= compliance * wrench;
+                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                displacements[node.0] -= elastic.turned_compliance() * wrench;
             }
         }
     }
@@ -270,8 +271,8 @@ fn equilibrium(
         return;
     }
     let rows = 6 * group.carriers.len();
-    let mut matrix = DMatrix::zeros(rows.max(unknowns.len()), unknowns.len());
-    let mut right_side = DVector::zeros(matrix.nrows());
+    let mut matrix = DMatrix::zeros(rows, unknowns.len());
+    let mut right_side = DVector::zeros(rows);
     let over_size = |mut w: Vector6<f64>| {
         for k in 3..6 {
             w[k] /= size;
@@ -296,27 +297,13 @@ fn equilibrium(
             .fixed_rows_mut::<6>(6 * row)
             .copy_from(&over_size(needed[*carrier]));
     }
-    let original = matrix.clone();
-    let svd = matrix.svd(true, true);
-    let mut solution = svd
-        .solve(&right_side, RANK_TOLERANCE)
-        .unwrap_or_else(|_| DVector::zeros(unknowns.len()));
-    let rest = &right_side - &original * &solution;
-    if let Ok(correction) = svd.solve(&rest, RANK_TOLERANCE) {
-        solution += correction;
-    }
-    let mut undetermined = vec![false; unknowns.len()];
-    if let Some(v_t) = &svd.v_t {
-        for (k, value) in svd.singular_values.iter().enumerate() {
-            if *value <= RANK_TOLERANCE {
-                for (flag, weight) in undetermined.iter_mut().zip(v_t.row(k).iter()) {
-                    *flag |= weight.abs() > RANK_TOLERANCE;
-                }
-            }
-        }
-    }
+    let first = Elimination::with_right_side(matrix.clone(), right_side.clone(), 0);
+    let rest = right_side - &matrix * &first.particular;
+    let correction = Elimination::with_right_side(matrix, rest, 0).particular;
+    let solution = first.particular + correction;
+    let undetermined = |k: usize| first.map.row(k).amax() > RANK_TOLERANCE;
     for (k, (joint, dof)) in unknowns.iter().enumerate() {
-        if undetermined[k] {
+        if undetermined(k) {
             forces[*joint] = None;
         } else if let Some(force) = &mut forces[*joint] {
             force[dof.index()] = solution[k] / scales[k];

@@ -2,10 +2,9 @@
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
+use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
-use crate::kinematics::{
-    Kinematics, RANK_TOLERANCE, analyse_at, characteristic_length, echelon, node_twist, null_space,
-};
+use crate::kinematics::{Kinematics, analyse_at, characteristic_length, echelon, node_twist};
 use crate::model::{Geometry, Model, NodeId};
 use crate::plan::{Plan, Workspace};
 use crate::solution::Motion;
@@ -141,12 +140,8 @@ fn split(
         return (motions.to_vec(), Vec::new());
     }
     let count = motions.len();
-    let mut matrix = DMatrix::zeros(count.max(6), count);
-    for (k, t) in twists.iter().enumerate() {
-        matrix.fixed_view_mut::<6, 1>(0, k).copy_from(t);
-    }
-    let (_, idle, _) = null_space(matrix);
-    let idle = echelon(idle);
+    let matrix = DMatrix::from_fn(6, count, |r, c| twists[c][r]);
+    let idle = echelon(Elimination::new(matrix, 0).null_space());
     // The motions that are no pivot of an idle combination move the output independently.
     let mut pivots = Vec::new();
     for combination in &idle {

@@ -10,8 +10,9 @@
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
 use crate::coordinates::read;
+use crate::elimination::Elimination;
 use crate::error::SolveError;
-use crate::kinematics::null_space;
+use crate::kinematics::echelon;
 use crate::model::{BodyId, Geometry, Model};
 use crate::numeric::{Fault, add_load, dot, evaluate, multiply, node_displacement};
 use crate::plan::{COLUMNS, Plan, Workspace};
@@ -441,14 +442,13 @@ impl Plan {
         let block = self.block(workspace, carrier);
         let reference = self.topology.carriers[carrier].reference;
         let shift = crate::coordinates::shift(geometry, reference, self.output);
-        let mut rows = DMatrix::zeros(self.columns[carrier].len().max(6), 6);
+        let mut rows = DMatrix::zeros(self.columns[carrier].len(), 6);
         for (k, &idc) in self.columns[carrier].iter().enumerate() {
             let (_, dof) = workspace.identities[idc];
             let twist = scaled(&(shift * read(block, 6 * k)), size) * scale_of(dof.index(), size);
             rows.row_mut(k).copy_from(&twist.transpose());
         }
-        let (_, forbidden, _) = null_space(rows);
-        let basis = crate::kinematics::echelon(forbidden);
+        let basis = echelon(Elimination::new(rows, 0).null_space());
         basis
             .iter()
             .map(|v| unscaled(&Vector6::from_column_slice(v.as_slice()), size))

@@ -16,8 +16,8 @@ use crate::model::{BodyKind, Geometry, JointId, Model, NodeId, SegmentId};
 /// A joint softer than this share of the beam's own stiffness keeps coordinates of its own:
 /// absorbed, its compliance would swallow the beam's digits.
 const SOFTEST_ABSORBED: f64 = 1e-8;
-/// Longest run of segments joined through absorbed joints.
-const LONGEST_CLUSTER: usize = 8;
+/// Most segments that absorbed joints join into one run.
+pub(crate) const LONGEST_CLUSTER: usize = 8;
 
 /// A carrier of six displacement coordinates, kept at `reference`.
 #[derive(Debug, Clone)]

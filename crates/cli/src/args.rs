@@ -1,0 +1,162 @@
+//! The command line: its commands, their options, and the help a stranger can work from.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
+/// displacements, wrenches and stresses, from a text file.
+#[derive(Debug, Parser)]
+#[command(name = "hyperstat", version, about, long_about = None, after_help = AFTER_HELP)]
+#[command(subcommand_required = true, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+const AFTER_HELP: &str = "\
+Examples:
+  hyperstat check portal.ron                 Does the file hold a mechanism that can be solved?
+  hyperstat solve portal.ron                 Solve it, print a report
+  hyperstat solve portal.ron --format json   The same, for a program to read
+  hyperstat run paper.ron --out results      Run every job of a batch file
+  hyperstat solve paper.ron --job delta --pose 12
+                                             One pose of a batch, in full
+
+`hyperstat solve --help` shows a mechanism file, `hyperstat run --help` a batch file.
+
+Units are SI throughout (m, N, rad, kg, s). Vectors are in the global frame, linear part first.
+
+Exit status:
+  0  done
+  1  a run finished in which some pose has no result
+  2  the input cannot be used
+  3  an output could not be written";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Solve one mechanism and print everything found
+    #[command(after_help = SOLVE_HELP)]
+    Solve(Solve),
+    /// Run every job of a batch file: one CSV file a job, and its figures
+    #[command(after_help = RUN_HELP)]
+    Run(Run),
+    /// Say what is wrong with a file; count mobility, over-constraint and idle motions
+    #[command(after_help = CHECK_HELP)]
+    Check(Check),
+}
+
+const SOLVE_HELP: &str = concat!(
+    "\
+The report holds the output's stiffness, compliance and displacement, the mechanism's mobility and
+over-constraint, the displacement of every node, the wrench in every joint (on the second body of
+`between`, at the joint, in the joint frame), and for every beam segment the forces at its ends
+(element frame) and its largest stresses (Circle and Tube sections).
+
+Examples:
+  hyperstat solve portal.ron
+  hyperstat solve portal.ron --format json > portal.json
+  hyperstat solve paper.ron --job delta --pose 12
+
+A mechanism file, a round bar held at one end:
+
+",
+    include_str!("../help/cantilever.ron")
+);
+
+const RUN_HELP: &str = concat!(
+    "\
+Writes DIR/<job>.csv, one line a pose in the order of the poses, with the columns
+  pose,x,y,z,rx,ry,rz,status,dx,dy,dz,drx,dry,drz,k11,k12,...,k16,k22,...,k66
+(pose of the output, its displacement, upper triangle of its stiffness), and the job's figures as
+DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no result:
+  unreachable    the mechanism cannot take this pose
+  singular       a part of the mechanism could take any of many places in this pose
+  unrestrained   something moves freely there, or a load works on a free motion
+  rigid          the output is rigidly held in some direction: it has no finite stiffness
+  failed         the numbers could not be found
+A pose without a result does not end the run; the exit status is then 1.
+A file is put in place when it is complete, never half written.
+
+Example:
+  hyperstat run paper.ron --out results
+
+A batch file, for the mechanism file of `hyperstat solve --help`:
+
+",
+    include_str!("../help/batch.ron")
+);
+
+const CHECK_HELP: &str = "\
+Ends with 2 exactly when `hyperstat solve` would.
+
+Examples:
+  hyperstat check portal.ron
+  hyperstat check paper.ron --job delta --pose 12";
+
+/// `hyperstat solve`
+#[derive(Debug, Args)]
+pub(crate) struct Solve {
+    #[command(flatten)]
+    pub(crate) input: Input,
+    /// Form of the report on standard output
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+/// `hyperstat run`
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    /// Batch file (RON)
+    #[arg(value_name = "BATCH.ron")]
+    pub(crate) file: PathBuf,
+    /// Folder for the results; made where it is missing
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+}
+
+/// `hyperstat check`
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) input: Input,
+    /// Form of the report on standard output
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
+
+/// What is to be solved or checked.
+#[derive(Debug, Args)]
+pub(crate) struct Input {
+    /// Mechanism file or batch file (RON)
+    #[arg(value_name = "FILE.ron")]
+    pub(crate) file: PathBuf,
+    /// Job of a batch file; may be left out where there is only one
+    #[arg(long, value_name = "NAME")]
+    pub(crate) job: Option<String>,
+    /// Pose of the job, counted from 0 [default: 0]
+    #[arg(long, value_name = "N")]
+    pub(crate) pose: Option<usize>,
+}
+
+/// Form of a report.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Tables to read
+    #[default]
+    Text,
+    /// JSON, numbers that read back to the same double
+    Json,
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::Cli;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

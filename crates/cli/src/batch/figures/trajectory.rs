@@ -1,0 +1,85 @@
+//! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
+
+use hyperstat_figures::{SecondMethod, TrajectoryFigure};
+use hyperstat_mechanisms::{Figure, Job, Scale};
+use rayon::prelude::*;
+
+use super::{SECOND, difference, figure_scale, linear};
+use crate::batch::row::Record;
+use crate::case::job_model;
+
+/// Most poses that a figure shows: more cannot be told apart, and the reference solver is slow.
+const MOST_POSES: usize = 1000;
+
+/// Positions and displacements of a job's output at evenly spaced poses that have a result.
+#[derive(Debug)]
+pub(crate) struct Trajectory {
+    /// Every so many poses one is shown: all of them where they are not too many.
+    stride: usize,
+    /// Number of poses seen.
+    seen: usize,
+    poses: Vec<usize>,
+    commanded: Vec<[f64; 3]>,
+    displacement: Vec<[f64; 3]>,
+}
+
+impl Trajectory {
+    /// An empty trajectory, where the job asks for a figure of it.
+    pub(crate) fn wanted_by(job: &Job) -> Option<Self> {
+        let is_trajectory = |figure: &Figure| matches!(figure, Figure::Trajectory { .. });
+        job.figures.iter().any(is_trajectory).then(|| Self {
+            stride: job.len().div_ceil(MOST_POSES),
+            seen: 0,
+            poses: Vec::new(),
+            commanded: Vec::new(),
+            displacement: Vec::new(),
+        })
+    }
+
+    /// Adds the next poses.
+    pub(crate) fn add(&mut self, records: &[Record]) {
+        for record in records {
+            match &record.result {
+                Ok(found) if self.seen.is_multiple_of(self.stride) => {
+                    let [x, y, z, ..] = record.pose;
+                    self.poses.push(self.seen);
+                    self.commanded.push([x, y, z]);
+                    self.displacement.push(linear(&found.displacement));
+                }
+                _ => {}
+            }
+            self.seen += 1;
+        }
+    }
+
+    /// Whether no pose has a result.
+    pub(super) fn is_empty(&self) -> bool {
+        self.poses.is_empty()
+    }
+
+    /// The figure of it, with the reference solver's points.
+    pub(super) fn figure(&self, job: &Job, scale: Scale) -> TrajectoryFigure {
+        TrajectoryFigure {
+            title: job.name.clone(),
+            commanded: self.commanded.clone(),
+            displacement: self.displacement.clone(),
+            second: self.second(job),
+            scale: figure_scale(scale),
+        }
+    }
+
+    /// The reference solver's displacements; `None` where it has no answer at some pose.
+    fn second(&self, job: &Job) -> Option<SecondMethod> {
+        let solve = |&pose: &usize| {
+            let model = job_model(job, pose).ok()?;
+            let solution = hyperstat_reference::solve(&model).ok()?;
+            Some(linear(&solution.displacement?))
+        };
+        let displacement: Vec<_> = self.poses.par_iter().map(solve).collect::<Option<_>>()?;
+        Some(SecondMethod {
+            name: SECOND.into(),
+            difference: difference(&self.displacement, &displacement),
+            displacement,
+        })
+    }
+}

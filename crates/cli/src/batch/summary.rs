@@ -1,0 +1,139 @@
+//! What `run` says about a job when it is done.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use hyperstat_mechanisms::Job;
+use nalgebra::Matrix6;
+
+use super::row::Record;
+use crate::report::{rows, stiffness_table};
+
+/// The outcome of a job.
+#[derive(Debug)]
+pub(crate) struct Summary {
+    job: String,
+    poses: usize,
+    failures: Vec<Failures>,
+    /// Of the last pose that has one; told where it is the only pose.
+    stiffness: Option<Matrix6<f64>>,
+    files: Vec<PathBuf>,
+    figures_left_out: Vec<String>,
+    largest_difference: Option<f64>,
+}
+
+/// The poses of one status.
+#[derive(Debug)]
+struct Failures {
+    status: &'static str,
+    count: usize,
+    first_pose: usize,
+    /// Why the first has no result.
+    why: String,
+}
+
+impl Summary {
+    /// The summary of a job of which no pose is solved yet.
+    pub(crate) fn new(job: &Job) -> Self {
+        Self {
+            job: job.name.clone(),
+            poses: 0,
+            failures: Vec::new(),
+            stiffness: None,
+            files: Vec::new(),
+            figures_left_out: Vec::new(),
+            largest_difference: None,
+        }
+    }
+
+    /// Counts the next poses.
+    pub(crate) fn add(&mut self, records: &[Record]) {
+        for record in records {
+            match &record.result {
+                Ok(found) => self.stiffness = Some(found.stiffness),
+                Err(failure) => {
+                    let status = failure.status();
+                    match self.failures.iter_mut().find(|f| f.status == status) {
+                        Some(failures) => failures.count += 1,
+                        None => self.failures.push(Failures {
+                            status,
+                            count: 1,
+                            first_pose: self.poses,
+                            why: failure.to_string(),
+                        }),
+                    }
+                }
+            }
+            self.poses += 1;
+        }
+    }
+
+    /// Notes a file that was written.
+    pub(crate) fn wrote(&mut self, path: PathBuf) {
+        self.files.push(path);
+    }
+
+    /// Notes a figure that could not be drawn because its poses have no result.
+    pub(crate) fn left_out(&mut self, figure: String) {
+        self.figures_left_out.push(figure);
+    }
+
+    /// Notes how far the reference solver's points of a figure are off, relative to the largest
+    /// displacement.
+    pub(crate) fn compared(&mut self, difference: f64) {
+        let largest = self.largest_difference.unwrap_or(0.0);
+        self.largest_difference = Some(largest.max(difference));
+    }
+
+    /// Whether every pose has a result.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.failures.is_empty()
+    }
+}
+
+impl fmt::Display for Summary {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let poses = match self.poses {
+            1 => "1 pose".to_string(),
+            count => format!("{count} poses"),
+        };
+        let failed: usize = self.failures.iter().map(|failures| failures.count).sum();
+        match failed {
+            0 => writeln!(f, "{}: {poses}, all solved", self.job)?,
+            _ => writeln!(f, "{}: {poses}, {failed} without a result", self.job)?,
+        }
+        for Failures {
+            status,
+            count,
+            first_pose,
+            why,
+        } in &self.failures
+        {
+            writeln!(
+                f,
+                "  {count} {status}, the first of them pose {first_pose}: {why}"
+            )?;
+        }
+        for path in &self.files {
+            writeln!(f, "  {}", path.display())?;
+        }
+        for figure in &self.figures_left_out {
+            writeln!(f, "  no {figure}: the poses it would show have no result")?;
+        }
+        if let Some(difference) = self.largest_difference {
+            writeln!(
+                f,
+                "  largest difference from the reference solver in the figures: {difference:.1e} \
+                 of the largest displacement"
+            )?;
+        }
+        if let (1, Some(stiffness)) = (self.poses, &self.stiffness) {
+            write!(
+                f,
+                "  stiffness of the output [N/m, N/rad; N, N·m/rad]\n{}",
+                stiffness_table(&rows(stiffness))
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,194 @@
+//! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
+
+use hyperstat_assembly::{BodyId, Model, Motion, Solution, SolveError};
+use hyperstat_joints::rigid_motion;
+use hyperstat_mechanisms::{Input, Job, Location, Mechanism, Registry};
+
+use crate::args;
+use crate::error::CliError;
+
+/// A mechanism in one configuration, ready to be solved.
+#[derive(Debug)]
+pub(crate) struct Case {
+    pub(crate) model: Model,
+    origin: Origin,
+}
+
+#[derive(Debug)]
+enum Origin {
+    Mechanism(Mechanism),
+    Job { job: Job, pose: usize },
+}
+
+impl Case {
+    /// Loads what the command line names.
+    pub(crate) fn load(input: &args::Input, registry: &Registry) -> Result<Self, CliError> {
+        match hyperstat_mechanisms::load(&input.file, registry)? {
+            Input::Mechanism(mechanism) => {
+                for (option, given) in [
+                    ("--job", input.job.is_some()),
+                    ("--pose", input.pose.is_some()),
+                ] {
+                    if given {
+                        let path = input.file.clone();
+                        return Err(CliError::NotABatch { option, path });
+                    }
+                }
+                Ok(Self {
+                    model: mechanism.model.clone(),
+                    origin: Origin::Mechanism(mechanism),
+                })
+            }
+            Input::Batch(batch) => {
+                let job = choose(batch.jobs, input)?;
+                Self::of_job(job, input.pose.unwrap_or(0))
+            }
+        }
+    }
+
+    fn of_job(job: Job, pose: usize) -> Result<Self, CliError> {
+        if pose >= job.len() {
+            return Err(CliError::NoSuchPose {
+                location: Box::new(job.location()),
+                count: job.len(),
+                job: job.name,
+                pose,
+            });
+        }
+        match job_model(&job, pose) {
+            Ok(model) => Ok(Self {
+                model,
+                origin: Origin::Job { job, pose },
+            }),
+            Err(source) => Err(CliError::Pose {
+                location: Box::new(job.location()),
+                job: job.name,
+                pose,
+                source,
+            }),
+        }
+    }
+
+    /// Job and pose that it is from.
+    pub(crate) fn job(&self) -> Option<(&str, usize)> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, pose } => Some((&job.name, *pose)),
+        }
+    }
+
+    /// Solves the mechanism. What is unrestrained is named, with its place in the file.
+    pub(crate) fn solve(&self) -> Result<Solution, CliError> {
+        hyperstat_assembly::solve(&self.model)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// The error that a solution means on the command line: an output that moves freely.
+    pub(crate) fn free_output(&self, solution: &Solution) -> Option<CliError> {
+        if solution.output.free_motions.is_empty() {
+            return None;
+        }
+        let model = &self.model;
+        let output = model.output()?;
+        let body = model.nodes()[output.0].body;
+        let origin = model.bodies()[body.0].nodes[0];
+        let positions = &model.geometry().positions;
+        // A motion is given by its twist at the body's first node.
+        let shift = rigid_motion(&(positions[origin.0] - positions[output.0]));
+        let in_words = |twist| {
+            let twists = vec![(body, shift * twist)];
+            Motion { twists }.describe(model)
+        };
+        Some(CliError::FreeOutput {
+            location: Box::new(self.source().output()),
+            output: model.node_name(output),
+            motions: solution.output.free_motions.iter().map(in_words).collect(),
+        })
+    }
+
+    fn source(&self) -> Source<'_> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Source::Mechanism(mechanism),
+            Origin::Job { job, .. } => Source::Job(job),
+        }
+    }
+}
+
+/// The model of a job at one of its poses.
+pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, hyperstat_mechanisms::PoseError> {
+    let mut model = job.model()?;
+    let mut geometry = model.geometry().clone();
+    job.place(pose, &mut geometry)?;
+    model.set_geometry(geometry);
+    Ok(model)
+}
+
+fn choose(mut jobs: Vec<Job>, input: &args::Input) -> Result<Job, CliError> {
+    let path = || input.file.clone();
+    let known: Vec<String> = jobs.iter().map(|job| job.name.clone()).collect();
+    let place = match &input.job {
+        Some(name) => {
+            known
+                .iter()
+                .position(|job| job == name)
+                .ok_or_else(|| CliError::UnknownJob {
+                    path: path(),
+                    job: name.clone(),
+                    known: known.clone(),
+                })?
+        }
+        None if jobs.len() == 1 => 0,
+        None => {
+            return Err(CliError::ChooseJob {
+                path: path(),
+                known,
+            });
+        }
+    };
+    Ok(jobs.swap_remove(place))
+}
+
+/// Where the parts of a model are written.
+pub(crate) enum Source<'a> {
+    /// In a mechanism file.
+    Mechanism(&'a Mechanism),
+    /// In a job's mechanism file, where it has one, else in the job itself.
+    Job(&'a Job),
+}
+
+impl Source<'_> {
+    /// The error of a model that has no solution, at the place that is to blame.
+    pub(crate) fn unsolvable(&self, model: &Model, error: SolveError) -> CliError {
+        let location = match &error {
+            SolveError::Unheld { bodies } => {
+                let body = bodies.first().and_then(|name| model.body(name));
+                body.map_or_else(|| self.output(), |body| self.body(body))
+            }
+            SolveError::LoadOnFreeMotion { load, .. } => self.load(*load),
+            _ => self.output(),
+        };
+        CliError::Unsolvable {
+            location: Box::new(location),
+            source: error,
+        }
+    }
+
+    fn body(&self, body: BodyId) -> Location {
+        self.at(|mechanism| mechanism.locate_body(body))
+    }
+
+    fn output(&self) -> Location {
+        self.at(Mechanism::locate_output)
+    }
+
+    fn load(&self, load: usize) -> Location {
+        self.at(|mechanism| mechanism.locate_load(load))
+    }
+
+    fn at(&self, locate: impl Fn(&Mechanism) -> Location) -> Location {
+        match self {
+            Self::Mechanism(mechanism) => locate(mechanism),
+            Self::Job(job) => job.mechanism().map_or_else(|| job.location(), locate),
+        }
+    }
+}

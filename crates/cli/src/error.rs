@@ -1,0 +1,158 @@
+//! Why a command ends without its result, and the exit status that says so.
+
+use std::io;
+use std::path::PathBuf;
+
+use hyperstat_assembly::SolveError;
+use hyperstat_figures::FigureError;
+use hyperstat_mechanisms::{LoadError, Location, PoseError};
+use thiserror::Error;
+
+use crate::report::Problem;
+
+/// A command that ends without its result.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub(crate) enum CliError {
+    /// A file that cannot be read or means nothing.
+    #[error("{}", load_message(.0))]
+    Load(#[from] LoadError),
+    /// `--job` or `--pose` with a mechanism file.
+    #[error("`{option}` chooses from a batch file; {} is a mechanism file", .path.display())]
+    NotABatch { option: &'static str, path: PathBuf },
+    /// A batch of several jobs without `--job`.
+    #[error("{} holds several jobs: choose one with `--job`", .path.display())]
+    ChooseJob { path: PathBuf, known: Vec<String> },
+    /// A `--job` that the batch does not hold.
+    #[error("{} holds no job `{job}`", .path.display())]
+    UnknownJob {
+        path: PathBuf,
+        job: String,
+        known: Vec<String>,
+    },
+    /// A pose that a job does not have.
+    #[error("job `{job}` has no pose {pose}: it has {}, counted from 0", poses(*.count))]
+    NoSuchPose {
+        location: Box<Location>,
+        job: String,
+        pose: usize,
+        count: usize,
+    },
+    /// A pose that the mechanism cannot take.
+    #[error("job `{job}`, pose {pose}: {source}")]
+    Pose {
+        location: Box<Location>,
+        job: String,
+        pose: usize,
+        source: PoseError,
+    },
+    /// A mechanism that has no solution.
+    #[error("{source}")]
+    Unsolvable {
+        location: Box<Location>,
+        source: SolveError,
+    },
+    /// An output that moves without energy.
+    #[error("the output `{output}` moves freely, drives locked: {}", .motions.join("; "))]
+    FreeOutput {
+        location: Box<Location>,
+        output: String,
+        motions: Vec<String>,
+    },
+    /// A result that could not be written.
+    #[error("cannot write {}: {source}", .path.display())]
+    Write { path: PathBuf, source: io::Error },
+    /// Standard output that could not be written.
+    #[error("cannot write to standard output: {0}")]
+    Print(#[source] io::Error),
+    /// A figure that could not be drawn.
+    #[error("cannot draw {}: {source}", .path.display())]
+    Figure { path: PathBuf, source: FigureError },
+}
+
+impl CliError {
+    /// The exit status: 2 for input that cannot be used, 3 for an output that cannot be written.
+    pub(crate) fn exit_status(&self) -> u8 {
+        match self {
+            Self::Write { .. } | Self::Print(_) | Self::Figure { .. } => 3,
+            _ => 2,
+        }
+    }
+
+    /// The place in the input that the error is about.
+    pub(crate) fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Load(error) => error.location(),
+            Self::NoSuchPose { location, .. }
+            | Self::Pose { location, .. }
+            | Self::Unsolvable { location, .. }
+            | Self::FreeOutput { location, .. } => Some(location),
+            _ => None,
+        }
+    }
+
+    /// What would be right.
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Load(error) => error.help().map(Into::into),
+            Self::NotABatch { option, .. } => Some(format!("leave `{option}` out")),
+            Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
+                Some(format!("its jobs are {}", known.join(", ")))
+            }
+            Self::NoSuchPose { count: 1, .. } => Some("leave `--pose` out".into()),
+            Self::NoSuchPose { count, .. } => {
+                Some(format!("choose `--pose` from 0 to {}", count - 1))
+            }
+            Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
+            Self::Unsolvable { .. } if self.is_free() => Some(HOLD.into()),
+            Self::FreeOutput { .. } => Some(HOLD.into()),
+            _ => None,
+        }
+    }
+
+    /// Whether the reader of standard output has closed it, as `head` does: nobody wants to be
+    /// told.
+    pub(crate) fn is_closed_pipe(&self) -> bool {
+        matches!(self, Self::Print(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+
+    /// The error as part of a JSON report.
+    pub(crate) fn problem(&self) -> Problem {
+        let location = self.location();
+        Problem {
+            message: self.to_string(),
+            help: self.help(),
+            path: location.map(|location| location.path.display().to_string()),
+            line: location.map(|location| location.line),
+            column: location.map(|location| location.column),
+        }
+    }
+
+    fn is_free(&self) -> bool {
+        matches!(
+            self,
+            Self::Unsolvable {
+                source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
+                ..
+            }
+        )
+    }
+}
+
+const HOLD: &str = "lock a drive (`locked: true`), give a joint `stiffness`, or add the joint that \
+                    is missing";
+
+/// The message, without the place where there is one to show.
+fn load_message(error: &LoadError) -> String {
+    match error {
+        LoadError::At { message, .. } => message.clone(),
+        other => other.to_string(),
+    }
+}
+
+fn poses(count: usize) -> String {
+    match count {
+        1 => "1 pose".into(),
+        _ => format!("{count} poses"),
+    }
+}

@@ -1,0 +1,106 @@
+#![doc = include_str!("../README.md")]
+
+mod args;
+mod atomic;
+mod batch;
+mod case;
+mod diagnostic;
+mod error;
+mod report;
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::Parser;
+use hyperstat_mechanisms::Registry;
+
+use args::{Cli, Command, Format};
+use case::Case;
+use error::CliError;
+use report::{CheckReport, SolveReport, json};
+
+/// Runs the command line `args` (the program's name first) with the kinds of joints in
+/// `registry`: a binary with joints of its own registers them and calls this.
+///
+/// Results go to standard output, errors to standard error. The exit status is 0 where all is
+/// done, 1 where a run finished in which some pose has no result, 2 where the input cannot be
+/// used (the command line itself too), 3 where an output could not be written.
+pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
+    let cli = match Cli::try_parse_from(args) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // `--help` and `--version` come here too: they go to standard output and end with 0.
+            let printed = error.print();
+            let status = if error.use_stderr() { 2 } else { 0 };
+            return ExitCode::from(if printed.is_err() && status == 0 {
+                3
+            } else {
+                status
+            });
+        }
+    };
+    let outcome = match &cli.command {
+        Command::Solve(args) => solve(args, registry),
+        Command::Check(args) => check(args, registry),
+        Command::Run(args) => batch::run(args, registry, print),
+    };
+    match outcome {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(1),
+        Err(error) => {
+            if !error.is_closed_pipe() {
+                // Nothing is left to be told where standard error is closed.
+                let _ = io::stderr().write_all(diagnostic::render(&error).as_bytes());
+            }
+            ExitCode::from(error.exit_status())
+        }
+    }
+}
+
+/// `hyperstat solve`
+fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
+    let case = Case::load(&args.input, registry)?;
+    let solution = case.solve()?;
+    let report = SolveReport::new(&case, &solution);
+    print(&match args.format {
+        Format::Text => report.text(),
+        Format::Json => json(&report)?,
+    })?;
+    // What was found is right and is told all the same.
+    case.free_output(&solution).map_or(Ok(true), Err)
+}
+
+/// `hyperstat check`
+fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
+    let case = match Case::load(&args.input, registry) {
+        Ok(case) => case,
+        Err(error) => {
+            if args.format == Format::Json {
+                print(&json(&CheckReport::unreadable(&error))?)?;
+            }
+            return Err(error);
+        }
+    };
+    let kinematics = hyperstat_assembly::analyse(&case.model);
+    let (solution, error) = match case.solve() {
+        Ok(solution) => {
+            let error = case.free_output(&solution);
+            (Some(solution), error)
+        }
+        Err(error) => (None, Some(error)),
+    };
+    let report = CheckReport::new(&case, &kinematics, solution.as_ref(), error.as_ref());
+    print(&match args.format {
+        Format::Text => report.text(),
+        Format::Json => json(&report)?,
+    })?;
+    error.map_or(Ok(true), Err)
+}
+
+fn print(text: &str) -> Result<(), CliError> {
+    let mut out = io::stdout().lock();
+    out.write_all(text.as_bytes())
+        .and_then(|()| out.flush())
+        .map_err(CliError::Print)
+}

@@ -1,0 +1,125 @@
+//! The report of `hyperstat check`.
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Kinematics, Solution};
+use serde::Serialize;
+
+use super::{list, solve::in_words, warning_in_words};
+use crate::case::Case;
+use crate::error::CliError;
+
+/// What the check of a file found. Field names are those of the JSON output.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct CheckReport {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    job: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose: Option<usize>,
+    /// Whether `solve` would end with 0.
+    solvable: bool,
+    unknowns: Option<usize>,
+    mobility: Option<usize>,
+    overconstraint: Option<usize>,
+    idle_modes: Option<usize>,
+    idle_motions: Vec<String>,
+    /// All motions that nothing resists, where there is no solution that names the idle ones.
+    free_motions: Vec<String>,
+    undetermined: Vec<String>,
+    warnings: Vec<String>,
+    problem: Option<Problem>,
+}
+
+/// Why a file cannot be solved, and where it says so.
+#[derive(Debug, Serialize)]
+pub(crate) struct Problem {
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
+    pub(crate) path: Option<String>,
+    pub(crate) line: Option<usize>,
+    pub(crate) column: Option<usize>,
+}
+
+impl CheckReport {
+    /// The report on a file that cannot be read as a mechanism.
+    pub(crate) fn unreadable(error: &CliError) -> Self {
+        Self {
+            problem: Some(error.problem()),
+            ..Self::default()
+        }
+    }
+
+    /// The report on a mechanism: its counts, what its solution adds, and what is wrong with it.
+    pub(crate) fn new(
+        case: &Case,
+        kinematics: &Kinematics,
+        solution: Option<&Solution>,
+        error: Option<&CliError>,
+    ) -> Self {
+        let model = &case.model;
+        let mut report = Self {
+            name: Some(model.name.clone()),
+            job: case.job().map(|(job, _)| job.into()),
+            pose: case.job().map(|(_, pose)| pose),
+            solvable: error.is_none(),
+            mobility: Some(kinematics.mobility),
+            overconstraint: Some(kinematics.overconstraint),
+            problem: error.map(CliError::problem),
+            ..Self::default()
+        };
+        if solution.is_none() {
+            report.free_motions = in_words(&kinematics.motions, model);
+        }
+        if let Some(solution) = solution {
+            report.unknowns = Some(solution.unknowns);
+            report.idle_modes = Some(solution.idle.len());
+            report.idle_motions = in_words(&solution.idle, model);
+            report.undetermined = solution
+                .undetermined()
+                .iter()
+                .map(|joint| model.joints()[joint.0].name.clone())
+                .collect();
+            report.warnings = solution.warnings.iter().map(warning_in_words).collect();
+        }
+        report
+    }
+
+    /// The report as text. What is wrong is not in it: that goes to standard error.
+    pub(crate) fn text(&self) -> String {
+        let mut text = self.name.clone().unwrap_or_default();
+        if let (Some(job), Some(pose)) = (&self.job, self.pose) {
+            // Writing to a String cannot fail.
+            let _ = write!(text, " (job {job}, pose {pose})");
+        }
+        text += "\n\n";
+        let counts = [
+            ("mobility", self.mobility),
+            ("over-constraint", self.overconstraint),
+            ("unknowns", self.unknowns),
+            ("idle motions", self.idle_modes),
+        ];
+        for (name, count) in counts {
+            if let Some(count) = count {
+                let _ = writeln!(text, "  {name:<15}  {count}");
+            }
+        }
+        list(&mut text, "Warnings", &self.warnings);
+        list(&mut text, "Idle motions", &self.idle_motions);
+        list(
+            &mut text,
+            "Motions that nothing resists, drives locked",
+            &self.free_motions,
+        );
+        list(
+            &mut text,
+            "Joints whose wrenches redundant rigid constraints leave undetermined",
+            &self.undetermined,
+        );
+        if self.solvable {
+            text += "\nThe mechanism can be solved.\n";
+        }
+        text
+    }
+}

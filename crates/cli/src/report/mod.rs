@@ -1,0 +1,115 @@
+//! What `solve` and `check` print: plain data that JSON and the tables are both made from.
+
+mod check;
+mod solve;
+mod table;
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::Warning;
+use nalgebra::{Matrix6, Vector6};
+use serde::{Serialize, Serializer};
+
+use crate::error::CliError;
+pub(crate) use check::{CheckReport, Problem};
+pub(crate) use solve::SolveReport;
+pub(crate) use table::{Table, number};
+
+/// Components of a displacement, as table heads.
+const DISPLACEMENT: [&str; 6] = ["Δx", "Δy", "Δz", "φx", "φy", "φz"];
+/// Components of a wrench, as table heads.
+const WRENCH: [&str; 6] = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
+
+/// A map whose entries keep their order (that of the file) in JSON.
+#[derive(Debug)]
+pub(crate) struct Entries<T>(Vec<(String, T)>);
+
+impl<T> FromIterator<(String, T)> for Entries<T> {
+    fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
+        Self(entries.into_iter().collect())
+    }
+}
+
+impl<T: Serialize> Serialize for Entries<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+/// Report `value` as JSON. Numbers read back to the same double.
+pub(crate) fn json(value: &impl Serialize) -> Result<String, CliError> {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => Ok(text + "\n"),
+        Err(error) => Err(CliError::Print(error.into())),
+    }
+}
+
+/// A 6×6 matrix by rows.
+type Rows = [[f64; 6]; 6];
+
+/// The rows of a matrix.
+pub(crate) fn rows(matrix: &Matrix6<f64>) -> Rows {
+    std::array::from_fn(|r| std::array::from_fn(|c| matrix[(r, c)]))
+}
+
+fn numbers(vector: &Vector6<f64>) -> [f64; 6] {
+    (*vector).into()
+}
+
+/// Table heads: `names`, then the six components.
+fn heads<'a>(names: &[&'a str], components: [&'a str; 6]) -> Vec<&'a str> {
+    names.iter().copied().chain(components).collect()
+}
+
+/// A 6×6 matrix as a table. What is rounding beside its diagonal entries is shown as 0.
+fn matrix_table(row_names: [&str; 6], column_names: [&str; 6], matrix: &Rows) -> Table {
+    let mut table = Table::new(1, &heads(&[""], column_names));
+    for (r, name) in row_names.iter().enumerate() {
+        let shown = |c: usize| {
+            let scale = (matrix[r][r] * matrix[c][c]).abs().sqrt();
+            let entry = matrix[r][c];
+            if entry.abs() < ROUNDING * scale {
+                0.0
+            } else {
+                entry
+            }
+        };
+        table.row(&[name], (0..6).map(shown));
+    }
+    table
+}
+
+/// Entries of a matrix below this share of √(K_ii K_jj) are rounding.
+const ROUNDING: f64 = 1e-14;
+
+/// A stiffness matrix as a table: each column the wrench of a unit displacement.
+pub(crate) fn stiffness_table(stiffness: &Rows) -> Table {
+    matrix_table(WRENCH, DISPLACEMENT, stiffness)
+}
+
+/// A heading and what stands under it, with an empty line before.
+fn section(text: &mut String, heading: &str, body: impl std::fmt::Display) {
+    // Writing to a String cannot fail.
+    let _ = write!(text, "\n{heading}\n{body}");
+}
+
+/// A heading and a list under it; nothing where the list is empty.
+fn list(text: &mut String, heading: &str, items: &[String]) {
+    if !items.is_empty() {
+        let body: String = items.iter().map(|item| format!("  - {item}\n")).collect();
+        section(text, heading, body);
+    }
+}
+
+fn warning_in_words(warning: &Warning) -> String {
+    match warning {
+        Warning::NearSingular { value } => format!(
+            "a singular value of {value:.1e} lies between zero and not zero: the counts may be \
+             those of a neighbouring geometry; give the coordinates with more digits"
+        ),
+        Warning::LostDigits { residual } => {
+            format!("digits are lost: the relative residual is {residual:.1e}")
+        }
+        other => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,301 @@
+//! The report of `hyperstat solve`.
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Model, Motion, Segment, SegmentForces, Solution};
+use hyperstat_elements::stress::section_stress;
+use nalgebra::Vector6;
+use serde::Serialize;
+
+use super::{
+    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, rows, section,
+    stiffness_table, warning_in_words,
+};
+use crate::case::Case;
+
+/// Everything that one solve found. Field names are those of the JSON output.
+#[derive(Debug, Serialize)]
+pub(crate) struct SolveReport {
+    name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    job: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pose: Option<usize>,
+    unknowns: usize,
+    mobility: usize,
+    overconstraint: usize,
+    idle_modes: usize,
+    idle_motions: Vec<String>,
+    output: OutputReport,
+    displacements: Entries<[f64; 6]>,
+    joints: Entries<JointReport>,
+    undetermined: Vec<String>,
+    segments: Vec<SegmentReport>,
+    warnings: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct OutputReport {
+    node: String,
+    position: [f64; 3],
+    stiffness: Option<Rows>,
+    compliance: Option<Rows>,
+    displacement: [f64; 6],
+    rigid_directions: Vec<[f64; 6]>,
+    free_motions: Vec<[f64; 6]>,
+}
+
+#[derive(Debug, Serialize)]
+struct JointReport {
+    /// On the second body of `between`, at the joint, in the joint frame.
+    wrench: Option<[f64; 6]>,
+}
+
+#[derive(Debug, Serialize)]
+struct SegmentReport {
+    body: String,
+    /// Names of the points at its first and second node.
+    points: [String; 2],
+    length: f64,
+    /// Local x, y and z in global axes.
+    axes: [[f64; 3]; 3],
+    /// Wrench on the segment at its first and second node, in the element frame.
+    end_forces: [[f64; 6]; 2],
+    stress: Option<StressReport>,
+}
+
+/// Largest stresses over the segment [Pa].
+#[derive(Debug, Serialize)]
+struct StressReport {
+    normal: f64,
+    shear: f64,
+    von_mises: f64,
+}
+
+impl SolveReport {
+    /// Collects what is to be reported of a solution.
+    pub(crate) fn new(case: &Case, solution: &Solution) -> Self {
+        let model = &case.model;
+        let nodes = 0..model.nodes().len();
+        let joints = model.joints().iter().zip(&solution.joint_wrenches);
+        let segments = model.segments().iter().zip(&solution.segments);
+        Self {
+            name: model.name.clone(),
+            job: case.job().map(|(job, _)| job.into()),
+            pose: case.job().map(|(_, pose)| pose),
+            unknowns: solution.unknowns,
+            mobility: solution.mobility,
+            overconstraint: solution.overconstraint,
+            idle_modes: solution.idle.len(),
+            idle_motions: in_words(&solution.idle, model),
+            output: OutputReport::new(model, solution),
+            displacements: nodes
+                .map(hyperstat_assembly::NodeId)
+                .map(|node| (model.node_name(node), &solution.displacements[node.0]))
+                .map(|(name, displacement)| (name, numbers(displacement)))
+                .collect(),
+            joints: joints
+                .map(|(joint, wrench)| {
+                    let wrench = wrench.as_ref().map(numbers);
+                    (joint.name.clone(), JointReport { wrench })
+                })
+                .collect(),
+            undetermined: solution
+                .undetermined()
+                .iter()
+                .map(|joint| model.joints()[joint.0].name.clone())
+                .collect(),
+            segments: segments
+                .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
+                .collect(),
+            warnings: solution.warnings.iter().map(warning_in_words).collect(),
+        }
+    }
+
+    /// The report as tables.
+    pub(crate) fn text(&self) -> String {
+        let mut text = String::new();
+        let title = match (&self.job, self.pose) {
+            (Some(job), Some(pose)) => format!("{} (job {job}, pose {pose})", self.name),
+            _ => self.name.clone(),
+        };
+        // Writing to a String cannot fail.
+        let _ = write!(
+            text,
+            "{title}\n\n  mobility         {}\n  over-constraint  {}\n  unknowns         {}\n  \
+             idle motions     {}\n",
+            self.mobility, self.overconstraint, self.unknowns, self.idle_modes
+        );
+        list(&mut text, "Warnings", &self.warnings);
+        list(
+            &mut text,
+            "Idle motions (the displacements of these bodies are defined only up to them)",
+            &self.idle_motions,
+        );
+        self.output.write(&mut text);
+
+        let mut table = Table::new(1, &heads(&["node"], DISPLACEMENT));
+        for (name, displacement) in &self.displacements.0 {
+            table.row(&[name], *displacement);
+        }
+        section(&mut text, "Displacements [m, rad]", table);
+
+        self.write_joints(&mut text);
+        self.write_segments(&mut text);
+        text
+    }
+
+    fn write_joints(&self, text: &mut String) {
+        if self.joints.0.is_empty() {
+            return;
+        }
+        let mut table = Table::new(1, &heads(&["joint"], WRENCH));
+        for (name, joint) in &self.joints.0 {
+            match joint.wrench {
+                Some(wrench) => table.row(&[name], wrench),
+                None => table.remark(&[name], "not determined by statics"),
+            }
+        }
+        section(
+            text,
+            "Joint wrenches, on the second body, at the joint, in the joint frame [N, N·m]",
+            table,
+        );
+        if !self.undetermined.is_empty() {
+            *text += "  Redundant rigid constraints leave the wrenches that are not determined \
+                      open:\n  any of many solutions balances the loads. Make a body or a joint \
+                      elastic to find them.\n";
+        }
+    }
+
+    fn write_segments(&self, text: &mut String) {
+        if self.segments.is_empty() {
+            return;
+        }
+        let mut forces = Table::new(3, &heads(&["body", "segment", "at"], WRENCH));
+        let mut stresses = Table::new(2, &["body", "segment", "normal", "shear", "von Mises"]);
+        for segment in &self.segments {
+            let name = segment.points.join("-");
+            for (point, wrench) in segment.points.iter().zip(segment.end_forces) {
+                forces.row(&[&segment.body, &name, point], wrench);
+            }
+            match &segment.stress {
+                Some(stress) => stresses.row(
+                    &[&segment.body, &name],
+                    [stress.normal, stress.shear, stress.von_mises],
+                ),
+                None => stresses.remark(&[&segment.body, &name], "not found for this section"),
+            }
+        }
+        section(
+            text,
+            "Forces on the ends of segments, in the element frame [N, N·m]",
+            forces,
+        );
+        section(text, "Largest stresses of segments [Pa]", stresses);
+    }
+}
+
+impl OutputReport {
+    fn new(model: &Model, solution: &Solution) -> Self {
+        let output = &solution.output;
+        let (node, position) = match model.output() {
+            Some(node) => (
+                model.node_name(node),
+                model.geometry().positions[node.0].into(),
+            ),
+            None => (String::new(), [0.0; 3]),
+        };
+        Self {
+            node,
+            position,
+            stiffness: output.stiffness.as_ref().map(rows),
+            compliance: output.compliance.as_ref().map(rows),
+            displacement: numbers(&output.displacement),
+            rigid_directions: output.rigid_directions.iter().map(numbers).collect(),
+            free_motions: output.free_motions.iter().map(numbers).collect(),
+        }
+    }
+
+    fn write(&self, text: &mut String) {
+        let [x, y, z] = self.position.map(super::number);
+        let mut table = Table::new(0, &DISPLACEMENT);
+        table.row(&[], self.displacement);
+        section(
+            text,
+            &format!(
+                "Output {} at ({x}, {y}, {z}) m: displacement [m, rad]",
+                self.node
+            ),
+            table,
+        );
+        match &self.stiffness {
+            Some(stiffness) => section(
+                text,
+                "Stiffness of the output [N/m, N/rad; N, N·m/rad]",
+                stiffness_table(stiffness),
+            ),
+            None => section(
+                text,
+                "Stiffness of the output: none that is finite, it is held rigidly in these directions",
+                twists(&self.rigid_directions),
+            ),
+        }
+        match &self.compliance {
+            Some(compliance) => section(
+                text,
+                "Compliance of the output [m/N, 1/N; rad/N, rad/(N·m)]",
+                matrix_table(DISPLACEMENT, WRENCH, compliance),
+            ),
+            None => section(
+                text,
+                "Compliance of the output: none that is finite, it moves freely in these directions",
+                twists(&self.free_motions),
+            ),
+        }
+    }
+}
+
+impl SegmentReport {
+    fn new(model: &Model, segment: &Segment, forces: &SegmentForces) -> Self {
+        let frame = forces.frame.matrix();
+        Self {
+            body: model.bodies()[segment.body.0].name.clone(),
+            points: segment.ends.map(|node| model.nodes()[node.0].point.clone()),
+            length: forces.length,
+            axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
+            end_forces: forces.ends.each_ref().map(numbers),
+            stress: StressReport::new(segment, &forces.ends),
+        }
+    }
+}
+
+impl StressReport {
+    /// The largest stresses lie at an end: between the ends no load acts, so that moments are
+    /// linear, and all three stresses are convex in the section's wrench.
+    fn new(segment: &Segment, ends: &[Vector6<f64>; 2]) -> Option<Self> {
+        let first = section_stress(&segment.section, &-ends[0])?;
+        let second = section_stress(&segment.section, &ends[1])?;
+        Some(Self {
+            normal: first.normal.max(second.normal),
+            shear: first.shear.max(second.shear),
+            von_mises: first.von_mises.max(second.von_mises),
+        })
+    }
+}
+
+/// Motions in words.
+pub(super) fn in_words(motions: &[Motion], model: &Model) -> Vec<String> {
+    motions
+        .iter()
+        .map(|motion| motion.describe(model))
+        .collect()
+}
+
+fn twists(twists: &[[f64; 6]]) -> Table {
+    let mut table = Table::new(0, &DISPLACEMENT);
+    for twist in twists {
+        table.row(&[], *twist);
+    }
+    table
+}

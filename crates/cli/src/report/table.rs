@@ -1,0 +1,116 @@
+//! Tables of text: names to the left, numbers to the right, columns as wide as they need.
+
+use std::fmt;
+
+/// A table; every row has as many cells as the header.
+#[derive(Debug)]
+pub(crate) struct Table {
+    /// Number of leading columns of names, aligned to the left.
+    names: usize,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with the given column heads, of which the first `names` are over names.
+    pub(crate) fn new(names: usize, heads: &[&str]) -> Self {
+        let heads = heads.iter().map(|head| (*head).to_string()).collect();
+        Self {
+            names,
+            rows: vec![heads],
+        }
+    }
+
+    /// Adds a row of names followed by numbers.
+    pub(crate) fn row(&mut self, names: &[&str], numbers: impl IntoIterator<Item = f64>) {
+        let names = names.iter().map(|name| (*name).to_string());
+        self.rows
+            .push(names.chain(numbers.into_iter().map(number)).collect());
+    }
+
+    /// Adds a row of names followed by a remark in place of the numbers.
+    pub(crate) fn remark(&mut self, names: &[&str], remark: &str) {
+        let names = names.iter().map(|name| (*name).to_string());
+        self.rows.push(names.chain([remark.to_string()]).collect());
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut widths = vec![0; self.rows[0].len()];
+        for row in &self.rows {
+            // A remark runs over the columns behind it.
+            let counted = if row.len() < widths.len() {
+                self.names
+            } else {
+                row.len()
+            };
+            for (width, cell) in widths.iter_mut().zip(&row[..counted]) {
+                *width = (*width).max(cell.chars().count());
+            }
+        }
+        for row in &self.rows {
+            let remark = row.len() < widths.len();
+            let mut line = String::new();
+            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+                if column < self.names {
+                    line += &format!("  {cell:<width$}");
+                } else if remark {
+                    line += &format!("  {cell}");
+                } else {
+                    line += &format!("  {cell:>width$}");
+                }
+            }
+            writeln!(f, "{}", line.trim_end())?;
+        }
+        Ok(())
+    }
+}
+
+/// A number of six digits, as an engineer reads it.
+pub(crate) fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    if (1e-2..1e5).contains(&value.abs()) {
+        let digits = 5 - value.abs().log10().floor() as i32;
+        return format!("{value:.*}", digits.max(0) as usize);
+    }
+    format!("{value:.5e}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Table, number};
+
+    #[test]
+    fn numbers_have_six_digits() {
+        let cases = [
+            (0.0, "0"),
+            (1.0, "1.00000"),
+            (-12.345_678_9, "-12.3457"),
+            (0.05, "0.0500000"),
+            (99_999.4, "99999.4"),
+            (123_456_789.0, "1.23457e8"),
+            (-1.5e-7, "-1.50000e-7"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn columns_line_up() {
+        let mut table = Table::new(1, &["node", "x", "y"]);
+        table.row(&["a"], [1.0, -2.5e9]);
+        table.row(&["platform.P"], [0.0, 3.0]);
+        table.remark(&["b"], "not determined");
+        let lines = [
+            "  node              x           y",
+            "  a           1.00000  -2.50000e9",
+            "  platform.P        0     3.00000",
+            "  b           not determined",
+            "",
+        ];
+        assert_eq!(table.to_string(), lines.join("\n"));
+    }
+}

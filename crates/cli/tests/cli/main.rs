@@ -1,0 +1,8 @@
+//! The binary as a user meets it: files in, reports, files and exit statuses out.
+
+mod check;
+mod help;
+mod messages;
+mod run;
+mod solve;
+mod support;

@@ -1,0 +1,197 @@
+//! The undeformed and the deformed mechanism (the paper's Fig. 9).
+
+mod drawing;
+
+use crate::checks::{self, Displaced};
+use crate::error::FigureError;
+use crate::geometry::{Bounds, length};
+use crate::page::{self, Page, Sample};
+use crate::scale::{Scale, largest};
+use crate::{numbers, png, style};
+use drawing::{AXIS_LENGTH, Drawing, Part};
+
+/// A mechanism as it was built and as it is under load, with the deflection magnified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeformedFigure {
+    /// Title of the figure.
+    pub title: String,
+    /// The elastic links.
+    pub curves: Vec<Curve>,
+    /// The rigid bodies.
+    pub rigid: Vec<RigidBody>,
+    /// The axes of the joints, drawn where they are without load.
+    pub axes: Vec<Axis>,
+    /// Points that are held to the ground, without load \[m, global axes\].
+    pub ground: Vec<[f64; 3]>,
+    /// Displacements of some points by a second method, to compare with.
+    pub second: Option<SecondPoints>,
+    /// Magnification of the displacements.
+    pub scale: Scale,
+}
+
+/// A link as its elastic curve, sampled from one end to the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Points of the link without load, one or more \[m, global axes\].
+    pub points: Vec<[f64; 3]>,
+    /// The displacement of each \[m, global axes\].
+    pub displacement: Vec<[f64; 3]>,
+}
+
+/// A rigid body by the points where others meet it.
+///
+/// It is drawn as the convex outline of its points with a spoke to each from their mean.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidBody {
+    /// Points of the body without load, one or more \[m, global axes\].
+    pub points: Vec<[f64; 3]>,
+    /// The displacement of each \[m, global axes\].
+    pub displacement: Vec<[f64; 3]>,
+}
+
+/// An axis of a joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Axis {
+    /// A point on the axis, in the middle of what is drawn of it \[m, global axes\].
+    pub at: [f64; 3],
+    /// Its direction, global axes; of any length but zero.
+    pub direction: [f64; 3],
+}
+
+/// Displacements of points of a mechanism by a second method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondPoints {
+    /// Name of the method, as in `reference solver`.
+    pub name: String,
+    /// Points without load \[m, global axes\].
+    pub points: Vec<[f64; 3]>,
+    /// The displacement of each \[m, global axes\].
+    pub displacement: Vec<[f64; 3]>,
+    /// The largest difference between the methods, relative to the largest displacement.
+    pub difference: f64,
+}
+
+impl DeformedFigure {
+    /// The figure as an SVG document.
+    ///
+    /// # Errors
+    ///
+    /// A [`FigureError`] for a mechanism without links and rigid bodies, lists that are empty or
+    /// of unequal lengths, numbers that are not finite or too large to draw, an axis without
+    /// direction, and a magnification that is not above zero.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        let curves = self.curves.iter().enumerate().map(|(k, curve)| {
+            Displaced::new(format!("curve {k}"), &curve.points, &curve.displacement)
+        });
+        let curves = curves.collect::<Result<Vec<_>, _>>()?;
+        let rigid = self.rigid.iter().enumerate().map(|(k, body)| {
+            Displaced::new(format!("rigid body {k}"), &body.points, &body.displacement)
+        });
+        let rigid = rigid.collect::<Result<Vec<_>, _>>()?;
+        let mechanism = || curves.iter().chain(&rigid);
+        if mechanism().next().is_none() {
+            return Err(FigureError::NoPoints {
+                what: "mechanism".into(),
+            });
+        }
+        checks::drawable("ground", &self.ground)?;
+
+        let points = || mechanism().flat_map(|part| part.points);
+        let displacements = || mechanism().flat_map(|part| part.displacement);
+        let factor = self.scale.factor(points(), displacements())?;
+        let size = Bounds::around(points().copied()).diagonal();
+
+        let drawing = Drawing {
+            curves: parts(&curves, factor)?,
+            rigid: parts(&rigid, factor)?,
+            axes: self.axis_lines(AXIS_LENGTH * size)?,
+            ground: &self.ground,
+            second: self.second_moved(factor)?,
+        };
+        let page = Page {
+            title: &self.title,
+            subtitle: format!(
+                "Undeformed and deformed mechanism, deflection × {}",
+                numbers::number(factor)
+            ),
+            legend: self.legend(factor),
+            captions: page::captions(
+                largest(displacements()),
+                self.second.as_ref().map(|second| second.difference),
+            ),
+            bounds: Bounds::around(drawing.points()),
+        };
+        page.svg(|canvas, view| drawing.draw(canvas, view))
+    }
+
+    /// The figure as a PNG file.
+    ///
+    /// # Errors
+    ///
+    /// As [`svg`](Self::svg).
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        png::render(&self.svg()?)
+    }
+
+    /// What is drawn of the joint axes: lines of this length \[m\].
+    fn axis_lines(&self, drawn: f64) -> Result<Vec<[[f64; 3]; 2]>, FigureError> {
+        let places: Vec<_> = self.axes.iter().map(|axis| axis.at).collect();
+        let directions: Vec<_> = self.axes.iter().map(|axis| axis.direction).collect();
+        checks::drawable("joint axes", &places)?;
+        checks::drawable("joint axes, directions", &directions)?;
+        let lines = self.axes.iter().enumerate().map(|(index, axis)| {
+            let norm = length(axis.direction);
+            if norm == 0.0 {
+                return Err(FigureError::ZeroAxis { index });
+            }
+            Ok([-0.5, 0.5].map(|side| {
+                let along = |k: usize| side * drawn * (axis.direction[k] / norm);
+                std::array::from_fn(|k| axis.at[k] + along(k))
+            }))
+        });
+        lines.collect()
+    }
+
+    fn second_moved(&self, factor: f64) -> Result<Vec<[f64; 3]>, FigureError> {
+        let Some(second) = &self.second else {
+            return Ok(Vec::new());
+        };
+        checks::difference(&second.name, second.difference)?;
+        Displaced::new(&*second.name, &second.points, &second.displacement)?.moved(factor)
+    }
+
+    fn legend(&self, factor: f64) -> Vec<(Sample, String)> {
+        let deformed = format!("deformed, × {}", numbers::number(factor));
+        let mut legend = vec![
+            (Sample::Line(style::UNDEFORMED), "undeformed".to_string()),
+            (Sample::Line(style::DEFORMED), deformed),
+        ];
+        let others = [
+            (Sample::Body, "rigid body", self.rigid.is_empty()),
+            (
+                Sample::Line(style::JOINT_AXIS),
+                "joint axis",
+                self.axes.is_empty(),
+            ),
+            (Sample::Ground, "ground", self.ground.is_empty()),
+        ];
+        let others = others.into_iter().filter(|(_, _, missing)| !missing);
+        legend.extend(others.map(|(sample, label, _)| (sample, label.to_string())));
+        legend.extend(
+            self.second
+                .iter()
+                .map(|second| (Sample::Second, second.name.clone())),
+        );
+        legend
+    }
+}
+
+fn parts<'a>(displaced: &[Displaced<'a>], factor: f64) -> Result<Vec<Part<'a>>, FigureError> {
+    let part = |part: &Displaced<'a>| {
+        Ok(Part {
+            undeformed: part.points,
+            deformed: part.moved(factor)?,
+        })
+    };
+    displaced.iter().map(part).collect()
+}

@@ -1,0 +1,80 @@
+//! Why a figure cannot be drawn.
+
+use std::error::Error as StdError;
+
+use thiserror::Error;
+
+/// A figure that cannot be drawn from the data given.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// A list without points.
+    #[error("{what}: there is no point to draw")]
+    NoPoints {
+        /// Which list, such as `commanded trajectory` or `curve 3`.
+        what: String,
+    },
+    /// A list of points with a list of displacements of another length.
+    #[error("{what}: {displacements} displacements for {points} points, one each is needed")]
+    LengthMismatch {
+        /// Which list.
+        what: String,
+        /// Number of points.
+        points: usize,
+        /// Number of displacements.
+        displacements: usize,
+    },
+    /// A NaN or an infinity.
+    #[error("{what}: entry {index} is ({}), not three finite numbers", numbers(.value))]
+    NotFinite {
+        /// Which list.
+        what: String,
+        /// Its entry, counted from 0.
+        index: usize,
+        /// The entry as given.
+        value: [f64; 3],
+    },
+    /// A point, as given or with its displacement magnified, beyond what can be drawn.
+    #[error("{what}: entry {index} is at ({}) m, beyond {limit:e} m", numbers(.position))]
+    TooFar {
+        /// Which list.
+        what: String,
+        /// Its entry, counted from 0.
+        index: usize,
+        /// Where it would be drawn \[m\].
+        position: [f64; 3],
+        /// The largest coordinate that can be drawn \[m\].
+        limit: f64,
+    },
+    /// A magnification that is not a finite number above zero.
+    #[error("the magnification is {factor}; it must be a finite number above zero")]
+    InvalidFactor {
+        /// The magnification as given.
+        factor: f64,
+    },
+    /// A difference between two methods that is not a finite number, zero or above.
+    #[error("the difference from `{name}` is {difference}; it must be finite and not negative")]
+    InvalidDifference {
+        /// Name of the second method.
+        name: String,
+        /// The difference as given.
+        difference: f64,
+    },
+    /// A joint axis without direction.
+    #[error("joint axis {index} has no direction")]
+    ZeroAxis {
+        /// Which axis, counted from 0.
+        index: usize,
+    },
+    /// The SVG could not be written.
+    #[error("the figure could not be drawn as SVG")]
+    Svg(#[source] Box<dyn StdError + Send + Sync>),
+    /// The PNG could not be made from the SVG.
+    #[error("the figure could not be drawn as PNG")]
+    Png(#[source] Box<dyn StdError + Send + Sync>),
+}
+
+fn numbers(values: &[f64; 3]) -> String {
+    let [x, y, z] = values;
+    format!("{x}, {y}, {z}")
+}

@@ -1,0 +1,219 @@
+//! The parts that all figures share: title, drawing, legend, captions.
+
+use crate::axes_box;
+use crate::canvas::{self, Canvas, Lettering, SIZE, Stroke, text_width};
+use crate::error::FigureError;
+use crate::geometry::{Area, Bounds, PagePoint, View};
+use crate::numbers;
+use crate::style;
+use plotters::style::RGBAColor;
+
+/// Free space at the edges of the page \[pixels\].
+const MARGIN: f64 = 28.0;
+
+/// Where the box of axes may be, without its ticks and names.
+const DRAWING: Area = Area {
+    left: 84.0,
+    top: 86.0,
+    right: 632.0,
+    bottom: 528.0,
+};
+
+/// Left edge of the legend and centre of its first line.
+const LEGEND: PagePoint = [664.0, 116.0];
+
+/// Height of a line of the legend and of a caption \[pixels\].
+const LEGEND_LINE: f64 = 26.0;
+const CAPTION_LINE: f64 = 20.0;
+
+/// Width of a sample in the legend \[pixels\].
+const SAMPLE: f64 = 34.0;
+
+/// What a figure is made of, apart from the drawing in its box of axes.
+pub(crate) struct Page<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) subtitle: String,
+    pub(crate) legend: Vec<(Sample, String)>,
+    pub(crate) captions: Vec<String>,
+    /// Around everything that is drawn.
+    pub(crate) bounds: Bounds,
+}
+
+/// What stands in the legend for a part of the drawing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Sample {
+    Line(Stroke),
+    Body,
+    Ground,
+    Start,
+    Second,
+}
+
+impl Page<'_> {
+    /// The page as an SVG document, with what `draw` draws in the box of axes.
+    pub(crate) fn svg(
+        &self,
+        draw: impl FnOnce(&Canvas<'_>, &View) -> Result<(), FigureError>,
+    ) -> Result<String, FigureError> {
+        let bounds = self.bounds.roomy();
+        let view = View::fit(&bounds, DRAWING);
+        canvas::svg(|canvas| {
+            let [width, height] = [SIZE.0, SIZE.1].map(f64::from);
+            let room = width - 2.0 * MARGIN;
+            fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE)?;
+            fitted(
+                canvas,
+                &self.subtitle,
+                [MARGIN, 61.0],
+                room,
+                style::SUBTITLE,
+            )?;
+            axes_box::draw(canvas, &view, &bounds)?;
+            draw(canvas, &view)?;
+            for (line, (sample, label)) in self.legend.iter().enumerate() {
+                let [left, top] = LEGEND;
+                let at = [left, top + line as f64 * LEGEND_LINE];
+                sample.draw(canvas, at)?;
+                let text = [at[0] + SAMPLE + 12.0, at[1]];
+                fitted(canvas, label, text, width - MARGIN - text[0], style::LEGEND)?;
+            }
+            for (line, caption) in self.captions.iter().rev().enumerate() {
+                let at = [MARGIN, height - MARGIN - line as f64 * CAPTION_LINE];
+                fitted(canvas, caption, at, room, style::CAPTION)?;
+            }
+            Ok(())
+        })
+    }
+}
+
+impl Sample {
+    /// Draws the sample with its left end at `at`.
+    fn draw(self, canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
+        let [left, y] = at;
+        let middle = [left + 0.5 * SAMPLE, y];
+        match self {
+            Self::Line(stroke) => canvas.line(&[at, [left + SAMPLE, y]], stroke),
+            Self::Body => {
+                let corners = [
+                    [left + 3.0, y + 7.0],
+                    [left + SAMPLE - 3.0, y + 7.0],
+                    [left + 0.6 * SAMPLE, y - 8.0],
+                ];
+                outlined(canvas, &corners, style::BODY_FILL, style::BODY)
+            }
+            Self::Ground => ground_mark(canvas, [middle[0], y - 8.0]),
+            Self::Start => start_mark(canvas, middle),
+            Self::Second => second_mark(canvas, middle),
+        }
+    }
+}
+
+/// Text that is made smaller, and in the end cut, to stay within `room` \[pixels\].
+fn fitted(
+    canvas: &Canvas<'_>,
+    text: &str,
+    at: PagePoint,
+    room: f64,
+    lettering: Lettering,
+) -> Result<(), FigureError> {
+    const SMALLEST: f64 = 0.7;
+    let longest = (room / text_width("x", SMALLEST * lettering.size)).floor() as usize;
+    let text = shortened(text, longest);
+    let shrink = (room / text_width(&text, lettering.size)).min(1.0);
+    canvas.text(
+        &text,
+        at,
+        Lettering {
+            size: shrink * lettering.size,
+            ..lettering
+        },
+    )
+}
+
+/// The text, cut with an ellipsis where it is longer than so many characters.
+fn shortened(text: &str, longest: usize) -> String {
+    if text.chars().count() <= longest {
+        return text.into();
+    }
+    let kept: String = text.chars().take(longest.saturating_sub(1)).collect();
+    format!("{}…", kept.trim_end())
+}
+
+/// A filled polygon with an outline.
+pub(crate) fn outlined(
+    canvas: &Canvas<'_>,
+    corners: &[PagePoint],
+    fill: RGBAColor,
+    outline: Stroke,
+) -> Result<(), FigureError> {
+    canvas.polygon(corners, fill)?;
+    let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
+    canvas.line(&closed, outline)
+}
+
+/// The mark of a point that is held to the ground: a triangle under it, on hatched ground.
+pub(crate) fn ground_mark(canvas: &Canvas<'_>, [x, y]: PagePoint) -> Result<(), FigureError> {
+    let base = y + 11.0;
+    outlined(
+        canvas,
+        &[[x, y], [x - 7.0, base], [x + 7.0, base]],
+        style::WHITE,
+        style::MARK_STROKE,
+    )?;
+    canvas.line(&[[x - 10.0, base], [x + 10.0, base]], style::MARK_STROKE)?;
+    for offset in [-8.0, -3.0, 2.0, 7.0] {
+        let hatch = [[x + offset + 2.0, base], [x + offset - 2.0, base + 5.0]];
+        canvas.line(&hatch, style::MARK_STROKE)?;
+    }
+    Ok(())
+}
+
+/// The mark of the first point of a trajectory.
+pub(crate) fn start_mark(canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
+    canvas.disc(at, 5.0, style::MARK)
+}
+
+/// The mark of a point of the second method.
+pub(crate) fn second_mark(canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
+    canvas.ring(at, style::SECOND_RADIUS, style::SECOND)
+}
+
+/// The captions: the largest deflection \[m\], and the largest difference of a second method,
+/// relative to it.
+pub(crate) fn captions(deflection: f64, difference: Option<f64>) -> Vec<String> {
+    let deflection = format!("Largest deflection: {}.", numbers::metres(deflection));
+    let difference = difference.map(|difference| {
+        let difference = numbers::relative(difference);
+        format!(
+            "Largest difference between the two methods: {difference} of the largest deflection."
+        )
+    });
+    [Some(deflection), difference]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_text_is_cut() {
+        assert_eq!(shortened("deflected", 9), "deflected");
+        assert_eq!(shortened("deflected path", 11), "deflected…");
+        assert_eq!(shortened("…", 0), "…");
+    }
+
+    #[test]
+    fn captions_state_the_largest_deflection_and_difference() {
+        let captions = captions(2.08e-4, Some(0.0094));
+        assert_eq!(
+            captions,
+            [
+                "Largest deflection: 208 µm.",
+                "Largest difference between the two methods: 0.94 % of the largest deflection."
+            ]
+        );
+    }
+}

@@ -1,0 +1,33 @@
+//! The PNG of a figure: its SVG, rendered with the embedded font only.
+
+use std::sync::Arc;
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb::Database};
+
+use crate::canvas::SIZE;
+use crate::error::FigureError;
+
+/// Pixels of the PNG to a pixel of the SVG, along each side.
+const DENSITY: f32 = 2.5;
+
+/// Liberation Sans 2.1.5, under the SIL Open Font License 1.1.
+static FONT: &[u8] = include_bytes!("../fonts/LiberationSans-Regular.ttf");
+
+/// Renders an SVG document of ours as a PNG file.
+pub(crate) fn render(svg: &str) -> Result<Vec<u8>, FigureError> {
+    let mut fonts = Database::new();
+    fonts.load_font_data(FONT.to_vec());
+    let options = Options {
+        fontdb: Arc::new(fonts),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Png(Box::new(error)))?;
+    let [width, height] = [SIZE.0, SIZE.1].map(|side| (side as f32 * DENSITY) as u32);
+    let mut pixels = Pixmap::new(width, height).expect("a page has a size");
+    let to_pixels = Transform::from_scale(DENSITY, DENSITY);
+    resvg::render(&tree, to_pixels, &mut pixels.as_mut());
+    pixels
+        .encode_png()
+        .map_err(|error| FigureError::Png(Box::new(error)))
+}

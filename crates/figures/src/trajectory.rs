@@ -1,0 +1,152 @@
+//! The deflected trajectory against the commanded one (the paper's Fig. 8).
+
+use crate::canvas::Canvas;
+use crate::checks::{self, Displaced};
+use crate::error::FigureError;
+use crate::geometry::{Bounds, Point, View};
+use crate::page::{self, Page, Sample};
+use crate::scale::{Scale, largest};
+use crate::{numbers, png, style};
+
+/// Most points, but for the last, at which the deflection and the second method are drawn.
+const MOST_MARKS: usize = 40;
+
+/// A trajectory as it was commanded and as it is under load, with the deflection magnified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrajectoryFigure {
+    /// Title of the figure.
+    pub title: String,
+    /// Commanded positions, in order; one or more \[m, global axes\].
+    pub commanded: Vec<[f64; 3]>,
+    /// The displacement at each of them \[m, global axes\].
+    pub displacement: Vec<[f64; 3]>,
+    /// The same displacements by a second method, to compare with.
+    pub second: Option<SecondMethod>,
+    /// Magnification of the displacements.
+    pub scale: Scale,
+}
+
+/// Displacements of a trajectory by a second method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SecondMethod {
+    /// Name of the method, as in `reference solver`.
+    pub name: String,
+    /// The displacement at each commanded position \[m, global axes\].
+    pub displacement: Vec<[f64; 3]>,
+    /// The largest difference between the methods, relative to the largest displacement.
+    pub difference: f64,
+}
+
+impl TrajectoryFigure {
+    /// The figure as an SVG document.
+    ///
+    /// # Errors
+    ///
+    /// A [`FigureError`] for lists that are empty or of unequal lengths, numbers that are not
+    /// finite or too large to draw, and a magnification that is not above zero.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        let ours = Displaced::new("trajectory", &self.commanded, &self.displacement)?;
+        let factor = self
+            .scale
+            .factor(ours.points.iter(), ours.displacement.iter())?;
+        let deflected = ours.moved(factor)?;
+        let second = match &self.second {
+            Some(second) => {
+                checks::difference(&second.name, second.difference)?;
+                Displaced::new(&*second.name, &self.commanded, &second.displacement)?
+                    .moved(factor)?
+            }
+            None => Vec::new(),
+        };
+        let page = Page {
+            title: &self.title,
+            subtitle: format!(
+                "Commanded and deflected trajectory, deflection × {}",
+                numbers::number(factor)
+            ),
+            legend: self.legend(factor),
+            captions: page::captions(
+                largest(self.displacement.iter()),
+                self.second.as_ref().map(|second| second.difference),
+            ),
+            bounds: Bounds::around(
+                self.commanded
+                    .iter()
+                    .chain(&deflected)
+                    .chain(&second)
+                    .copied(),
+            ),
+        };
+        page.svg(|canvas, view| draw(canvas, view, &self.commanded, &deflected, &second))
+    }
+
+    /// The figure as a PNG file.
+    ///
+    /// # Errors
+    ///
+    /// As [`svg`](Self::svg).
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        png::render(&self.svg()?)
+    }
+
+    fn legend(&self, factor: f64) -> Vec<(Sample, String)> {
+        let deflected = format!("deflected, × {}", numbers::number(factor));
+        let mut legend = vec![
+            (Sample::Line(style::UNDEFORMED), "commanded".into()),
+            (Sample::Line(style::DEFORMED), deflected),
+            (Sample::Line(style::DEFLECTION), "deflection".into()),
+            (Sample::Start, "start".into()),
+        ];
+        legend.extend(
+            self.second
+                .iter()
+                .map(|second| (Sample::Second, second.name.clone())),
+        );
+        legend
+    }
+}
+
+fn draw(
+    canvas: &Canvas<'_>,
+    view: &View,
+    commanded: &[Point],
+    deflected: &[Point],
+    second: &[Point],
+) -> Result<(), FigureError> {
+    let project =
+        |points: &[Point]| -> Vec<_> { points.iter().map(|p| view.project(*p)).collect() };
+    let [commanded, deflected, second] = [commanded, deflected, second].map(project);
+    let marked = marked(commanded.len());
+    for &k in &marked {
+        canvas.line(&[commanded[k], deflected[k]], style::DEFLECTION)?;
+    }
+    canvas.line(&commanded, style::UNDEFORMED)?;
+    canvas.line(&deflected, style::DEFORMED)?;
+    for path in [&commanded, &deflected] {
+        page::start_mark(canvas, path[0])?;
+    }
+    marked
+        .into_iter()
+        .filter_map(|k| second.get(k))
+        .try_for_each(|at| page::second_mark(canvas, *at))
+}
+
+/// The points to mark of so many, one or more: evenly spaced from the first on, and the last.
+fn marked(count: usize) -> Vec<usize> {
+    let last = count - 1;
+    let stride = last.div_ceil(MOST_MARKS).max(1);
+    (0..last).step_by(stride).chain([last]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marks_are_few_and_include_both_ends() {
+        assert_eq!(marked(1), [0]);
+        assert_eq!(marked(3), [0, 1, 2]);
+        assert_eq!(marked(42)[19..], [38, 40, 41]);
+        assert!(marked(100_000).len() <= MOST_MARKS + 1);
+    }
+}

@@ -1,0 +1,38 @@
+# What CI runs, by parts. `just --list` shows all.
+
+# All tests
+test:
+    cargo test --workspace
+
+# Tests of one crate: just test-crate joints
+test-crate name:
+    cargo test -p hyperstat-{{name}}
+
+# Formatting and lints, warnings are errors
+lint:
+    cargo fmt --all --check
+    cargo clippy --workspace --all-targets -- -D warnings
+
+# Put formatting right
+fmt:
+    cargo fmt --all
+
+# Rustdoc, warnings are errors
+doc:
+    RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
+
+# The book as pages, in target/book (needs mdbook)
+book:
+    mdbook build docs
+
+# Benches, the reference solver beside ours
+bench:
+    cargo bench -p hyperstat-benches
+
+# The README's main command
+paper:
+    cargo run --release -- run examples/paper.ron --out out
+
+# Everything that CI runs
+ci:
+    bash .ci/run
