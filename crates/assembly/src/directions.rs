@@ -1,7 +1,7 @@
 //! What each direction of a joint does in the model: rigid, elastic or free.
 
 use hyperstat_joints::{Dof, DofSet};
-use nalgebra::{DMatrix, Matrix6, Rotation3};
+use nalgebra::{DMatrix, Matrix6, Rotation3, Vector6};
 
 use crate::model::{Connection, JointStiffness};
 
@@ -25,60 +25,29 @@ impl Directions {
     /// replaces the joint's own; zero on a locked direction leaves it locked, on a constrained
     /// one frees it.
     pub fn of(connection: &Connection) -> Self {
+        let (given, stiffness) = given_stiffness(connection);
         let by_kind = connection.joint.free();
-        let open = by_kind.difference(connection.locked);
         let mut this = Self {
             rigid: DofSet::EMPTY,
             elastic: DofSet::EMPTY,
             free: DofSet::EMPTY,
-            stiffness: Matrix6::zeros(),
-            compliance: Some(Matrix6::zeros()),
+            stiffness,
+            compliance: None,
         };
-        let mut set = |dof: Dof, given: Option<f64>| {
-            let target = match given {
-                Some(k) if k > 0.0 => &mut this.elastic,
-                Some(_) if !by_kind.contains(dof) => &mut this.free,
-                _ if open.contains(dof) => &mut this.free,
-                _ => &mut this.rigid,
+        for dof in Dof::ALL {
+            let d = dof.index();
+            let freed = given.contains(dof) && !by_kind.contains(dof);
+            let open = by_kind.contains(dof) && !connection.locked.contains(dof);
+            let set = if stiffness[(d, d)] > 0.0 {
+                &mut this.elastic
+            } else if freed || open {
+                &mut this.free
+            } else {
+                &mut this.rigid
             };
-            target.insert(dof);
-        };
-        match (&connection.stiffness, connection.joint.compliance()) {
-            (JointStiffness::Directions(values), None) => {
-                for dof in Dof::ALL {
-                    set(dof, values[dof.index()]);
-                }
-                for dof in this.elastic.iter() {
-                    let d = dof.index();
-                    this.stiffness[(d, d)] = values[d].unwrap_or_default();
-                }
-            }
-            (JointStiffness::Directions(values), Some(own))
-                if values.iter().all(Option::is_none) =>
-            {
-                for dof in Dof::ALL {
-                    let c = own[(dof.index(), dof.index())];
-                    set(dof, (c > 0.0).then_some(1.0));
-                }
-                this.stiffness = inverse_on(&own, this.elastic).unwrap_or(Matrix6::zeros());
-            }
-            (JointStiffness::Directions(values), Some(_)) => {
-                for dof in Dof::ALL {
-                    set(dof, values[dof.index()]);
-                }
-                for dof in this.elastic.iter() {
-                    let d = dof.index();
-                    this.stiffness[(d, d)] = values[d].unwrap_or_default();
-                }
-            }
-            (JointStiffness::Matrix(k), _) => {
-                for dof in Dof::ALL {
-                    set(dof, Some(k[(dof.index(), dof.index())]));
-                }
-                this.stiffness = (k + k.transpose()) * 0.5;
-            }
+            set.insert(dof);
         }
-        this.compliance = inverse_on(&this.stiffness, this.elastic);
+        this.compliance = inverse_on(&stiffness, this.elastic);
         this
     }
 
@@ -88,9 +57,31 @@ impl Directions {
     }
 }
 
+/// The directions whose stiffness is given, and the stiffness over all six.
+fn given_stiffness(connection: &Connection) -> (DofSet, Matrix6<f64>) {
+    match (&connection.stiffness, connection.joint.compliance()) {
+        (JointStiffness::Matrix(k), _) => (DofSet::ALL, (k + k.transpose()) * 0.5),
+        (JointStiffness::Directions(values), Some(own)) if values.iter().all(Option::is_none) => {
+            let given: DofSet = Dof::ALL
+                .into_iter()
+                .filter(|d| own[(d.index(), d.index())] > 0.0)
+                .collect();
+            (given, inverse_on(&own, given).unwrap_or_default())
+        }
+        (JointStiffness::Directions(values), _) => {
+            let given = Dof::ALL
+                .into_iter()
+                .filter(|d| values[d.index()].is_some())
+                .collect();
+            let diagonal = values.map(Option::unwrap_or_default);
+            (given, Matrix6::from_diagonal(&Vector6::from(diagonal)))
+        }
+    }
+}
+
 /// Inverse of the block of `matrix` over `set`, zero elsewhere; `None` where the block, scaled to
 /// a unit diagonal, is singular to 1e-10.
-fn inverse_on(matrix: &Matrix6<f64>, set: DofSet) -> Option<Matrix6<f64>> {
+pub(crate) fn inverse_on(matrix: &Matrix6<f64>, set: DofSet) -> Option<Matrix6<f64>> {
     let places: Vec<usize> = set.iter().map(Dof::index).collect();
     let scale: Vec<f64> = places.iter().map(|&d| matrix[(d, d)].sqrt()).collect();
     let block = DMatrix::from_fn(places.len(), places.len(), |r, c| {

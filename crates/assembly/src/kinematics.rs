@@ -4,12 +4,12 @@
 //! mechanism's size and every condition is a unit row, so that zero and not zero are far apart
 //! (paper-notes: zeros stay below 1e-15, non-zeros above 1e-4) and one tolerance serves all counts.
 
-use hyperstat_joints::{DofSet, rigid_motion};
+use hyperstat_joints::{Dof, DofSet, rigid_motion};
 use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector3, Vector6};
 
 use crate::directions::{Directions, to_directions};
-use crate::elimination::Elimination;
-use crate::model::{BodyId, BodyKind, Geometry, Model};
+use crate::elimination::{Elimination, RANK_TOLERANCE};
+use crate::model::{BodyId, BodyKind, Connection, Geometry, JointId, Model, NodeId};
 use crate::solution::Motion;
 
 /// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.
@@ -35,11 +35,10 @@ pub fn analyse(model: &Model) -> Kinematics {
 
 /// [`analyse`] in another configuration.
 pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
-    let released = Jacobian::new(model, geometry, |_, _| None);
+    let released = Jacobian::released(model, geometry);
     let constraints = released.rows.len();
     let released = released.eliminated();
-    let held = Jacobian::new(model, geometry, |_, directions| Some(directions.clone()));
-    let held = held.eliminated();
+    let held = Jacobian::held(model, geometry).eliminated();
     let size = characteristic_length(geometry);
     let motions = echelon(held.null_space())
         .iter()
@@ -53,7 +52,7 @@ pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
     }
 }
 
-/// Diagonal of the box around all nodes [m]; 1 where they coincide.
+/// Diagonal of the box around all nodes (m); 1 where they coincide.
 pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
     let first = geometry
         .positions
@@ -87,36 +86,47 @@ pub(crate) fn condition_rows(
 }
 
 /// Conditions on the scaled twists of all bodies, sparse by rows.
-struct Jacobian {
+pub(crate) struct Jacobian {
     columns: usize,
     rows: Vec<Vec<(usize, RowVector6<f64>)>>,
+    /// Joint and direction of every row.
+    pub directions: Vec<(JointId, Dof)>,
 }
 
 impl Jacobian {
-    /// Rows of every joint: those of the directions constrained by kind where `held` gives none,
-    /// else of the rigid and elastic directions.
+    /// Rows of the directions that every joint constrains by kind.
+    pub fn released(model: &Model, geometry: &Geometry) -> Self {
+        Self::new(model, geometry, |joint, local, size| {
+            let set = joint.joint.free().complement();
+            let rows = condition_rows(local, set, size);
+            set.iter().zip(rows).collect()
+        })
+    }
+
+    /// Rows of the rigid and elastic directions of every joint.
+    pub fn held(model: &Model, geometry: &Geometry) -> Self {
+        Self::new(model, geometry, |joint, local, size| {
+            let held = Directions::of(joint);
+            let rigid = held.rigid.iter();
+            let rigid = rigid.zip(condition_rows(local, held.rigid, size));
+            let elastic = held.elastic.iter().zip(elastic_rows(local, &held, size));
+            rigid.chain(elastic).collect()
+        })
+    }
+
+    /// Rows of every joint by `conditions`, which gets the joint, the map from a relative twist to
+    /// its directions, and the mechanism's size.
     fn new(
         model: &Model,
         geometry: &Geometry,
-        held: impl Fn(usize, &Directions) -> Option<Directions>,
+        conditions: impl Fn(&Connection, &Matrix6<f64>, f64) -> Vec<(Dof, RowVector6<f64>)>,
     ) -> Self {
         let size = characteristic_length(geometry);
         let mut rows = Vec::new();
+        let mut directions = Vec::new();
         for (k, joint) in model.joints().iter().enumerate() {
             let local = to_directions(&joint.joint.basis(), &geometry.frames[k]);
-            let directions = Directions::of(joint);
-            let mut conditions: Vec<RowVector6<f64>> = Vec::new();
-            match held(k, &directions) {
-                None => {
-                    let set = joint.joint.free().complement();
-                    conditions.extend(condition_rows(&local, set, size));
-                }
-                Some(held) => {
-                    conditions.extend(condition_rows(&local, held.rigid, size));
-                    conditions.extend(elastic_rows(&local, &held, size));
-                }
-            }
-            for condition in conditions {
+            for (dof, condition) in conditions(joint, &local, size) {
                 let mut row = Vec::with_capacity(2);
                 for (node, sign) in joint.between.iter().zip([1.0, -1.0]) {
                     let Some(node) = node else { continue };
@@ -126,15 +136,18 @@ impl Jacobian {
                     row.push((body.0, condition * rigid_motion(&(arm / size)) * sign));
                 }
                 rows.push(row);
+                directions.push((JointId(k), dof));
             }
         }
         Self {
             columns: 6 * model.bodies().len(),
             rows,
+            directions,
         }
     }
 
-    fn eliminated(&self) -> Elimination {
+    /// The conditions as a matrix, six columns a body.
+    pub fn dense(&self) -> DMatrix<f64> {
         let mut dense = DMatrix::zeros(self.rows.len(), self.columns);
         for (r, row) in self.rows.iter().enumerate() {
             for (body, entries) in row {
@@ -142,7 +155,11 @@ impl Jacobian {
                 view += entries;
             }
         }
-        Elimination::new(dense, 0)
+        dense
+    }
+
+    pub fn eliminated(&self) -> Elimination {
+        Elimination::new(self.dense(), 0)
     }
 }
 
@@ -232,6 +249,30 @@ pub(crate) fn node_twist(
     };
     let origin = model.bodies()[body.0].nodes[0];
     rigid_motion(&(geometry.positions[node] - geometry.positions[origin.0])) * twist
+}
+
+impl Motion {
+    /// The free directions of joints along which the motion goes, in the order of the joints. A
+    /// drive that holds any one of them stops this motion.
+    pub fn free_directions(&self, model: &Model) -> Vec<(JointId, Dof)> {
+        let geometry = model.geometry();
+        let size = characteristic_length(geometry);
+        let at = |node: Option<NodeId>| {
+            node.map_or(Vector6::zeros(), |n| node_twist(self, model, geometry, n.0))
+        };
+        let mut moved = Vec::new();
+        for (k, joint) in model.joints().iter().enumerate() {
+            let relative = at(joint.between[0]) - at(joint.between[1]);
+            let along = to_directions(&joint.joint.basis(), &geometry.frames[k]) * relative;
+            for dof in Directions::of(joint).free.iter() {
+                let unit = if dof.index() < 3 { size } else { 1.0 };
+                if along[dof.index()].abs() > RANK_TOLERANCE * unit {
+                    moved.push((JointId(k), dof));
+                }
+            }
+        }
+        moved
+    }
 }
 
 /// A motion in words.

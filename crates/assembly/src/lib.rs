@@ -1,8 +1,14 @@
 //! The elastostatic stiffness model of a mechanism (paper §2.3).
 //!
-//! A [`Model`] holds bodies, nodes, beams, joints, loads and the output; [`Geometry`] what a pose
-//! changes. A [`Plan`] is worked out once a topology and serves every pose; [`Solution`] is
-//! everything that one pose gives. See the README for the shortest way through.
+#![doc = include_str!("../README.md")]
+//!
+//! # The way through
+//!
+//! [`Model`] (plain data) → [`Plan`] (once a topology: which joints are absorbed in subassemblies,
+//! spanning trees of the others, numbering of the IDCs, sparsity pattern, symbolic factorization) →
+//! one numeric pass a pose (joint mappings N, the mapping H of every carrier, elements, assembled
+//! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
+//! full solve, which also refines, recovers and diagnoses.
 
 mod coordinates;
 mod directions;
@@ -13,6 +19,7 @@ mod model;
 mod numeric;
 mod plan;
 mod recover;
+mod redundancy;
 mod restraint;
 mod solution;
 mod solve;
@@ -27,5 +34,6 @@ pub use model::{
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;
+pub use redundancy::{Redundancy, redundant_constraints};
 pub use solution::{Motion, Output, SegmentForces, Solution, Warning};
 pub use solve::{PoseResult, solve};

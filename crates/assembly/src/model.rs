@@ -4,9 +4,10 @@
 //! changes stands apart in [`Geometry`].
 
 use hyperstat_elements::{Material, Section, element_frame};
-use hyperstat_joints::{DofSet, Joint};
+use hyperstat_joints::{Dof, DofSet, Joint};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
+use crate::directions::inverse_on;
 use crate::error::ModelError;
 
 macro_rules! index {
@@ -97,7 +98,7 @@ pub struct Member {
 /// Elasticity of a joint, by directions of the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JointStiffness {
-    /// Per direction x y z [N/m], u v w [N·m/rad]; `None`: rigid where constrained or locked,
+    /// Per direction x y z (N/m), u v w (N·m/rad); `None`: rigid where constrained or locked,
     /// free where free. Zero frees a constrained direction and leaves a free or locked one as it is.
     Directions([Option<f64>; 6]),
     /// Full symmetric positive semidefinite matrix over all six directions.
@@ -130,14 +131,14 @@ pub struct Connection {
 pub struct Load {
     /// Node it acts on: the body's own node, inside an elastic joint that sits there.
     pub node: NodeId,
-    /// Force [N] and moment [N·m].
+    /// Force (N) and moment (N·m).
     pub wrench: Vector6<f64>,
 }
 
 /// What a pose changes: positions, section directions and joint frames, in global axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
-    /// Position of every node [m].
+    /// Position of every node (m).
     pub positions: Vec<Point3<f64>>,
     /// Direction of every segment's local y; `None`: the default of
     /// [`element_frame`].
@@ -179,7 +180,7 @@ impl Model {
         }
     }
 
-    /// Adds a rigid body through `points` (name, position [m]).
+    /// Adds a rigid body through `points` (name, position (m)).
     ///
     /// # Errors
     /// A repeated body name or point, no point, a position that is not finite.
@@ -321,16 +322,18 @@ impl Model {
         if body(connection.between[0]) == body(connection.between[1]) {
             return Err(ModelError::SelfJoined { joint: joint() });
         }
-        check_stiffness(&connection.stiffness).map_err(|what| ModelError::Stiffness {
-            joint: joint(),
-            what,
-        })?;
+        check_stiffness(&connection.stiffness)
+            .and_then(|()| check_compliance(connection.joint.compliance()))
+            .map_err(|what| ModelError::Stiffness {
+                joint: joint(),
+                what,
+            })?;
         self.joints.push(connection);
         self.geometry.frames.push(frame);
         Ok(JointId(self.joints.len() - 1))
     }
 
-    /// Adds a load: a wrench (force [N], moment [N·m], global axes) on a node.
+    /// Adds a load: a wrench (force (N), moment (N·m), global axes) on a node.
     ///
     /// # Errors
     /// A wrench that is not finite.
@@ -404,6 +407,19 @@ impl Model {
     pub fn node_name(&self, node: NodeId) -> String {
         let node = &self.nodes[node.0];
         format!("{}.{}", self.bodies[node.body.0].name, node.point)
+    }
+}
+
+/// A joint's own compliance must be positive definite over the directions that give.
+fn check_compliance(own: Option<Matrix6<f64>>) -> Result<(), &'static str> {
+    let Some(own) = own else { return Ok(()) };
+    let give: DofSet = Dof::ALL
+        .into_iter()
+        .filter(|d| own[(d.index(), d.index())] != 0.0)
+        .collect();
+    match inverse_on(&own, give) {
+        Some(inverse) if inverse.iter().all(|v| v.is_finite()) => Ok(()),
+        _ => Err("the joint's own compliance is not positive definite where it gives"),
     }
 }
 

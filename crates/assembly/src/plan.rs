@@ -8,7 +8,7 @@ use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
 use crate::kinematics::{analyse_at, characteristic_length};
-use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::model::{BodyId, Geometry, JointId, Model, NodeId};
 use crate::sparse::{Factor, Pattern};
 use crate::topology::Topology;
 
@@ -113,7 +113,8 @@ impl Plan {
     /// Plan of a model in its own configuration.
     ///
     /// # Errors
-    /// No output, a body or joint that cannot be formed.
+    /// No output, bodies that no chain of joints connects to the ground or the output, a segment
+    /// or joint that cannot be formed, a model too large for memory.
     pub fn new(model: &Model) -> Result<Self, SolveError> {
         Self::at(model, model.geometry())
     }
@@ -121,6 +122,7 @@ impl Plan {
     /// Plan of a model in another configuration.
     pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
         let output = model.output().ok_or(SolveError::NoOutput)?;
+        check_held(model, output)?;
         let topology = Topology::new(model, geometry, output);
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, model, geometry)?;
@@ -359,4 +361,33 @@ fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
         }
     }
     places
+}
+
+/// Refuses bodies that joints connect neither to the ground nor to the output.
+fn check_held(model: &Model, output: NodeId) -> Result<(), SolveError> {
+    let body_of = |n: NodeId| model.nodes()[n.0].body.0;
+    let count = model.bodies().len();
+    let mut held = vec![false; count];
+    held[body_of(output)] = true;
+    loop {
+        let before = held.iter().filter(|h| **h).count();
+        for joint in model.joints() {
+            let bodies = joint.between.map(|n| n.map(body_of));
+            if bodies.iter().any(|b| b.is_none_or(|b| held[b])) {
+                for body in bodies.into_iter().flatten() {
+                    held[body] = true;
+                }
+            }
+        }
+        if held.iter().filter(|h| **h).count() == before {
+            break;
+        }
+    }
+    let loose = (0..count).filter(|b| !held[*b]).map(BodyId);
+    let bodies: Vec<String> = loose.map(|b| model.bodies()[b.0].name.clone()).collect();
+    if bodies.is_empty() {
+        Ok(())
+    } else {
+        Err(SolveError::Unheld { bodies })
+    }
 }

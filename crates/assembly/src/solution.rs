@@ -1,5 +1,7 @@
 //! What a solve gives.
 
+use std::fmt;
+
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::model::{BodyId, JointId, Model};
@@ -78,7 +80,7 @@ impl Motion {
 pub struct SegmentForces {
     /// Element frame: columns are local x, y, z in global axes.
     pub frame: Rotation3<f64>,
-    /// Length [m].
+    /// Length (m).
     pub length: f64,
     /// Wrench on the segment at its first and second node, in the element frame.
     pub ends: [Vector6<f64>; 2],
@@ -88,14 +90,32 @@ pub struct SegmentForces {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
-    /// A number lies between zero and not zero: the counts may be those of a neighbouring geometry.
+    /// Mobility and over-constraint may be those of a neighbouring geometry.
     NearSingular {
-        /// The relative singular value that lies between the tolerances.
+        /// The pivot of the rigid mechanism's conditions that lies between zero (below 1e-12)
+        /// and not zero (above 1e-4).
         value: f64,
     },
-    /// The residual could not be brought to rounding: digits are lost.
+    /// Refinement could not bring the solution to rounding: digits are lost.
     LostDigits {
-        /// Relative size of what is left.
+        /// Relative size of the last correction.
         residual: f64,
     },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NearSingular { value } => write!(
+                f,
+                "the mechanism is nearly singular or its coordinates are rounded: a condition of \
+                 relative size {value:.1e} lies between zero (below 1e-12) and not zero (above \
+                 1e-4), so mobility and over-constraint may be those of a neighbouring geometry"
+            ),
+            Self::LostDigits { residual } => write!(
+                f,
+                "parts of very different stiffness: results are good to about {residual:.0e} only"
+            ),
+        }
+    }
 }

@@ -13,7 +13,7 @@ use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
 use crate::kinematics::echelon;
-use crate::model::{BodyId, Geometry, Model};
+use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, add_load, dot, evaluate, multiply, node_displacement};
 use crate::plan::{COLUMNS, Plan, Workspace};
 use crate::recover::recover;
@@ -47,7 +47,6 @@ pub struct PoseResult {
 /// No output, bodies that nothing holds, a load on a motion that nothing resists, numbers of too
 /// different size.
 pub fn solve(model: &Model) -> Result<Solution, SolveError> {
-    check_held(model)?;
     Plan::new(model)?.solve(model)
 }
 
@@ -490,34 +489,4 @@ fn settled<T>(result: Result<T, Fault>) -> Result<T, SolveError> {
         Fault::Error(error) => error,
         Fault::Changed => SolveError::Singular,
     })
-}
-
-/// Refuses bodies that joints connect neither to the ground nor to the output.
-fn check_held(model: &Model) -> Result<(), SolveError> {
-    let output = model.output().ok_or(SolveError::NoOutput)?;
-    let body_of = |n: crate::model::NodeId| model.nodes()[n.0].body.0;
-    let count = model.bodies().len();
-    let mut held = vec![false; count];
-    held[body_of(output)] = true;
-    loop {
-        let before = held.iter().filter(|h| **h).count();
-        for joint in model.joints() {
-            let bodies = joint.between.map(|n| n.map(body_of));
-            if bodies.iter().any(|b| b.is_none_or(|b| held[b])) {
-                for body in bodies.into_iter().flatten() {
-                    held[body] = true;
-                }
-            }
-        }
-        if held.iter().filter(|h| **h).count() == before {
-            break;
-        }
-    }
-    let loose = (0..count).filter(|b| !held[*b]).map(BodyId);
-    let bodies: Vec<String> = loose.map(|b| model.bodies()[b.0].name.clone()).collect();
-    if bodies.is_empty() {
-        Ok(())
-    } else {
-        Err(SolveError::Unheld { bodies })
-    }
 }

@@ -56,6 +56,90 @@ pub enum ElementError {
         /// The pivot of that row, as a part of its diagonal entry.
         part: f64,
     },
+    /// A taper between sections of different kinds.
+    #[error("a section cannot change from a {from} to a {to}: both ends must be of one kind")]
+    DifferentKinds {
+        /// Kind at the first node.
+        from: &'static str,
+        /// Kind at the second node.
+        to: &'static str,
+    },
+    /// A taper between sections of which only one has an optional property.
+    #[error("`{field}` is given for one end of a tapered section, give it for both or for none")]
+    OneEnd {
+        /// Name of the field, as in the file format.
+        field: &'static str,
+    },
+    /// A flexible body with fewer than two nodes.
+    #[error("a flexible body needs at least two nodes")]
+    TooFewNodes,
+    /// A stiffness whose size does not fit the nodes.
+    #[error(
+        "the stiffness has {rows} rows and {columns} columns, for {nodes} nodes it must have \
+         {wanted} of each"
+    )]
+    StiffnessSize {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Number of nodes.
+        nodes: usize,
+        /// Six for each node.
+        wanted: usize,
+    },
+    /// An entry of a stiffness that is not finite.
+    #[error("row {row}, column {column} of the stiffness (from 0) is not finite")]
+    NotFiniteEntry {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+    },
+    /// Entries of a stiffness that differ across the diagonal.
+    #[error(
+        "the stiffness is not symmetric: row {row}, column {column} (from 0) is {value}, across \
+         the diagonal stands {mirrored}"
+    )]
+    NotSymmetric {
+        /// Row, from 0.
+        row: usize,
+        /// Column, from 0.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// The entry across the diagonal.
+        mirrored: f64,
+    },
+    /// A stiffness that resists a motion of the body as a whole.
+    #[error(
+        "the stiffness resists {motion} of the whole body with {part:.1e} of its entries; a body \
+         that moves as a whole takes no force"
+    )]
+    ResistsRigidMotion {
+        /// The motion, such as "a translation along x".
+        motion: &'static str,
+        /// The force that is left over, as a part of the forces that should cancel.
+        part: f64,
+    },
+    /// A stiffness that is not positive semidefinite.
+    #[error(
+        "the stiffness is not positive semidefinite: scaled to a unit diagonal it has the \
+         eigenvalue {eigenvalue:.1e}"
+    )]
+    NegativeEnergy {
+        /// The lowest eigenvalue of the scaled matrix.
+        eigenvalue: f64,
+    },
+    /// A stiffness that leaves other motions free than those of the body as a whole.
+    #[error(
+        "the stiffness has {found} motions without energy instead of six: some part of the body \
+         moves freely against the rest"
+    )]
+    MoreThanSixFreeMotions {
+        /// Number of motions without energy.
+        found: usize,
+    },
     /// A stiffness or compliance that is not finite or not positive definite.
     #[error("a stiffness or compliance is not finite or not symmetric positive semidefinite")]
     NotPositive,

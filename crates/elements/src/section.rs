@@ -46,6 +46,18 @@ pub enum SectionShape {
     },
 }
 
+impl SectionShape {
+    /// The kind of shape in words, such as "circle".
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Circle { .. } => "circle",
+            Self::Tube { .. } => "tube",
+            Self::Rectangle { .. } => "rectangle",
+            Self::General { .. } => "general section",
+        }
+    }
+}
+
 /// A section: a shape, and the effective shear areas that make its beams Timoshenko beams.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
@@ -71,18 +83,34 @@ impl Section {
         shear_y: Option<f64>,
         shear_z: Option<f64>,
     ) -> Result<Self, ElementError> {
-        let [area, iy, iz, torsion] = properties(&shape)?;
+        check_dimensions(&shape)?;
         for (field, value) in [("shear_y", shear_y), ("shear_z", shear_z)] {
             if let Some(value) = value {
                 positive(field, value)?;
             }
         }
-        let derived = [("area", area), ("iy", iy), ("iz", iz), ("torsion", torsion)];
+        let section = Self::unchecked(shape, shear_y, shear_z);
+        let derived = [
+            ("area", section.area),
+            ("iy", section.iy),
+            ("iz", section.iz),
+            ("torsion", section.torsion),
+        ];
         for (field, value) in derived {
             let wanted = "within the range of double precision (check the unit, m)";
             check(value.is_normal() && value > 0.0, field, value, wanted)?;
         }
-        Ok(Self {
+        Ok(section)
+    }
+
+    /// A section whose dimensions are known to be right.
+    pub(crate) fn unchecked(
+        shape: SectionShape,
+        shear_y: Option<f64>,
+        shear_z: Option<f64>,
+    ) -> Self {
+        let [area, iy, iz, torsion] = properties(&shape);
+        Self {
             shape,
             area,
             iy,
@@ -90,7 +118,7 @@ impl Section {
             torsion,
             shear_y,
             shear_z,
-        })
+        }
     }
 
     /// The shape.
@@ -173,35 +201,20 @@ fn half_sides(width: f64, height: f64) -> (f64, f64) {
     (width.max(height) / 2.0, width.min(height) / 2.0)
 }
 
-/// Area, second moments about y and z, torsion constant; checks the dimensions.
-fn properties(shape: &SectionShape) -> Result<[f64; 4], ElementError> {
-    Ok(match *shape {
+/// Checks the dimensions of a shape.
+fn check_dimensions(shape: &SectionShape) -> Result<(), ElementError> {
+    match *shape {
         SectionShape::Circle { diameter } => {
             positive("diameter", diameter)?;
-            let i = PI * diameter.powi(4) / 64.0;
-            [PI * diameter.powi(2) / 4.0, i, i, 2.0 * i]
         }
         SectionShape::Tube { outer, inner } => {
             positive("outer", outer)?;
             let wanted = "zero or more and below `outer`";
             check(inner >= 0.0 && inner < outer, "inner", inner, wanted)?;
-            // Factored differences: a thin wall keeps its digits.
-            let area = PI / 4.0 * (outer - inner) * (outer + inner);
-            let i = area * (outer.powi(2) + inner.powi(2)) / 16.0;
-            [area, i, i, 2.0 * i]
         }
         SectionShape::Rectangle { width, height } => {
             positive("width", width)?;
             positive("height", height)?;
-            let (a, b) = half_sides(width, height);
-            let r = b / a;
-            let torsion = a * b.powi(3) * (16.0 / 3.0 - 3.36 * r * (1.0 - r.powi(4) / 12.0));
-            [
-                width * height,
-                width * height.powi(3) / 12.0,
-                height * width.powi(3) / 12.0,
-                torsion,
-            ]
         }
         SectionShape::General {
             area,
@@ -222,14 +235,46 @@ fn properties(shape: &SectionShape) -> Result<[f64; 4], ElementError> {
                     positive(field, value)?;
                 }
             }
+            for (field, value) in [("area", area), ("iy", iy), ("iz", iz), ("torsion", torsion)] {
+                positive(field, value)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Area, second moments about y and z, torsion constant.
+fn properties(shape: &SectionShape) -> [f64; 4] {
+    match *shape {
+        SectionShape::Circle { diameter } => {
+            let i = PI * diameter.powi(4) / 64.0;
+            [PI * diameter.powi(2) / 4.0, i, i, 2.0 * i]
+        }
+        SectionShape::Tube { outer, inner } => {
+            // Factored differences: a thin wall keeps its digits.
+            let area = PI / 4.0 * (outer - inner) * (outer + inner);
+            let i = area * (outer.powi(2) + inner.powi(2)) / 16.0;
+            [area, i, i, 2.0 * i]
+        }
+        SectionShape::Rectangle { width, height } => {
+            let (a, b) = half_sides(width, height);
+            let r = b / a;
+            let torsion = a * b.powi(3) * (16.0 / 3.0 - 3.36 * r * (1.0 - r.powi(4) / 12.0));
             [
-                positive("area", area)?,
-                positive("iy", iy)?,
-                positive("iz", iz)?,
-                positive("torsion", torsion)?,
+                width * height,
+                width * height.powi(3) / 12.0,
+                height * width.powi(3) / 12.0,
+                torsion,
             ]
         }
-    })
+        SectionShape::General {
+            area,
+            iy,
+            iz,
+            torsion,
+            ..
+        } => [area, iy, iz, torsion],
+    }
 }
 
 #[cfg(test)]

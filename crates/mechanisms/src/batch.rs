@@ -144,8 +144,8 @@ impl Job {
                 Ok([x, y, z, 0.0, 0.0, 0.0])
             }
             Subject::Prebuilt { mechanism, .. } => {
-                let target = self.poses.get(pose);
-                mechanism.place(&target[..mechanism.coordinates()], geometry)
+                let (target, count) = given(mechanism.as_ref(), &self.poses.get(pose));
+                mechanism.place(&target[..count], geometry)
             }
         }
     }
@@ -223,7 +223,7 @@ fn prebuilt_poses(
         kind: mechanism.kind(),
         coordinates: mechanism.coordinates(),
     };
-    match (poses, given.coordinates) {
+    match (poses, given.coordinates.len()) {
         (None, 0) => Ok(Poses::Own),
         (Some(poses), 0) => Err(poses
             .error(format!("`{}` takes no poses", given.kind))
@@ -235,6 +235,16 @@ fn prebuilt_poses(
     }
 }
 
+/// Of a whole pose the coordinates that `mechanism` is given, first, and their number.
+fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
+    let coordinates = mechanism.coordinates();
+    let mut target = [0.0; 6];
+    for (value, coordinate) in target.iter_mut().zip(coordinates) {
+        *value = pose[coordinate.index()];
+    }
+    (target, coordinates.len())
+}
+
 /// The model of the first pose that can be reached, with its loads; the first pose's error
 /// where none can.
 fn template(
@@ -242,7 +252,10 @@ fn template(
     poses: &Poses,
     loads: Option<Fragment<'_>>,
 ) -> Result<Result<Model, PoseError>, LoadError> {
-    let build = |pose| mechanism.model(&poses.get(pose)[..mechanism.coordinates()]);
+    let build = |pose| {
+        let (target, count) = given(mechanism, &poses.get(pose));
+        mechanism.model(&target[..count])
+    };
     let mut template = build(0);
     for pose in 1..poses.len() {
         if template.is_ok() {

@@ -114,10 +114,11 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::prebuilt::PoseCoordinate;
 
     const DELTA: Given<'_> = Given {
         kind: "Delta",
-        coordinates: 3,
+        coordinates: &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z],
     };
 
     fn table(text: &str) -> Result<Vec<[f64; 6]>, String> {

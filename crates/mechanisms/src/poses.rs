@@ -3,6 +3,7 @@
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
+use crate::prebuilt::PoseCoordinate;
 use crate::source::Place;
 use crate::{csv, load, names};
 
@@ -21,17 +22,19 @@ pub(crate) enum Poses {
 pub(crate) struct Given<'k> {
     /// The mechanism's kind.
     pub(crate) kind: &'k str,
-    /// The number of coordinates that it follows; the others stay zero.
-    pub(crate) coordinates: usize,
+    /// The coordinates that it is given; the others stay zero in a file.
+    pub(crate) coordinates: &'static [PoseCoordinate],
 }
 
 impl Given<'_> {
     /// Refuses a coordinate that the mechanism cannot follow.
     pub(crate) fn check(&self, index: usize, value: f64, at: &Place) -> Result<(), LoadError> {
-        if index < self.coordinates || value == 0.0 {
+        let follows = |coordinate: &PoseCoordinate| coordinate.index() == index;
+        if value == 0.0 || self.coordinates.iter().any(follows) {
             return Ok(());
         }
-        let names = &csv::COLUMNS[..self.coordinates];
+        let name = |coordinate: &PoseCoordinate| csv::COLUMNS[coordinate.index()];
+        let names: Vec<_> = self.coordinates.iter().map(name).collect();
         Err(at
             .error(format!("`{}` cannot follow this coordinate", self.kind))
             .with_help(format!(

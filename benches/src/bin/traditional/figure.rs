@@ -91,7 +91,10 @@ fn errors(case: &Case) -> Panel {
 
 fn times(case: &Case) -> Panel {
     Panel {
-        title: format!("{} or {} equations", case.equations, case.unknowns),
+        title: format!(
+            "Equations: traditional {}, this method {}",
+            case.equations, case.unknowns
+        ),
         quantity: "time (ms)",
         label: plain,
         exponents: -3..4,

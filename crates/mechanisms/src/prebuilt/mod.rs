@@ -86,9 +86,9 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// Its name in a batch file, such as `Delta`.
     fn kind(&self) -> &str;
 
-    /// Number of pose coordinates it takes: the first of x, y, z (m) and the rotation vector
-    /// rx, ry, rz (rad) of the output. The others follow from its kinematics.
-    fn coordinates(&self) -> usize;
+    /// The coordinates of the output's pose that it takes, in their order in a pose. The others
+    /// follow from its kinematics.
+    fn coordinates(&self) -> &'static [PoseCoordinate];
 
     /// The model at `pose`, without loads.
     ///
@@ -104,6 +104,31 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// # Errors
     /// As [`Prebuilt::model`]; a geometry of another model.
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError>;
+}
+
+/// A coordinate of the output's pose: its position (m), and the rotation vector (rad) from its
+/// home orientation, in global axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PoseCoordinate {
+    /// Position along x.
+    X,
+    /// Position along y.
+    Y,
+    /// Position along z.
+    Z,
+    /// Rotation vector along x.
+    Rx,
+    /// Rotation vector along y.
+    Ry,
+    /// Rotation vector along z.
+    Rz,
+}
+
+impl PoseCoordinate {
+    /// Its place among x, y, z, rx, ry, rz, from 0.
+    pub fn index(self) -> usize {
+        self as usize
+    }
 }
 
 /// Section and material of a link.

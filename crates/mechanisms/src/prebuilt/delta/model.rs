@@ -10,15 +10,17 @@ use nalgebra::Point3;
 use super::limb::Limb;
 use super::topology::{BODIES, COUNTS, JOINTS, JointRole, LIMBS, LimbJoint, Part, Point, Side};
 use super::{Delta, RodEnds};
-use crate::prebuilt::{Link, PoseError, Prebuilt, check_numbering, coordinates};
+use crate::prebuilt::{
+    Link, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates,
+};
 
 impl Prebuilt for Delta {
     fn kind(&self) -> &str {
         "Delta"
     }
 
-    fn coordinates(&self) -> usize {
-        3
+    fn coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
