@@ -42,6 +42,22 @@ pub enum ModelError {
         /// What is wrong with it.
         source: hyperstat_elements::ElementError,
     },
+    /// A point of an elastic body that its members do not connect with its first point.
+    #[error("no chain of members connects point `{point}` of body `{body}` with its first point")]
+    Loose {
+        /// Name of the body.
+        body: String,
+        /// Name of the point.
+        point: String,
+    },
+    /// A stiffness that a flexible body cannot have.
+    #[error("body `{body}`: {source}")]
+    Flexible {
+        /// Name of the body.
+        body: String,
+        /// What is wrong with it.
+        source: hyperstat_elements::ElementError,
+    },
     /// A joint that joins a body to itself or ground to ground.
     #[error("joint `{joint}` joins a body to itself")]
     SelfJoined {

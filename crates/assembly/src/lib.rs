@@ -10,6 +10,8 @@
 //! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
 //! full solve, which also refines, recovers and diagnoses.
 
+mod cluster;
+mod condense;
 mod coordinates;
 mod directions;
 mod elimination;
@@ -17,6 +19,7 @@ mod error;
 mod kinematics;
 mod model;
 mod numeric;
+mod parts;
 mod plan;
 mod recover;
 mod redundancy;
@@ -29,8 +32,8 @@ mod topology;
 pub use error::{ModelError, SolveError};
 pub use kinematics::{Kinematics, analyse};
 pub use model::{
-    Body, BodyId, BodyKind, Connection, Geometry, JointId, JointStiffness, Load, Member, Model,
-    Node, NodeId, Segment, SegmentId,
+    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
+    Load, Member, Model, Node, NodeId, Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;

@@ -1,151 +1,16 @@
-//! The model: bodies, nodes, segments, joints, loads and the output, as plain data.
-//!
-//! Names are kept for reports; everything refers to everything else by index. What a pose
-//! changes stands apart in [`Geometry`].
+//! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
-use hyperstat_elements::{Material, Section, element_frame};
-use hyperstat_joints::{Dof, DofSet, Joint};
-use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+use hyperstat_elements::{FlexibleBody, Material, Section, element_frame};
+use hyperstat_joints::{Dof, DofSet};
+use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::directions::inverse_on;
 use crate::error::ModelError;
-
-macro_rules! index {
-    ($(#[$doc:meta])* $name:ident) => {
-        $(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-        pub struct $name(pub usize);
-    };
-}
-index!(
-    /// Index of a body in [`Model::bodies`].
-    BodyId
-);
-index!(
-    /// Index of a node in [`Model::nodes`].
-    NodeId
-);
-index!(
-    /// Index of a segment in [`Model::segments`].
-    SegmentId
-);
-index!(
-    /// Index of a joint in [`Model::joints`].
-    JointId
-);
-
-/// Whether a body deforms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BodyKind {
-    /// One rigid body: its nodes move together (Eq. 37).
-    Rigid,
-    /// Beam segments, welded at the nodes they share.
-    Elastic,
-}
-
-/// A body: a name, its nodes and, where it is elastic, its segments.
-#[derive(Debug, Clone)]
-pub struct Body {
-    /// Name, unique in the model.
-    pub name: String,
-    /// Rigid or elastic.
-    pub kind: BodyKind,
-    /// Nodes in the order of the body's points.
-    pub nodes: Vec<NodeId>,
-    /// Segments in their order along the body; none on a rigid one.
-    pub segments: Vec<SegmentId>,
-}
-
-/// A node: one point of one body.
-#[derive(Debug, Clone)]
-pub struct Node {
-    /// The body it belongs to.
-    pub body: BodyId,
-    /// Name of the point.
-    pub point: String,
-}
-
-/// A straight prismatic beam between two nodes of an elastic body.
-#[derive(Debug, Clone)]
-pub struct Segment {
-    /// The body it belongs to.
-    pub body: BodyId,
-    /// First and second node; local x runs from the first to the second.
-    pub ends: [NodeId; 2],
-    /// Material.
-    pub material: Material,
-    /// Section.
-    pub section: Section,
-    /// Number of equal beam elements it is divided into.
-    pub elements: usize,
-}
-
-/// A segment to be added to a body, by the places of its ends in the body's list of points.
-#[derive(Debug, Clone)]
-pub struct Member {
-    /// Places of its ends.
-    pub ends: [usize; 2],
-    /// Material.
-    pub material: Material,
-    /// Section.
-    pub section: Section,
-    /// Direction of local y (made normal to x); `None`: the section stands upright.
-    pub y_axis: Option<Vector3<f64>>,
-    /// Number of equal beam elements it is divided into (at least 1).
-    pub elements: usize,
-}
-
-/// Elasticity of a joint, by directions of the joint.
-#[derive(Debug, Clone, PartialEq)]
-pub enum JointStiffness {
-    /// Per direction x y z (N/m), u v w (N·m/rad); `None`: rigid where constrained or locked,
-    /// free where free. Zero frees a constrained direction and leaves a free or locked one as it is.
-    Directions([Option<f64>; 6]),
-    /// Full symmetric positive semidefinite matrix over all six directions.
-    Matrix(Matrix6<f64>),
-}
-
-impl Default for JointStiffness {
-    fn default() -> Self {
-        Self::Directions([None; 6])
-    }
-}
-
-/// A joint of the mechanism: where it sits, between which nodes, and how stiff it is.
-#[derive(Debug, Clone)]
-pub struct Connection {
-    /// Name, unique in the model.
-    pub name: String,
-    /// First (i) and second (j) node; `None` is the ground.
-    pub between: [Option<NodeId>; 2],
-    /// The joint's kind.
-    pub joint: Box<dyn Joint>,
-    /// Directions that are held (drives).
-    pub locked: DofSet,
-    /// Elasticity from the file; where it is given it replaces the joint's own.
-    pub stiffness: JointStiffness,
-}
-
-/// A wrench on a node, about that node, in global axes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Load {
-    /// Node it acts on: the body's own node, inside an elastic joint that sits there.
-    pub node: NodeId,
-    /// Force (N) and moment (N·m).
-    pub wrench: Vector6<f64>,
-}
-
-/// What a pose changes: positions, section directions and joint frames, in global axes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Geometry {
-    /// Position of every node (m).
-    pub positions: Vec<Point3<f64>>,
-    /// Direction of every segment's local y; `None`: the default of
-    /// [`element_frame`].
-    pub y_axes: Vec<Option<Vector3<f64>>>,
-    /// Joint frame of every joint: columns are its x, y and z.
-    pub frames: Vec<Rotation3<f64>>,
-}
+use crate::parts::change_of_section;
+pub use crate::parts::{
+    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
+    Load, Member, Node, NodeId, Segment, SegmentId,
+};
 
 /// A mechanism in one configuration.
 #[derive(Debug, Clone)]
@@ -155,6 +20,7 @@ pub struct Model {
     bodies: Vec<Body>,
     nodes: Vec<Node>,
     segments: Vec<Segment>,
+    flexibles: Vec<Flexible>,
     joints: Vec<Connection>,
     loads: Vec<Load>,
     output: Option<NodeId>,
@@ -169,6 +35,7 @@ impl Model {
             bodies: Vec::new(),
             nodes: Vec::new(),
             segments: Vec::new(),
+            flexibles: Vec::new(),
             joints: Vec::new(),
             loads: Vec::new(),
             output: None,
@@ -176,6 +43,7 @@ impl Model {
                 positions: Vec::new(),
                 y_axes: Vec::new(),
                 frames: Vec::new(),
+                rotations: Vec::new(),
             },
         }
     }
@@ -196,7 +64,8 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::add_rigid`]; fewer than two points; a member without length, with its
-    /// `y_axis` along it, or with ends or a number of elements out of range.
+    /// `y_axis` along it, with ends out of range, or with a section that cannot taper to its
+    /// other; a point that the members do not connect with the first.
     pub fn add_elastic(
         &mut self,
         name: &str,
@@ -211,13 +80,19 @@ impl Model {
             let (Some(a), Some(b)) = (points.get(a), points.get(b)) else {
                 return Err(ModelError::TooFewPoints { body: name.into() });
             };
-            element_frame(&(b.1 - a.1), member.y_axis.as_ref()).map_err(|source| {
-                ModelError::Segment {
+            element_frame(&(b.1 - a.1), member.y_axis.as_ref())
+                .and_then(|_| change_of_section(&member.section, member.taper.as_ref()))
+                .map_err(|source| ModelError::Segment {
                     body: name.into(),
                     segment: k,
                     source,
-                }
-            })?;
+                })?;
+        }
+        if let Some(loose) = loose_point(points.len(), members) {
+            return Err(ModelError::Loose {
+                body: name.into(),
+                point: points[loose].0.into(),
+            });
         }
         let body = self.add_body(name, BodyKind::Elastic, points)?;
         for member in members {
@@ -229,6 +104,7 @@ impl Model {
                 ends,
                 material: member.material.clone(),
                 section: member.section.clone(),
+                taper: member.taper.clone(),
                 elements: member.elements.max(1),
             });
             self.geometry.y_axes.push(member.y_axis);
@@ -255,11 +131,37 @@ impl Model {
                 ends: [k - 1, k],
                 material: material.clone(),
                 section: section.clone(),
+                taper: None,
                 y_axis,
                 elements,
             })
             .collect();
         self.add_elastic(name, points, &members)
+    }
+
+    /// Adds an elastic body through `points`, given by its stiffness over them: 6n×6n, six rows
+    /// and columns a point in their order, linear part first, global axes at these positions
+    /// (N/m, N, N·m). It turns with the body where a pose turns it ([`Geometry::rotations`]).
+    ///
+    /// # Errors
+    /// As [`Model::add_rigid`], and whatever [`FlexibleBody::new`] finds wrong with the stiffness.
+    pub fn add_flexible(
+        &mut self,
+        name: &str,
+        points: &[(&str, Point3<f64>)],
+        stiffness: &DMatrix<f64>,
+    ) -> Result<BodyId, ModelError> {
+        let positions: Vec<_> = points.iter().map(|(_, position)| *position).collect();
+        let element = FlexibleBody::new(&positions, stiffness);
+        let element = element.map_err(|source| ModelError::Flexible {
+            body: name.into(),
+            source,
+        })?;
+        let body = self.add_body(name, BodyKind::Flexible, points)?;
+        self.bodies[body.0].flexible = Some(FlexibleId(self.flexibles.len()));
+        self.flexibles.push(Flexible { body, element });
+        self.geometry.rotations.push(Rotation3::identity());
+        Ok(body)
     }
 
     fn add_body(
@@ -300,6 +202,7 @@ impl Model {
             kind,
             nodes,
             segments: Vec::new(),
+            flexible: None,
         });
         Ok(body)
     }
@@ -374,6 +277,10 @@ impl Model {
     pub fn segments(&self) -> &[Segment] {
         &self.segments
     }
+    /// All flexible bodies.
+    pub fn flexibles(&self) -> &[Flexible] {
+        &self.flexibles
+    }
     /// All joints.
     pub fn joints(&self) -> &[Connection] {
         &self.joints
@@ -408,6 +315,24 @@ impl Model {
         let node = &self.nodes[node.0];
         format!("{}.{}", self.bodies[node.body.0].name, node.point)
     }
+}
+
+/// A point that no chain of members connects with the first.
+fn loose_point(points: usize, members: &[Member]) -> Option<usize> {
+    let mut connected = vec![false; points];
+    connected[0] = true;
+    let mut found = true;
+    while found {
+        found = false;
+        for member in members {
+            let [a, b] = member.ends;
+            if connected[a] != connected[b] {
+                (connected[a], connected[b]) = (true, true);
+                found = true;
+            }
+        }
+    }
+    connected.iter().position(|connected| !connected)
 }
 
 /// A joint's own compliance must be positive definite over the directions that give.

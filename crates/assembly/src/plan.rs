@@ -1,8 +1,9 @@
 //! What is worked out once a topology: coordinates and their order, elements, sparsity pattern,
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
-use hyperstat_elements::subassembly::absorption_workspace;
+use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::Dof;
+use nalgebra::{Matrix6, Vector3};
 
 use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
@@ -102,9 +103,15 @@ pub struct Workspace {
     pub(crate) remainder: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
     pub(crate) right_sides: Vec<f64>,
+    /// Twice the strain energy of every column.
+    pub(crate) energies: [f64; COLUMNS],
     /// Deformations and forces of one element.
     pub(crate) scratch: Vec<f64>,
     pub(crate) forces: Vec<f64>,
+    /// From the first node of one cluster to the others.
+    pub(crate) arms: Vec<Vector3<f64>>,
+    /// Absorbed joints of one cluster.
+    pub(crate) factors: Vec<JointFactor>,
     /// For absorbing the joints of one cluster.
     pub(crate) absorption: Vec<f64>,
 }
@@ -248,10 +255,16 @@ impl Plan {
         let triangle = |e: &ElementPlan| e.rows * e.rows;
         let width = |e: &ElementPlan| e.rows * e.columns.len().max(COLUMNS);
         let widest = self.elements.iter().map(width).max().unwrap_or(0);
-        let absorption = self.topology.clusters.iter().map(|cluster| {
+        let clusters = self.topology.clusters.iter();
+        let sizes = clusters.map(|cluster| {
             let joints = cluster.joints.iter().flatten().count();
-            absorption_workspace(cluster.segments.len(), joints)
+            (cluster.nodes.len() - 1, joints)
         });
+        let absorption = sizes.clone().map(|(n, j)| absorption_workspace(n, j));
+        let no_joint = JointFactor {
+            node: 0,
+            factor: Matrix6::zeros(),
+        };
         Workspace {
             tree: TreeBlocks::new(&self.topology),
             reduced: vec![0.0; self.reduced_len],
@@ -266,8 +279,11 @@ impl Plan {
             remainder: vec![0.0; self.unknowns],
             residuals: vec![0.0; COLUMNS * self.unknowns],
             right_sides: vec![0.0; COLUMNS * self.inner],
+            energies: [0.0; COLUMNS],
             scratch: vec![0.0; widest],
             forces: vec![0.0; widest],
+            arms: vec![Vector3::zeros(); sizes.clone().map(|s| s.0).max().unwrap_or(0)],
+            factors: vec![no_joint; sizes.map(|s| s.1).max().unwrap_or(0)],
             absorption: vec![0.0; absorption.max().unwrap_or(0)],
         }
     }

@@ -3,18 +3,17 @@
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, Vector6};
 
+use crate::cluster::{absorbed_joint, cluster_frame, segment_beam};
+use crate::condense::LOADS;
 use crate::coordinates::shift;
 use crate::directions::{rotation6, to_directions};
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model, NodeId};
-use crate::numeric::{
-    absorbed_joint, cluster_frame, multiply, node_displacement, node_load, segment_beam,
-};
+use crate::numeric::{multiply, node_displacement, node_load};
 use crate::plan::{Plan, Source, Workspace};
 use crate::solution::SegmentForces;
-use crate::solve::LOADS;
 
 /// What is recovered from the IDCs.
 pub(crate) struct Recovered {
@@ -42,7 +41,8 @@ pub(crate) fn recover(
         };
         let cluster = &plan.topology.clusters[k];
         let frame = cluster_frame(cluster, geometry)?;
-        // Wrenches at the nodes after the first, in global axes, and through every segment's end.
+        // Wrenches at the nodes after the first, in global axes; what goes through every
+        // segment's end, or for a flexible body their sum at the first node.
         let mut through = Vector6::zeros();
         for r in (1..cluster.nodes.len()).rev() {
             let node = cluster.nodes[r];
@@ -51,6 +51,11 @@ pub(crate) fn recover(
                 &Vector6::from_column_slice(&forces[6 * (r - 1)..6 * r]),
             );
             demand[node.0] += at_node;
+            if cluster.flexible.is_some() {
+                let first = cluster.nodes[0];
+                through += shift(geometry, first, node).transpose() * at_node;
+                continue;
+            }
             through += at_node;
             let before = cluster.nodes[r - 1];
             let (id, reversed) = cluster.segments[r - 1];

@@ -7,11 +7,12 @@
 
 use std::ops::Range;
 
-use hyperstat_elements::Beam;
 use hyperstat_joints::DofSet;
+use nalgebra::{Matrix6, Vector6};
 
+use crate::cluster::segment_beam;
 use crate::directions::Directions;
-use crate::model::{BodyKind, Geometry, JointId, Model, NodeId, SegmentId};
+use crate::model::{BodyKind, FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
 
 /// A joint softer than this share of the beam's own stiffness keeps coordinates of its own:
 /// absorbed, its compliance would swallow the beam's digits.
@@ -61,13 +62,15 @@ pub(crate) struct Component {
     pub coordinates: Range<usize>,
 }
 
-/// A run of segments that forms one subassembly element.
+/// What forms one subassembly element: a run of segments, or a flexible body.
 #[derive(Debug, Clone)]
 pub(crate) struct Cluster {
-    /// Nodes along the run.
+    /// Nodes along the run, or of the flexible body.
     pub nodes: Vec<NodeId>,
     /// Segments along the run; `true` where it is run through from its second node.
     pub segments: Vec<(SegmentId, bool)>,
+    /// The flexible body, which has no segments.
+    pub flexible: Option<FlexibleId>,
     /// Absorbed joint at each node.
     pub joints: Vec<Option<JointId>>,
 }
@@ -133,7 +136,7 @@ fn carriers(model: &Model, output: NodeId) -> (Vec<Carrier>, Vec<usize>) {
                     carrier_of[node.0] = carrier;
                 }
             }
-            BodyKind::Elastic => {
+            BodyKind::Elastic | BodyKind::Flexible => {
                 for node in &body.nodes {
                     carrier_of[node.0] = add(*node);
                 }
@@ -157,6 +160,12 @@ fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
             segments_at[end.0].push(SegmentId(k));
         }
     }
+    let mut flexible_nodes: Vec<Option<Matrix6<f64>>> = vec![None; model.nodes().len()];
+    for flexible in model.flexibles() {
+        for (k, node) in model.bodies()[flexible.body.0].nodes.iter().enumerate() {
+            flexible_nodes[node.0] = Some(flexible.element.node_stiffness(k));
+        }
+    }
     let mut run = Runs::new(model.segments().len());
     let mut roles = Vec::with_capacity(model.joints().len());
     for joint in model.joints() {
@@ -164,8 +173,14 @@ fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
         let eligible = |node: &NodeId| {
             *node != output
                 && joints_at[node.0] == 1
-                && (1..=2).contains(&segments_at[node.0].len())
-                && stiff_enough(&directions, &segments_at[node.0], model, geometry)
+                && match &flexible_nodes[node.0] {
+                    Some(own) => stiff_enough(&directions, &own.diagonal()),
+                    None => {
+                        let segments = &segments_at[node.0];
+                        (1..=2).contains(&segments.len())
+                            && stiff_enough(&directions, &stiffest(segments, model, geometry))
+                    }
+                }
         };
         let mut sides: Vec<NodeId> = if directions.elastic.is_empty() {
             Vec::new()
@@ -194,27 +209,24 @@ fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
     roles
 }
 
-/// Whether a joint's springs are stiff enough beside the beams at its node to be absorbed.
-fn stiff_enough(
-    directions: &Directions,
-    segments: &[SegmentId],
-    model: &Model,
-    geometry: &Geometry,
-) -> bool {
+/// Largest stiffness of the beams at a node by direction, element frame.
+fn stiffest(segments: &[SegmentId], model: &Model, geometry: &Geometry) -> Vector6<f64> {
+    let mut stiffest = Vector6::zeros();
+    for id in segments {
+        if let Ok((beam, _, _)) = segment_beam(model, geometry, *id) {
+            stiffest = stiffest.sup(&beam.cantilever_stiffness().diagonal());
+        }
+    }
+    stiffest
+}
+
+/// Whether a joint's springs are stiff enough beside the `own` stiffness of the body at its node,
+/// by direction in any axes, to be absorbed.
+fn stiff_enough(directions: &Directions, own: &Vector6<f64>) -> bool {
     let Some(compliance) = &directions.compliance else {
         return false;
     };
-    let mut stiffest = [0.0_f64; 2];
-    for id in segments {
-        let segment = &model.segments()[id.0];
-        let [a, b] = segment.ends.map(|n| geometry.positions[n.0]);
-        if let Ok(beam) = Beam::new(&segment.material, &segment.section, (b - a).norm()) {
-            let k = beam.stiffness();
-            for d in 0..6 {
-                stiffest[d / 3] = stiffest[d / 3].max(k[(d, d)]);
-            }
-        }
-    }
+    let stiffest = [own.fixed_rows::<3>(0).max(), own.fixed_rows::<3>(3).max()];
     (0..6).all(|d| compliance[(d, d)] * stiffest[d / 3] * SOFTEST_ABSORBED <= 1.0)
 }
 
@@ -253,7 +265,8 @@ impl Runs {
     }
 }
 
-/// Runs of segments through absorbed middle joints; every other segment is a run of its own.
+/// Runs of segments through absorbed middle joints; every other segment is a run of its own, as
+/// is every flexible body.
 fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
     let mut absorbed_at = vec![None; model.nodes().len()];
     for (k, role) in roles.iter().enumerate() {
@@ -304,9 +317,19 @@ fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
         clusters.push(Cluster {
             nodes,
             segments,
+            flexible: None,
             joints,
         });
     }
+    clusters.extend(model.bodies().iter().filter_map(|body| {
+        let id = body.flexible?;
+        Some(Cluster {
+            nodes: body.nodes.clone(),
+            segments: Vec::new(),
+            flexible: Some(id),
+            joints: body.nodes.iter().map(|n| absorbed_at[n.0]).collect(),
+        })
+    }));
     clusters
 }
 

@@ -1,0 +1,228 @@
+//! Condensation to the output (Eqs. 43–45) and refinement.
+//!
+//! Columns of the solutions: with the output's six coordinates independent, its unit motions
+//! (Eq. 45's T_o); otherwise unit forces on it; and the loads. Every column starts at zero and is
+//! corrected by the factor from residuals formed in the elements' deformations,
+//! `Hᵀ F − Dᵀ k (D U + δ₀)`: the first correction is the plain solution, the others are refinement
+//! (paper-notes, "Digits go in rigid-motion cancellation").
+
+use nalgebra::{Matrix6, Vector6};
+
+use crate::coordinates::read;
+use crate::error::SolveError;
+use crate::numeric::{dot, multiply};
+use crate::plan::{COLUMNS, Plan, Workspace};
+
+/// Refinement steps at the most.
+const MOST_REFINEMENTS: usize = 6;
+/// A last correction above this share of the solution is no solution.
+const TRUSTED: f64 = 1e-6;
+/// Column of the model's loads.
+pub(crate) const LOADS: usize = COLUMNS - 1;
+
+impl Plan {
+    /// Factors the inner stiffness with `pins` held and finds all columns of the solutions,
+    /// refining until a correction is below `enough` of the solution or no longer shrinks;
+    /// returns the relative size of the last correction. Fails where it does not settle.
+    pub(crate) fn condense(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        enough: f64,
+    ) -> Result<f64, SolveError> {
+        for &pin in pins {
+            let scale = self.pattern.diagonal(pin, &workspace.values).max(1.0);
+            self.pattern.pin(pin, scale, &mut workspace.values);
+        }
+        self.pattern
+            .factorize(&workspace.values, &mut workspace.factor)
+            .map_err(|_| SolveError::Singular)?;
+        workspace.solutions.fill(0.0);
+        if self.output_is_independent() {
+            for k in 0..6 {
+                workspace.solutions[k * self.unknowns + self.inner + k] = 1.0;
+            }
+        }
+        self.residuals(workspace);
+        self.correct(workspace, pins);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_REFINEMENTS {
+            self.residuals(workspace);
+            let change = self.correct(workspace, pins);
+            let settled = change < enough || change > 0.5 * last;
+            last = change;
+            if settled {
+                break;
+            }
+        }
+        if last < TRUSTED {
+            Ok(last)
+        } else {
+            Err(SolveError::Singular)
+        }
+    }
+
+    /// Residuals `Hᵀ F − Dᵀ k (D U + δ₀)` of all columns, and their energies.
+    pub(crate) fn residuals(&self, workspace: &mut Workspace) {
+        let n = self.unknowns;
+        let Workspace {
+            operators,
+            stiffnesses,
+            initial,
+            loads,
+            solutions,
+            residuals,
+            energies,
+            scratch,
+            forces,
+            ..
+        } = workspace;
+        residuals.copy_from_slice(loads);
+        energies.fill(0.0);
+        for element in &self.elements {
+            let (rows, count) = (element.rows, element.columns.len());
+            let d = &operators[element.operator_start..element.operator_start + rows * count];
+            let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
+            let deformations = &mut scratch[..rows * COLUMNS];
+            deformations.fill(0.0);
+            deformations[rows * LOADS..]
+                .copy_from_slice(&initial[element.initial_start..element.initial_start + rows]);
+            for (c, deformation) in deformations.chunks_exact_mut(rows).enumerate() {
+                for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+                    let u = solutions[c * n + idc];
+                    if u != 0.0 {
+                        for (sum, entry) in deformation.iter_mut().zip(d_column) {
+                            *sum += u * entry;
+                        }
+                    }
+                }
+            }
+            let forces = &mut forces[..rows * COLUMNS];
+            multiply(k, deformations, rows, forces);
+            for (c, force) in forces.chunks_exact(rows).enumerate() {
+                energies[c] += dot(&deformations[rows * c..rows * (c + 1)], force);
+                for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+                    residuals[c * n + idc] -= dot(d_column, force);
+                }
+            }
+        }
+    }
+
+    /// Corrects the inner part of all columns by their residuals; returns the largest relative
+    /// change, coordinates weighted by their stiffness.
+    pub(crate) fn correct(&self, workspace: &mut Workspace, pins: &[usize]) -> f64 {
+        let (n, inner) = (self.unknowns, self.inner);
+        if inner == 0 {
+            return 0.0;
+        }
+        for c in 0..COLUMNS {
+            let target = &mut workspace.right_sides[c * inner..(c + 1) * inner];
+            target.copy_from_slice(&workspace.residuals[c * n..c * n + inner]);
+            for &pin in pins {
+                target[pin] = 0.0;
+            }
+        }
+        self.pattern
+            .solve(&mut workspace.factor, &mut workspace.right_sides);
+        let mut largest = 0.0_f64;
+        for c in 0..COLUMNS {
+            let mut moved = 0.0;
+            let mut whole = 0.0;
+            for k in 0..inner {
+                let step = workspace.right_sides[c * inner + k];
+                let entry = &mut workspace.solutions[c * n + k];
+                *entry += step;
+                let weight = self.pattern.diagonal(k, &workspace.values);
+                moved += weight * step * step;
+                whole += weight * *entry * *entry;
+            }
+            // Where only the output moves, what it does to the elements is the measure.
+            let whole = f64::max(whole, workspace.energies[c]);
+            if whole > 0.0 {
+                largest = largest.max((moved / whole).sqrt());
+            }
+        }
+        largest
+    }
+
+    /// `K_o = Σ (D T_o)ᵀ k (D T_o)`: the energy of the output's unit motions, in which errors
+    /// of the motions count only squared.
+    pub(crate) fn stiffness_by_energy(&self, workspace: &mut Workspace) -> Matrix6<f64> {
+        let n = self.unknowns;
+        let Workspace {
+            operators,
+            stiffnesses,
+            solutions,
+            scratch,
+            forces,
+            ..
+        } = workspace;
+        let mut stiffness = Matrix6::zeros();
+        for element in &self.elements {
+            let (rows, count) = (element.rows, element.columns.len());
+            let d = &operators[element.operator_start..element.operator_start + rows * count];
+            let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
+            let deformations = &mut scratch[..rows * 6];
+            deformations.fill(0.0);
+            for (c, deformation) in deformations.chunks_exact_mut(rows).enumerate() {
+                for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+                    let u = solutions[c * n + idc];
+                    for (sum, entry) in deformation.iter_mut().zip(d_column) {
+                        *sum += u * entry;
+                    }
+                }
+            }
+            let forces = &mut forces[..rows * 6];
+            multiply(k, deformations, rows, forces);
+            for b in 0..6 {
+                for a in 0..=b {
+                    let deformation = &deformations[rows * a..rows * (a + 1)];
+                    stiffness[(a, b)] += dot(deformation, &forces[rows * b..rows * (b + 1)]);
+                }
+            }
+        }
+        stiffness.fill_lower_triangle_with_upper_triangle();
+        stiffness
+    }
+
+    /// The loads' force on the output: what holds it where it is, from the residual of the loads'
+    /// column with the output clamped.
+    pub(crate) fn output_force(&self, workspace: &mut Workspace) -> Vector6<f64> {
+        self.residuals(workspace);
+        let n = self.unknowns;
+        let residual = &workspace.residuals[LOADS * n..(LOADS + 1) * n];
+        let on_output = read(residual, self.inner);
+        let through =
+            Vector6::from_fn(|k, _| dot(&workspace.solutions[k * n..k * n + self.inner], residual));
+        on_output + through
+    }
+
+    /// Finds what the loads' column still lacks, too small to be added to it: the forces of the
+    /// elements take it in, so that they balance at every node to rounding.
+    pub(crate) fn find_remainder(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        compliance: Option<&Matrix6<f64>>,
+    ) {
+        let (n, inner) = (self.unknowns, self.inner);
+        let step = compliance.map(|c| c * self.output_force(workspace));
+        if step.is_none() {
+            self.residuals(workspace);
+        }
+        let right_side = &mut workspace.right_sides[..inner];
+        right_side.copy_from_slice(&workspace.residuals[LOADS * n..LOADS * n + inner]);
+        for &pin in pins {
+            right_side[pin] = 0.0;
+        }
+        self.pattern.solve(&mut workspace.factor, right_side);
+        workspace.remainder.fill(0.0);
+        workspace.remainder[..inner].copy_from_slice(right_side);
+        for (k, step) in step.iter().flatten().enumerate() {
+            let motion = &workspace.solutions[k * n..(k + 1) * n];
+            for (entry, motion) in workspace.remainder.iter_mut().zip(motion) {
+                *entry += motion * step;
+            }
+        }
+    }
+}

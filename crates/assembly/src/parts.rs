@@ -1,0 +1,188 @@
+//! The parts of a model, as plain data.
+//!
+//! Names are kept for reports; everything refers to everything else by index. What a pose
+//! changes stands apart in [`Geometry`].
+
+use hyperstat_elements::{ElementError, FlexibleBody, Material, Section, Taper};
+use hyperstat_joints::{DofSet, Joint};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+
+macro_rules! index {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub struct $name(pub usize);
+    };
+}
+index!(
+    /// Index of a body in [`Model::bodies`](crate::Model::bodies).
+    BodyId
+);
+index!(
+    /// Index of a node in [`Model::nodes`](crate::Model::nodes).
+    NodeId
+);
+index!(
+    /// Index of a segment in [`Model::segments`](crate::Model::segments).
+    SegmentId
+);
+index!(
+    /// Index of a flexible body in [`Model::flexibles`](crate::Model::flexibles).
+    FlexibleId
+);
+index!(
+    /// Index of a joint in [`Model::joints`](crate::Model::joints).
+    JointId
+);
+
+/// Whether a body deforms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// One rigid body: its nodes move together (Eq. 37).
+    Rigid,
+    /// Beam segments, welded at the nodes they share.
+    Elastic,
+    /// An elastic body given by its stiffness over its nodes.
+    Flexible,
+}
+
+/// A body: a name, its nodes and, where it is elastic, its segments.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Name, unique in the model.
+    pub name: String,
+    /// Rigid, of beams, or given by its stiffness.
+    pub kind: BodyKind,
+    /// Nodes in the order of the body's points.
+    pub nodes: Vec<NodeId>,
+    /// Segments in their order along the body; none where it is not made of beams.
+    pub segments: Vec<SegmentId>,
+    /// Its stiffness, where it is given by one.
+    pub flexible: Option<FlexibleId>,
+}
+
+/// A node: one point of one body.
+#[derive(Debug, Clone)]
+pub struct Node {
+    /// The body it belongs to.
+    pub body: BodyId,
+    /// Name of the point.
+    pub point: String,
+}
+
+/// A straight beam between two nodes of an elastic body.
+#[derive(Debug, Clone)]
+pub struct Segment {
+    /// The body it belongs to.
+    pub body: BodyId,
+    /// First and second node; local x runs from the first to the second.
+    pub ends: [NodeId; 2],
+    /// Material.
+    pub material: Material,
+    /// Section; at the first node where the segment tapers.
+    pub section: Section,
+    /// Section at the second node, where the segment tapers.
+    pub taper: Option<Section>,
+    /// Number of equal beam elements it is divided into.
+    pub elements: usize,
+}
+
+impl Segment {
+    /// The change of section along it; `None` where it is prismatic.
+    ///
+    /// # Errors
+    /// Sections that no taper joins, which no segment of a model has.
+    pub fn change_of_section(&self) -> Result<Option<Taper>, ElementError> {
+        change_of_section(&self.section, self.taper.as_ref())
+    }
+}
+
+/// A segment to be added to a body, by the places of its ends in the body's list of points.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// Places of its ends.
+    pub ends: [usize; 2],
+    /// Material.
+    pub material: Material,
+    /// Section; at the first end where the segment tapers.
+    pub section: Section,
+    /// Section at the second end; `None`: the segment is prismatic.
+    pub taper: Option<Section>,
+    /// Direction of local y (made normal to x); `None`: the section stands upright.
+    pub y_axis: Option<Vector3<f64>>,
+    /// Number of equal beam elements it is divided into (at least 1).
+    pub elements: usize,
+}
+
+/// A flexible body: an elastic body given by its stiffness.
+#[derive(Debug, Clone)]
+pub struct Flexible {
+    /// The body.
+    pub body: BodyId,
+    /// Its stiffness over its nodes, in axes that turn with it.
+    pub element: FlexibleBody,
+}
+
+/// Elasticity of a joint, by directions of the joint.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JointStiffness {
+    /// Per direction x y z (N/m), u v w (N·m/rad); `None`: rigid where constrained or locked,
+    /// free where free. Zero frees a constrained direction and leaves a free or locked one as it is.
+    Directions([Option<f64>; 6]),
+    /// Full symmetric positive semidefinite matrix over all six directions.
+    Matrix(Matrix6<f64>),
+}
+
+impl Default for JointStiffness {
+    fn default() -> Self {
+        Self::Directions([None; 6])
+    }
+}
+
+/// A joint of the mechanism: where it sits, between which nodes, and how stiff it is.
+#[derive(Debug, Clone)]
+pub struct Connection {
+    /// Name, unique in the model.
+    pub name: String,
+    /// First (i) and second (j) node; `None` is the ground.
+    pub between: [Option<NodeId>; 2],
+    /// The joint's kind.
+    pub joint: Box<dyn Joint>,
+    /// Directions that are held (drives).
+    pub locked: DofSet,
+    /// Elasticity from the file; where it is given it replaces the joint's own.
+    pub stiffness: JointStiffness,
+}
+
+/// A wrench on a node, about that node, in global axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Load {
+    /// Node it acts on: the body's own node, inside an elastic joint that sits there.
+    pub node: NodeId,
+    /// Force (N) and moment (N·m).
+    pub wrench: Vector6<f64>,
+}
+
+/// What a pose changes: positions, section directions and joint frames, in global axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Geometry {
+    /// Position of every node (m).
+    pub positions: Vec<Point3<f64>>,
+    /// Direction of every segment's local y; `None`: the default of
+    /// [`element_frame`](hyperstat_elements::element_frame).
+    pub y_axes: Vec<Option<Vector3<f64>>>,
+    /// Joint frame of every joint: columns are its x, y and z.
+    pub frames: Vec<Rotation3<f64>>,
+    /// Rotation of every flexible body, by [`FlexibleId`]: its columns are the axes that the
+    /// body's stiffness is given in. Its nodes' positions must have moved with it.
+    pub rotations: Vec<Rotation3<f64>>,
+}
+
+/// The taper from one section to another; `None` where there is no other.
+pub(crate) fn change_of_section(
+    from: &Section,
+    to: Option<&Section>,
+) -> Result<Option<Taper>, ElementError> {
+    let taper = |to: &Section| Taper::new(from.clone(), to.clone());
+    to.map(taper).transpose()
+}
