@@ -193,29 +193,62 @@ impl Plan {
             }
         }
         let compliance = inverse(&held, 0.0).ok_or(SolveError::Singular)?;
+        self.settle(workspace, pins, &compliance);
+        let n = self.unknowns;
+        let displacement = read(&workspace.solutions[LOADS * n..], self.inner);
+        self.find_remainder(workspace, pins, Some(&compliance));
+        Ok(Output {
+            stiffness: Some(stiffness),
+            compliance: (!free).then(|| self.refined_compliance(workspace, pins, &compliance)),
+            displacement,
+            rigid_directions: Vec::new(),
+            free_motions,
+        })
+    }
+
+    /// Completes the loads' column, found with the output clamped: corrections of the output
+    /// first (the first finds its displacement), each followed by one of the rest.
+    fn settle(&self, workspace: &mut Workspace, pins: &[usize], compliance: &Matrix6<f64>) {
         let n = self.unknowns;
         for _ in 0..3 {
-            // One correction of the output, then of the rest (the first finds the displacement).
-            let force = self.output_force(workspace);
-            let step = compliance * force;
-            for k in 0..6 {
-                for row in 0..n {
-                    let motion = workspace.solutions[k * n + row];
-                    workspace.solutions[LOADS * n + row] += motion * step[k];
+            let step = compliance * self.output_force(workspace);
+            let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
+            for (motion, step) in motions.chunks_exact(n).zip(step.iter()) {
+                for (entry, motion) in loads.iter_mut().zip(motion) {
+                    *entry += motion * step;
                 }
             }
             self.residuals(workspace);
             self.correct(workspace, pins);
         }
-        let displacement = read(&workspace.solutions[LOADS * n..], self.inner);
-        self.find_remainder(workspace, pins, Some(&compliance));
-        Ok(Output {
-            stiffness: Some(stiffness),
-            compliance: (!free).then_some(compliance),
-            displacement,
-            rigid_directions: Vec::new(),
-            free_motions,
-        })
+    }
+
+    /// The compliance from unit forces on the output, refined as displacements are: where the
+    /// output is stiff one way and soft another, the inverse of the stiffness loses digits.
+    /// Uses the loads' column, after the loads themselves.
+    fn refined_compliance(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        inverse: &Matrix6<f64>,
+    ) -> Matrix6<f64> {
+        let n = self.unknowns;
+        let loads = workspace.loads[LOADS * n..].to_vec();
+        let solution = workspace.solutions[LOADS * n..].to_vec();
+        let initial = workspace.initial.clone();
+        workspace.initial.fill(0.0);
+        let mut compliance = Matrix6::zeros();
+        for k in 0..6 {
+            workspace.loads[LOADS * n..].fill(0.0);
+            workspace.loads[LOADS * n + self.inner + k] = 1.0;
+            workspace.solutions[LOADS * n..].fill(0.0);
+            self.settle(workspace, pins, inverse);
+            compliance.set_column(k, &read(&workspace.solutions[LOADS * n..], self.inner));
+        }
+        workspace.initial = initial;
+        workspace.loads[LOADS * n..].copy_from_slice(&loads);
+        workspace.solutions[LOADS * n..].copy_from_slice(&solution);
+        (compliance + compliance.transpose()) * 0.5
     }
 
     /// Twists of the output that no IDC gives it.

@@ -1,3 +1,5 @@
+//! The commands of hyperstat as a library: [`run`] with joint kinds of your own.
+//!
 #![doc = include_str!("../README.md")]
 
 mod args;
@@ -5,8 +7,10 @@ mod atomic;
 mod batch;
 mod case;
 mod diagnostic;
+mod drives;
 mod error;
 mod report;
+mod verification;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -16,6 +20,7 @@ use clap::Parser;
 use hyperstat_mechanisms::Registry;
 
 use args::{Cli, Command, Format};
+use atomic::AtomicFile;
 use case::Case;
 use error::CliError;
 use report::{CheckReport, SolveReport, json};
@@ -43,6 +48,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
     let outcome = match &cli.command {
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
+        Command::Export(args) => export(args, registry),
         Command::Run(args) => batch::run(args, registry, print),
     };
     match outcome {
@@ -62,11 +68,19 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let case = Case::load(&args.input, registry)?;
     let solution = case.solve()?;
-    let report = SolveReport::new(&case, &solution);
+    let verification = if args.verify {
+        Some(case.verify(&solution)?)
+    } else {
+        None
+    };
+    let report = SolveReport::new(&case, &solution, verification);
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,
     })?;
+    if args.allow_free {
+        return Ok(true);
+    }
     // What was found is right and is told all the same.
     case.free_output(&solution).map_or(Ok(true), Err)
 }
@@ -96,6 +110,22 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
         Format::Json => json(&report)?,
     })?;
     error.map_or(Ok(true), Err)
+}
+
+/// `hyperstat export`
+fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
+    let case = Case::load(&args.input, registry)?;
+    let text = case.mechanism_file(registry)?;
+    match &args.out {
+        None => print(&text)?,
+        Some(path) => {
+            AtomicFile::write(path, text.as_bytes()).map_err(|source| CliError::Write {
+                path: path.clone(),
+                source,
+            })?;
+        }
+    }
+    Ok(true)
 }
 
 fn print(text: &str) -> Result<(), CliError> {

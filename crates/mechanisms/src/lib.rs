@@ -1,3 +1,5 @@
+//! Mechanism and batch files, the registry of joint kinds, and prebuilt mechanisms.
+//!
 #![doc = include_str!("../README.md")]
 //!
 //! # Where to start
@@ -29,6 +31,7 @@ mod registry;
 mod source;
 mod syntax;
 mod table;
+mod write;
 
 pub use batch::{Batch, Job};
 pub use error::{LoadError, Location};
@@ -38,4 +41,5 @@ pub use load::{
 };
 pub use mechanism::Mechanism;
 pub use prebuilt::PoseError;
-pub use registry::{Arguments, Orientation, ParsedJoint, Registry};
+pub use registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
+pub use write::{WriteError, write};
