@@ -38,56 +38,64 @@ impl Elimination {
 
     /// Solves `conditions · x = right_side`, whose inconsistent part is left out.
     pub fn with_right_side(
-        mut conditions: DMatrix<f64>,
+        conditions: DMatrix<f64>,
         mut right_side: DVector<f64>,
         spared: usize,
     ) -> Self {
-        let (rows, columns) = conditions.shape();
+        let columns = conditions.ncols();
+        let mut rows: Vec<Row> = conditions
+            .row_iter()
+            .map(|row| Row::new(row.iter().copied().collect(), spared))
+            .collect();
+        let mut rows_left: Vec<usize> = (0..rows.len()).collect();
         let mut pivots: Vec<(usize, usize)> = Vec::new();
-        let mut rows_left: Vec<usize> = (0..rows).collect();
-        let mut columns_left: Vec<usize> = (0..columns).collect();
         let mut doubtful: Option<f64> = None;
-        while !rows_left.is_empty() && !columns_left.is_empty() {
-            let (row, column) = choose(&conditions, &rows_left, &columns_left, spared);
-            let size = conditions[(row, column)].abs();
+        while let Some((row, column)) = choose(&rows, &rows_left) {
+            let size = rows[row].values[column].abs();
             if DOUBTFUL.contains(&size) {
                 doubtful = Some(doubtful.map_or(size, |d| d.max(size)));
             }
             if size <= RANK_TOLERANCE {
                 break;
             }
-            let scale = 1.0 / conditions[(row, column)];
-            conditions.row_mut(row).scale_mut(scale);
-            conditions[(row, column)] = 1.0;
-            right_side[row] *= scale;
-            let pivot = conditions.row(row).into_owned();
-            for r in (0..rows).filter(|r| *r != row) {
-                let factor = conditions[(r, column)];
-                if factor != 0.0 {
-                    for &c in &columns_left {
-                        conditions[(r, c)] -= factor * pivot[c];
-                    }
-                    conditions[(r, column)] = 0.0;
-                    right_side[r] -= factor * right_side[row];
+            let pivot = rows[row].values[column];
+            right_side[row] /= pivot;
+            let mut entries = Vec::new();
+            for (c, value) in rows[row].values.iter_mut().enumerate() {
+                *value /= pivot;
+                if *value != 0.0 && c != column {
+                    entries.push((c, *value));
                 }
             }
             rows_left.retain(|r| *r != row);
-            columns_left.retain(|c| *c != column);
             pivots.push((row, column));
+            for r in (0..rows.len()).filter(|r| *r != row) {
+                let factor = rows[r].values[column];
+                if factor != 0.0 {
+                    for (c, value) in &entries {
+                        rows[r].values[*c] -= factor * value;
+                    }
+                    rows[r].values[column] = 0.0;
+                    rows[r].find_largest(spared);
+                    right_side[r] -= factor * right_side[row];
+                }
+            }
         }
-        let mut map = DMatrix::zeros(columns, columns_left.len());
+        let mut independent: Vec<usize> = (0..columns).collect();
+        independent.retain(|c| pivots.iter().all(|(_, column)| column != c));
+        let mut map = DMatrix::zeros(columns, independent.len());
         let mut particular = DVector::zeros(columns);
         for &(row, column) in &pivots {
             particular[column] = right_side[row];
-            for (k, &c) in columns_left.iter().enumerate() {
-                map[(column, k)] = -conditions[(row, c)];
+            for (k, &c) in independent.iter().enumerate() {
+                map[(column, k)] = -rows[row].values[c];
             }
         }
-        for (k, &c) in columns_left.iter().enumerate() {
+        for (k, &c) in independent.iter().enumerate() {
             map[(c, k)] = 1.0;
         }
         Self {
-            independent: columns_left,
+            independent,
             map,
             particular,
             doubtful,
@@ -105,19 +113,43 @@ impl Elimination {
     }
 }
 
-/// The largest entry left, in the first place of equals (to 1e-9); among the spared columns only
-/// where the others have none above [`SPARING`].
-fn choose(
-    conditions: &DMatrix<f64>,
-    rows: &[usize],
-    columns: &[usize],
-    spared: usize,
-) -> (usize, usize) {
-    let mut best = [(rows[0], columns[0], 0.0); 2];
-    for &c in columns {
-        let target = &mut best[usize::from(c < spared)];
-        for &r in rows {
-            let size = conditions[(r, c)].abs();
+/// A condition and its largest entries.
+struct Row {
+    values: Vec<f64>,
+    /// Column and size of the largest entry outside the spared columns, and among them.
+    largest: [(usize, f64); 2],
+}
+
+impl Row {
+    fn new(values: Vec<f64>, spared: usize) -> Self {
+        let mut row = Self {
+            values,
+            largest: [(0, 0.0); 2],
+        };
+        row.find_largest(spared);
+        row
+    }
+
+    /// Finds the largest entries anew: of equals (to 1e-9), the first.
+    fn find_largest(&mut self, spared: usize) {
+        self.largest = [(0, 0.0); 2];
+        for (c, value) in self.values.iter().enumerate() {
+            let target = &mut self.largest[usize::from(c < spared)];
+            if value.abs() > target.1 * (1.0 + 1e-9) {
+                *target = (c, value.abs());
+            }
+        }
+    }
+}
+
+/// Row and column of the largest entry left, in the first row of equals (to 1e-9); among the
+/// spared columns only where the others have none above [`SPARING`]. `None` where all are zero.
+///
+/// A row without a pivot has no entry in the columns of the pivots, so its largest entry stands.
+fn choose(rows: &[Row], rows_left: &[usize]) -> Option<(usize, usize)> {
+    let mut best = [(0, 0, 0.0); 2];
+    for &r in rows_left {
+        for (target, &(c, size)) in best.iter_mut().zip(&rows[r].largest) {
             if size > target.2 * (1.0 + 1e-9) {
                 *target = (r, c, size);
             }
@@ -125,8 +157,8 @@ fn choose(
     }
     let [other, spare] = best;
     let take_spare = other.2 <= SPARING && spare.2 > other.2;
-    let (row, column, _) = if take_spare { spare } else { other };
-    (row, column)
+    let (row, column, size) = if take_spare { spare } else { other };
+    (size > 0.0).then_some((row, column))
 }
 
 #[cfg(test)]

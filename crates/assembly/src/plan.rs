@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector3};
 use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
-use crate::kinematics::{analyse_at, characteristic_length};
+use crate::kinematics::{Jacobian, characteristic_length};
 use crate::model::{BodyId, Geometry, JointId, Model, NodeId};
 use crate::sparse::{Factor, Pattern};
 use crate::topology::Topology;
@@ -235,7 +235,10 @@ impl Plan {
             columns,
             reduced_starts,
             reduced_len,
-            has_idle: !analyse_at(model, geometry).motions.is_empty(),
+            has_idle: !Jacobian::held(model, geometry)
+                .eliminated()
+                .independent
+                .is_empty(),
             unknowns,
             inner,
             elements,
