@@ -58,6 +58,14 @@ pub enum ModelError {
         /// What is wrong with it.
         source: hyperstat_elements::ElementError,
     },
+    /// A segment divided into no elements.
+    #[error("segment {segment} of body `{body}` is divided into 0 elements: at least 1")]
+    NoElements {
+        /// Name of the body.
+        body: String,
+        /// Index of the segment on the body, from 0.
+        segment: usize,
+    },
     /// A joint that joins a body to itself or ground to ground.
     #[error("joint `{joint}` joins a body to itself")]
     SelfJoined {
@@ -72,7 +80,7 @@ pub enum ModelError {
         /// What is wrong with the stiffness.
         what: &'static str,
     },
-    /// An entity of another model, or a load or position that is not finite.
+    /// A load or position that is not finite.
     #[error("{what} is not finite")]
     NotFinite {
         /// What is not finite.
@@ -107,6 +115,9 @@ pub enum SolveError {
     /// too different size.
     #[error("the stiffness matrix is singular to working precision")]
     Singular,
+    /// Loads or stiffnesses so large or small that results overflow.
+    #[error("the results overflow: loads or stiffnesses are out of all proportion")]
+    Overflow,
     /// A matrix too large for this machine.
     #[error("a model of {unknowns} unknowns is too large")]
     TooLarge {

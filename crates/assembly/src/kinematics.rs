@@ -168,23 +168,14 @@ fn elastic_rows(local: &Matrix6<f64>, directions: &Directions, size: f64) -> Vec
     if directions.compliance.is_some() {
         return condition_rows(local, directions.elastic, size).collect();
     }
+    // Rows of `k q`, each of unit length: its null space is that of k.
     let k = &directions.stiffness;
-    let mut rows = Vec::new();
-    for dof in directions.elastic.iter() {
-        let r = dof.index();
-        let mut row = RowVector6::zeros();
-        for other in directions.elastic.iter() {
-            let c = other.index();
-            let mut unit = local.row(c).into_owned();
-            for t in 0..3 {
-                unit[t] *= size;
-            }
-            let norm = unit.norm();
-            row += unit / norm * (k[(r, c)] / (k[(r, r)] * k[(c, c)]).sqrt());
-        }
-        rows.push(row);
-    }
-    rows
+    let mut scaled = *local;
+    scaled.fixed_columns_mut::<3>(0).scale_mut(size);
+    let elastic = directions.elastic.iter();
+    elastic
+        .map(|dof| (k.row(dof.index()) * scaled).normalize())
+        .collect()
 }
 
 /// A basis of the same space in reduced echelon form by complete pivoting: motions of few bodies

@@ -76,6 +76,12 @@ impl Model {
             return Err(ModelError::TooFewPoints { body: name.into() });
         }
         for (k, member) in members.iter().enumerate() {
+            if member.elements == 0 {
+                return Err(ModelError::NoElements {
+                    body: name.into(),
+                    segment: k,
+                });
+            }
             let [a, b] = member.ends;
             let (Some(a), Some(b)) = (points.get(a), points.get(b)) else {
                 return Err(ModelError::TooFewPoints { body: name.into() });
@@ -105,7 +111,7 @@ impl Model {
                 material: member.material.clone(),
                 section: member.section.clone(),
                 taper: member.taper.clone(),
-                elements: member.elements.max(1),
+                elements: member.elements,
             });
             self.geometry.y_axes.push(member.y_axis);
             self.bodies[body.0].segments.push(id);

@@ -32,6 +32,7 @@ pub(crate) fn evaluate(
     geometry: &Geometry,
     workspace: &mut Workspace,
 ) -> Result<(), Fault> {
+    workspace.doubtful = None;
     workspace.tree.evaluate(&plan.topology, model, geometry)?;
     for (coordinate, idc) in plan.idc_of.iter().enumerate() {
         if let Some(idc) = idc {
@@ -78,6 +79,7 @@ fn close_loops(
             size,
             closed.spared,
         );
+        workspace.doubtful = workspace.doubtful.or(solved.doubtful);
         let spared = solved
             .independent
             .iter()

@@ -2,7 +2,9 @@
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
 use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
-use hyperstat_joints::Dof;
+use hyperstat_joints::{Dof, DofSet};
+
+use crate::directions::Directions;
 use nalgebra::{Matrix6, Vector3};
 
 use crate::coordinates::TreeBlocks;
@@ -103,6 +105,8 @@ pub struct Workspace {
     pub(crate) remainder: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
     pub(crate) right_sides: Vec<f64>,
+    /// A pivot of loop elimination between zero and not zero.
+    pub(crate) doubtful: Option<f64>,
     /// Twice the strain energy of every column.
     pub(crate) energies: [f64; COLUMNS],
     /// Deformations and forces of one element.
@@ -282,6 +286,7 @@ impl Plan {
             remainder: vec![0.0; self.unknowns],
             residuals: vec![0.0; COLUMNS * self.unknowns],
             right_sides: vec![0.0; COLUMNS * self.inner],
+            doubtful: None,
             energies: [0.0; COLUMNS],
             scratch: vec![0.0; widest],
             forces: vec![0.0; widest],
@@ -391,6 +396,9 @@ fn check_held(model: &Model, output: NodeId) -> Result<(), SolveError> {
     loop {
         let before = held.iter().filter(|h| **h).count();
         for joint in model.joints() {
+            if Directions::of(joint).free == DofSet::ALL {
+                continue;
+            }
             let bodies = joint.between.map(|n| n.map(body_of));
             if bodies.iter().any(|b| b.is_none_or(|b| held[b])) {
                 for body in bodies.into_iter().flatten() {

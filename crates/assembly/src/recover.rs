@@ -20,6 +20,8 @@ pub(crate) struct Recovered {
     pub displacements: Vec<Vector6<f64>>,
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     pub segments: Vec<SegmentForces>,
+    /// A pivot of the joints' equilibrium between zero and not zero.
+    pub doubtful: Option<f64>,
 }
 
 /// Recovers displacements and forces under the model's loads.
@@ -81,11 +83,12 @@ pub(crate) fn recover(
             }
         }
     }
-    let joint_wrenches = joint_wrenches(plan, model, geometry, workspace, &demand);
+    let (joint_wrenches, doubtful) = joint_wrenches(plan, model, geometry, workspace, &demand);
     Ok(Recovered {
         displacements,
         joint_wrenches,
         segments: segments.into_iter().flatten().collect(),
+        doubtful,
     })
 }
 
@@ -147,7 +150,7 @@ fn joint_wrenches(
     geometry: &Geometry,
     workspace: &Workspace,
     demand: &[Vector6<f64>],
-) -> Vec<Option<Vector6<f64>>> {
+) -> (Vec<Option<Vector6<f64>>>, Option<f64>) {
     let count = model.joints().len();
     let mut springs = vec![Vector6::zeros(); count];
     for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
@@ -201,15 +204,18 @@ fn joint_wrenches(
 
     let size = characteristic_length(geometry);
     let mut forces: Vec<Option<Vector6<f64>>> = joints.iter().map(|j| Some(j.known)).collect();
+    let mut doubtful = None;
     for group in groups(carriers.len(), &ends) {
-        equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
+        let found = equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
+        doubtful = doubtful.or(found);
     }
-    (0..count)
+    let wrenches = (0..count)
         .map(|k| {
             let wrench = joints[k].basis * forces[k]?;
             Some(rotation6(&geometry.frames[k]).transpose() * wrench)
         })
-        .collect()
+        .collect();
+    (wrenches, doubtful)
 }
 
 /// Carriers and joints that are connected, ground apart.
@@ -258,7 +264,8 @@ fn groups(carriers: usize, ends: &[Vec<(usize, f64, Matrix6<f64>)>]) -> Vec<Grou
     groups
 }
 
-/// Solves a group's equilibrium for the unknown joint forces, moments over `size`.
+/// Solves a group's equilibrium for the unknown joint forces, moments over `size`; returns a
+/// doubtful pivot.
 fn equilibrium(
     group: &Group,
     joints: &[JointForces],
@@ -266,14 +273,14 @@ fn equilibrium(
     needed: &[Vector6<f64>],
     size: f64,
     forces: &mut [Option<Vector6<f64>>],
-) {
+) -> Option<f64> {
     let unknowns: Vec<(usize, Dof)> = group
         .joints
         .iter()
         .flat_map(|&j| joints[j].unknown.iter().map(move |dof| (j, dof)))
         .collect();
     if unknowns.is_empty() {
-        return;
+        return None;
     }
     let rows = 6 * group.carriers.len();
     let mut matrix = DMatrix::zeros(rows, unknowns.len());
@@ -314,6 +321,7 @@ fn equilibrium(
             force[dof.index()] = solution[k] / scales[k];
         }
     }
+    first.doubtful
 }
 
 /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes: its elastic

@@ -9,7 +9,8 @@ use crate::model::{Geometry, Model, NodeId};
 use crate::plan::{Plan, Workspace};
 use crate::solution::Motion;
 
-/// A load works on a motion where its share of `|force| |motion|` is above this.
+/// Loads work on a motion where their work is above this share of Σ |wrench| |motion| over the
+/// bodies that move.
 const WORKING: f64 = 1e-6;
 
 /// What the drives, constraints and springs of a configuration leave without resistance.
@@ -55,9 +56,11 @@ impl Restraint {
                 let twist = node_twist(motion, model, geometry, load.node.0);
                 let share = load.wrench.dot(&twist);
                 work += share;
-                let force = load.wrench.fixed_rows::<3>(0).norm();
-                let moment = load.wrench.fixed_rows::<3>(3).norm();
-                scale += force * self.size + moment;
+                // A body that moves at all moves a load by rounding: no less is taken.
+                let (linear, angular) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+                let travel = linear.norm().max(angular.norm() * self.size);
+                scale += load.wrench.fixed_rows::<3>(0).norm() * travel;
+                scale += load.wrench.fixed_rows::<3>(3).norm() * angular.norm();
                 if share.abs() > largest.1 {
                     largest = (k, share.abs());
                 }

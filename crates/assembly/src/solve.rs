@@ -22,6 +22,8 @@ const ENOUGH_IN_SWEEP: f64 = 1e-8;
 const LOST_DIGITS: f64 = 1e-10;
 /// Pivots of the scaled output stiffness below this ask for a look at the mechanism's freedom.
 const SUSPICIOUS_PIVOT: f64 = 1e-9;
+/// Pivots below this make the output so uneven that its displacement is refined in a sweep too.
+const UNEVEN_PIVOT: f64 = 1e-4;
 
 /// What a sweep finds at a pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,16 +95,29 @@ impl Plan {
         restraint.check_loads(model, geometry)?;
         evaluate(self, model, geometry, workspace)?;
         let pins = restraint.pins(self, model, geometry, workspace);
-        let lost = self.condense(workspace, &pins, ROUNDING)?;
+        let condensed = self.condense(workspace, &pins, ROUNDING)?;
+        let (output, settled) = self.output(geometry, workspace, &pins, &restraint)?;
+        let recovered = recover(self, model, geometry, workspace)?;
+        let wrenches = recovered.joint_wrenches.iter().flatten();
+        if !recovered
+            .displacements
+            .iter()
+            .chain(wrenches)
+            .flatten()
+            .all(|v| v.is_finite())
+        {
+            return Err(SolveError::Overflow.into());
+        }
         let mut warnings = Vec::new();
-        if let Some(value) = restraint.kinematics.doubtful {
+        let rigid = restraint.kinematics.doubtful;
+        let doubtful = rigid.or(workspace.doubtful).or(recovered.doubtful);
+        if let Some(value) = doubtful {
             warnings.push(Warning::NearSingular { value });
         }
+        let lost = condensed.max(settled);
         if lost > LOST_DIGITS {
             warnings.push(Warning::LostDigits { residual: lost });
         }
-        let output = self.output(geometry, workspace, &pins, &restraint)?;
-        let recovered = recover(self, model, geometry, workspace)?;
         Ok(Solution {
             unknowns: self.unknowns,
             mobility: restraint.kinematics.mobility,
@@ -127,9 +142,15 @@ impl Plan {
         if ready && self.condense(workspace, &[], ENOUGH_IN_SWEEP).is_ok() {
             let stiffness = self.stiffness_by_energy(workspace);
             if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
+                let displacement = if inverse(&stiffness, UNEVEN_PIVOT).is_some() {
+                    compliance * self.output_force(workspace)
+                } else {
+                    self.settle(workspace, &[], &compliance);
+                    self.output_displacement(workspace)
+                };
                 return Ok(PoseResult {
                     stiffness: Some(stiffness),
-                    displacement: Some(compliance * self.output_force(workspace)),
+                    displacement: Some(displacement),
                 });
             }
         }
@@ -137,7 +158,7 @@ impl Plan {
         restraint.check_loads(model, geometry)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         self.condense(workspace, &pins, ENOUGH_IN_SWEEP)?;
-        let output = self.output(geometry, workspace, &pins, &restraint)?;
+        let (output, _) = self.output(geometry, workspace, &pins, &restraint)?;
         let held = output.free_motions.is_empty();
         Ok(PoseResult {
             stiffness: output.stiffness,
@@ -145,14 +166,15 @@ impl Plan {
         })
     }
 
-    /// The output's stiffness, compliance and displacement; completes the loads' column.
+    /// The output's stiffness, compliance and displacement, and the relative size of the last
+    /// correction of that; completes the loads' column.
     fn output(
         &self,
         geometry: &Geometry,
         workspace: &mut Workspace,
         pins: &[usize],
         restraint: &Restraint,
-    ) -> Result<Output, SolveError> {
+    ) -> Result<(Output, f64), SolveError> {
         let size = restraint.size;
         let free_motions = restraint
             .free_twists
@@ -173,45 +195,76 @@ impl Plan {
             };
             let displacement = node_displacement(self, geometry, workspace, LOADS, self.output);
             self.find_remainder(workspace, pins, None);
-            return Ok(Output {
+            let output = Output {
                 stiffness,
                 compliance: (!free).then_some(compliance),
                 displacement,
                 rigid_directions,
                 free_motions,
-            });
+            };
+            return Ok((output, 0.0));
         }
         let stiffness = self.stiffness_by_energy(workspace);
         let mut held = stiffness;
         if free {
             // A spring along each free twist, which no load works on, makes the rest solvable.
             let level = (0..6).map(|k| stiffness[(k, k)] * scale_of(k, size).powi(2));
-            let level = level.sum::<f64>().max(f64::MIN_POSITIVE);
+            let level = Some(level.sum::<f64>()).filter(|l| *l > 0.0).unwrap_or(1.0);
             for twist in &restraint.free_twists {
                 let force = scaled(twist, size);
                 held += force * force.transpose() * level;
             }
         }
         let compliance = inverse(&held, 0.0).ok_or(SolveError::Singular)?;
-        self.settle(workspace, pins, &compliance);
-        let n = self.unknowns;
-        let displacement = read(&workspace.solutions[LOADS * n..], self.inner);
+        let last = self.settle(workspace, pins, &compliance);
+        for twist in &restraint.free_twists {
+            self.remove_free_motion(workspace, twist, size);
+        }
+        let displacement = self.output_displacement(workspace);
         self.find_remainder(workspace, pins, Some(&compliance));
-        Ok(Output {
+        let refined = (!free).then(|| self.refined_compliance(workspace, pins, &compliance));
+        let output = Output {
             stiffness: Some(stiffness),
-            compliance: (!free).then(|| self.refined_compliance(workspace, pins, &compliance)),
+            compliance: refined,
             displacement,
             rigid_directions: Vec::new(),
             free_motions,
-        })
+        };
+        Ok((output, last))
+    }
+
+    /// Takes a free twist of the output (orthonormal, translations over `size`) out of the loads'
+    /// column: no load works on it, so what is there is rounding over next to no stiffness.
+    fn remove_free_motion(&self, workspace: &mut Workspace, twist: &Vector6<f64>, size: f64) {
+        let n = self.unknowns;
+        let share = scaled(&self.output_displacement(workspace), size).dot(twist);
+        let twist = unscaled(twist, size);
+        let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
+        for (motion, component) in motions.chunks_exact(n).zip(twist.iter()) {
+            for (entry, motion) in loads.iter_mut().zip(motion) {
+                *entry -= motion * component * share;
+            }
+        }
+    }
+
+    /// Displacement of the output, its coordinates being independent, in the loads' column.
+    fn output_displacement(&self, workspace: &Workspace) -> Vector6<f64> {
+        read(&workspace.solutions[LOADS * self.unknowns..], self.inner)
     }
 
     /// Completes the loads' column, found with the output clamped: corrections of the output
-    /// first (the first finds its displacement), each followed by one of the rest.
-    fn settle(&self, workspace: &mut Workspace, pins: &[usize], compliance: &Matrix6<f64>) {
+    /// first (the first finds its displacement), each followed by one of the rest. Returns the
+    /// relative size of the output's last correction, by the work it does.
+    fn settle(&self, workspace: &mut Workspace, pins: &[usize], compliance: &Matrix6<f64>) -> f64 {
         let n = self.unknowns;
-        for _ in 0..3 {
-            let step = compliance * self.output_force(workspace);
+        let (mut first, mut last) = (0.0, 0.0);
+        for correction in 0..3 {
+            let force = self.output_force(workspace);
+            let step = compliance * force;
+            last = force.dot(&step).abs();
+            if correction == 0 {
+                first = last;
+            }
             let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
             for (motion, step) in motions.chunks_exact(n).zip(step.iter()) {
                 for (entry, motion) in loads.iter_mut().zip(motion) {
@@ -220,6 +273,11 @@ impl Plan {
             }
             self.residuals(workspace);
             self.correct(workspace, pins);
+        }
+        if first > 0.0 {
+            (last / first).sqrt()
+        } else {
+            0.0
         }
     }
 
@@ -243,7 +301,7 @@ impl Plan {
             workspace.loads[LOADS * n + self.inner + k] = 1.0;
             workspace.solutions[LOADS * n..].fill(0.0);
             self.settle(workspace, pins, inverse);
-            compliance.set_column(k, &read(&workspace.solutions[LOADS * n..], self.inner));
+            compliance.set_column(k, &self.output_displacement(workspace));
         }
         workspace.initial = initial;
         workspace.loads[LOADS * n..].copy_from_slice(&loads);
