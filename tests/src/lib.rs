@@ -1,5 +1,10 @@
 //! Shared parts of the tests: reference results, models made from models, measures of agreement.
 
+pub mod agreement;
+pub mod build;
+pub mod random;
+pub mod runner;
+
 use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{BodyKind, Connection, Geometry, Member, Model, Solution};
@@ -74,7 +79,15 @@ pub fn rebuilt(model: &Model, joint: impl Fn(usize, &Connection) -> Connection) 
             .collect();
         match body.kind {
             BodyKind::Rigid => new.add_rigid(&body.name, &points).expect("a rigid body"),
-            _ => {
+            BodyKind::Flexible => {
+                let flexible = body.flexible.expect("its stiffness");
+                let home = geometry.rotations[flexible.0].inverse();
+                let points: Vec<_> = points.iter().map(|(name, p)| (*name, home * p)).collect();
+                let stiffness = model.flexibles()[flexible.0].element.stiffness();
+                new.add_flexible(&body.name, &points, stiffness)
+                    .expect("a flexible body")
+            }
+            BodyKind::Elastic => {
                 let place = |node| {
                     body.nodes
                         .iter()
@@ -90,6 +103,7 @@ pub fn rebuilt(model: &Model, joint: impl Fn(usize, &Connection) -> Connection) 
                             ends: segment.ends.map(place),
                             material: segment.material.clone(),
                             section: segment.section.clone(),
+                            taper: segment.taper.clone(),
                             y_axis: geometry.y_axes[s.0],
                             elements: segment.elements,
                         }
@@ -110,6 +124,7 @@ pub fn rebuilt(model: &Model, joint: impl Fn(usize, &Connection) -> Connection) 
     if let Some(output) = model.output() {
         new.set_output(output);
     }
+    new.set_geometry(geometry.clone());
     new
 }
 
@@ -128,6 +143,7 @@ pub fn moved(model: &Model, rotation: &Rotation3<f64>, translation: &Vector3<f64
             .collect(),
         y_axes: old.y_axes.iter().map(|y| y.map(|y| rotation * y)).collect(),
         frames: old.frames.iter().map(|f| rotation * f).collect(),
+        rotations: old.rotations.iter().map(|r| rotation * r).collect(),
     });
     new.clear_loads();
     for load in model.loads() {

@@ -85,10 +85,10 @@ pub(crate) fn absorbed_joint(
     geometry: &Geometry,
     joint: JointId,
 ) -> ElasticJoint {
-    let own = plan.topology.joints[joint.0].directions.compliance;
+    let own = plan.topology.joints[joint.0].compliance;
     let basis = model.joints()[joint.0].joint.basis();
     ElasticJoint {
-        compliance: basis * own.unwrap_or(Matrix6::zeros()) * basis.transpose(),
+        compliance: basis * own * basis.transpose(),
         frame: geometry.frames[joint.0],
     }
 }

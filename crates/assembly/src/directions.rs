@@ -51,9 +51,20 @@ impl Directions {
         this
     }
 
-    /// Directions that a coordinate of its own may follow: free and elastic ones.
-    pub fn moving(&self) -> DofSet {
-        self.free.union(self.elastic)
+    /// Whether elastic directions share stiffness.
+    pub fn is_coupled(&self) -> bool {
+        let diagonal = Matrix6::from_diagonal(&self.stiffness.diagonal());
+        self.stiffness != diagonal
+    }
+
+    /// The compliance of some of the elastic directions, zero elsewhere.
+    pub fn compliance_of(&self, set: DofSet) -> Matrix6<f64> {
+        let mut out = self.compliance.unwrap_or_default();
+        for dof in set.complement().iter() {
+            out.row_mut(dof.index()).fill(0.0);
+            out.column_mut(dof.index()).fill(0.0);
+        }
+        out
     }
 }
 

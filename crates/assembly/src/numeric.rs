@@ -139,7 +139,7 @@ fn spring_element(
     workspace: &mut Workspace,
 ) {
     let entry = &model.joints()[joint.0];
-    let directions = &plan.topology.joints[joint.0].directions;
+    let role = &plan.topology.joints[joint.0];
     let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
     let rows = element.rows;
     let start = element.operator_start;
@@ -154,15 +154,15 @@ fn spring_element(
         let to_node = local * shift(geometry, plan.topology.carriers[carrier].reference, *node);
         for (k, place) in places.iter().enumerate() {
             let relative = to_node * read(plan.block(workspace, carrier), 6 * k);
-            for (row, dof) in directions.elastic.iter().enumerate() {
+            for (row, dof) in role.springs.iter().enumerate() {
                 workspace.operators[start + rows * place + row] += sign * relative[dof.index()];
             }
         }
     }
-    for (c, column) in directions.elastic.iter().enumerate() {
-        for (r, row) in directions.elastic.iter().enumerate() {
+    for (c, column) in role.springs.iter().enumerate() {
+        for (r, row) in role.springs.iter().enumerate() {
             workspace.stiffnesses[element.stiffness_start + rows * c + r] =
-                directions.stiffness[(row.index(), column.index())];
+                role.directions.stiffness[(row.index(), column.index())];
         }
     }
 }

@@ -321,7 +321,7 @@ fn elements(model: &Model, topology: &Topology, columns: &[Vec<usize>]) -> Vec<E
         (Source::Cluster(k), rows, cluster.nodes.clone())
     });
     let springs = topology.joints.iter().enumerate().filter_map(|(k, role)| {
-        if role.absorbed.is_some() || role.directions.elastic.is_empty() {
+        if role.springs.is_empty() {
             return None;
         }
         let nodes: Vec<NodeId> = model.joints()[k]
@@ -330,11 +330,7 @@ fn elements(model: &Model, topology: &Topology, columns: &[Vec<usize>]) -> Vec<E
             .flatten()
             .copied()
             .collect();
-        Some((
-            Source::Spring(JointId(k)),
-            role.directions.elastic.len(),
-            nodes,
-        ))
+        Some((Source::Spring(JointId(k)), role.springs.len(), nodes))
     });
     let mut elements: Vec<ElementPlan> = Vec::new();
     let (mut operator_start, mut stiffness_start, mut initial_start) = (0, 0, 0);

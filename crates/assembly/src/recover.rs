@@ -155,7 +155,7 @@ fn joint_wrenches(
     let mut springs = vec![Vector6::zeros(); count];
     for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
         if let Source::Spring(joint) = element.source {
-            let elastic = plan.topology.joints[joint.0].directions.elastic;
+            let elastic = plan.topology.joints[joint.0].springs;
             for (dof, force) in elastic.iter().zip(forces) {
                 springs[joint.0][dof.index()] = force;
             }

@@ -32,9 +32,13 @@ pub(crate) struct Carrier {
 #[derive(Debug, Clone)]
 pub(crate) struct JointRole {
     pub directions: Directions,
-    /// Node inside whose subassembly the elastic directions are absorbed.
+    /// Node inside whose subassembly elastic directions are absorbed.
     pub absorbed: Option<NodeId>,
-    /// Directions with coordinates of their own.
+    /// Compliance of the absorbed directions, zero elsewhere.
+    pub compliance: Matrix6<f64>,
+    /// Elastic directions with coordinates of their own.
+    pub springs: DofSet,
+    /// All directions with coordinates of their own: these springs and the free ones.
     pub moving: DofSet,
 }
 
@@ -170,40 +174,42 @@ fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
     let mut roles = Vec::with_capacity(model.joints().len());
     for joint in model.joints() {
         let directions = Directions::of(joint);
-        let eligible = |node: &NodeId| {
-            *node != output
-                && joints_at[node.0] == 1
-                && match &flexible_nodes[node.0] {
-                    Some(own) => stiff_enough(&directions, &own.diagonal()),
-                    None => {
-                        let segments = &segments_at[node.0];
-                        (1..=2).contains(&segments.len())
-                            && stiff_enough(&directions, &stiffest(segments, model, geometry))
+        let absorbable = |node: NodeId| {
+            if node == output || joints_at[node.0] != 1 {
+                return DofSet::EMPTY;
+            }
+            match &flexible_nodes[node.0] {
+                Some(own) => stiff_directions(&directions, &own.diagonal()),
+                None => {
+                    let segments = &segments_at[node.0];
+                    if !(1..=2).contains(&segments.len()) {
+                        return DofSet::EMPTY;
                     }
+                    stiff_directions(&directions, &stiffest(segments, model, geometry))
                 }
+            }
         };
-        let mut sides: Vec<NodeId> = if directions.elastic.is_empty() {
-            Vec::new()
-        } else {
-            let nodes = joint.between.iter().rev().flatten();
-            nodes.copied().filter(eligible).collect()
-        };
-        let nodes_on_body = |n: &NodeId| model.bodies()[model.nodes()[n.0].body.0].nodes.len();
-        sides.sort_by_key(|n| (segments_at[n.0].len(), nodes_on_body(n)));
+        let nodes = joint.between.iter().rev().flatten();
+        let mut sides: Vec<(NodeId, DofSet)> = nodes
+            .map(|n| (*n, absorbable(*n)))
+            .filter(|(_, set)| !set.is_empty())
+            .collect();
+        let nodes_on_body = |n: NodeId| model.bodies()[model.nodes()[n.0].body.0].nodes.len();
+        sides.sort_by_key(|(n, _)| (segments_at[n.0].len(), nodes_on_body(*n)));
         let absorbed = sides
             .into_iter()
-            .find(|n| match segments_at[n.0].as_slice() {
+            .find(|(n, _)| match segments_at[n.0].as_slice() {
                 [a, b] => run.join(a.0, b.0),
                 _ => true,
             });
-        let moving = match absorbed {
-            Some(_) => directions.free,
-            None => directions.moving(),
-        };
+        let inside = absorbed.map_or(DofSet::EMPTY, |(_, set)| set);
+        let springs = directions.elastic.difference(inside);
         roles.push(JointRole {
+            absorbed: absorbed.map(|(node, _)| node),
+            compliance: directions.compliance_of(inside),
+            springs,
+            moving: directions.free.union(springs),
             directions,
-            absorbed,
-            moving,
         });
     }
     roles
@@ -220,14 +226,26 @@ fn stiffest(segments: &[SegmentId], model: &Model, geometry: &Geometry) -> Vecto
     stiffest
 }
 
-/// Whether a joint's springs are stiff enough beside the `own` stiffness of the body at its node,
-/// by direction in any axes, to be absorbed.
-fn stiff_enough(directions: &Directions, own: &Vector6<f64>) -> bool {
+/// Elastic directions stiff enough beside the `own` stiffness of the body at a joint's node, by
+/// direction in any axes, to be absorbed; coupled directions all or none.
+fn stiff_directions(directions: &Directions, own: &Vector6<f64>) -> DofSet {
     let Some(compliance) = &directions.compliance else {
-        return false;
+        return DofSet::EMPTY;
     };
     let stiffest = [own.fixed_rows::<3>(0).max(), own.fixed_rows::<3>(3).max()];
-    (0..6).all(|d| compliance[(d, d)] * stiffest[d / 3] * SOFTEST_ABSORBED <= 1.0)
+    let stiff: DofSet = directions
+        .elastic
+        .iter()
+        .filter(|dof| {
+            let d = dof.index();
+            compliance[(d, d)] * stiffest[d / 3] * SOFTEST_ABSORBED <= 1.0
+        })
+        .collect();
+    if stiff == directions.elastic || !directions.is_coupled() {
+        stiff
+    } else {
+        DofSet::EMPTY
+    }
 }
 
 /// Sets of segments joined at absorbed joints, kept short.

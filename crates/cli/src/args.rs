@@ -22,6 +22,8 @@ Examples:
   hyperstat run paper.ron --out results      Run every job of a batch file
   hyperstat solve paper.ron --job delta --pose 12
                                              One pose of a batch, in full
+  hyperstat export paper.ron --job delta > delta.ron
+                                             A mechanism of a batch written out, to edit
 
 `hyperstat solve --help` shows a mechanism file, `hyperstat run --help` a batch file.
 
@@ -44,6 +46,9 @@ pub(crate) enum Command {
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
     #[command(after_help = CHECK_HELP)]
     Check(Check),
+    /// Write a mechanism at one pose of a batch as a mechanism file to edit
+    #[command(after_help = EXPORT_HELP)]
+    Export(Export),
 }
 
 const SOLVE_HELP: &str = concat!(
@@ -51,11 +56,13 @@ const SOLVE_HELP: &str = concat!(
 The report holds the output's stiffness, compliance and displacement, the mechanism's mobility and
 over-constraint, the displacement of every node, the wrench in every joint (on the second body of
 `between`, at the joint, in the joint frame), and for every beam segment the forces at its ends
-(element frame) and its largest stresses (Circle and Tube sections).
+(element frame) and its largest stresses (Circle, Tube and Rectangle
+sections, and General ones with y_max, z_max and torsion_modulus).
 
 Examples:
   hyperstat solve portal.ron
   hyperstat solve portal.ron --format json > portal.json
+  hyperstat solve portal.ron --verify
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -94,11 +101,25 @@ Examples:
   hyperstat check portal.ron
   hyperstat check paper.ron --job delta --pose 12";
 
+const EXPORT_HELP: &str = "\
+The file has every point, body and joint of the mechanism in that pose, and the job's loads; it
+solves to the same numbers.
+
+Examples:
+  hyperstat export paper.ron > delta.ron
+  hyperstat export paper.ron --job delta --pose 12 --out delta.ron";
+
 /// `hyperstat solve`
 #[derive(Debug, Args)]
 pub(crate) struct Solve {
     #[command(flatten)]
     pub(crate) input: Input,
+    /// Solve a second time with the independent dense solver; report the largest differences
+    #[arg(long)]
+    pub(crate) verify: bool,
+    /// Take an output that moves freely as a result (semidefinite stiffness), not as an error
+    #[arg(long)]
+    pub(crate) allow_free: bool,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -125,7 +146,17 @@ pub(crate) struct Check {
     pub(crate) format: Format,
 }
 
-/// What is to be solved or checked.
+/// `hyperstat export`
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    #[command(flatten)]
+    pub(crate) input: Input,
+    /// File to write; standard output without it
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// What is to be solved, checked or exported.
 #[derive(Debug, Args)]
 pub(crate) struct Input {
     /// Mechanism file or batch file (RON)

@@ -5,7 +5,9 @@ use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Input, Job, Location, Mechanism, Registry};
 
 use crate::args;
+use crate::drives::MissingDrives;
 use crate::error::CliError;
+use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
 #[derive(Debug)]
@@ -16,8 +18,8 @@ pub(crate) struct Case {
 
 #[derive(Debug)]
 enum Origin {
-    Mechanism(Mechanism),
-    Job { job: Job, pose: usize },
+    Mechanism(Box<Mechanism>),
+    Job { job: Box<Job>, pose: usize },
 }
 
 impl Case {
@@ -36,7 +38,7 @@ impl Case {
                 }
                 Ok(Self {
                     model: mechanism.model.clone(),
-                    origin: Origin::Mechanism(mechanism),
+                    origin: Origin::Mechanism(Box::new(mechanism)),
                 })
             }
             Input::Batch(batch) => {
@@ -58,7 +60,10 @@ impl Case {
         match job_model(&job, pose) {
             Ok(model) => Ok(Self {
                 model,
-                origin: Origin::Job { job, pose },
+                origin: Origin::Job {
+                    job: Box::new(job),
+                    pose,
+                },
             }),
             Err(source) => Err(CliError::Pose {
                 location: Box::new(job.location()),
@@ -83,6 +88,15 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
+    /// The idle motions, which do not depend on the loads; `None` where there is no solution even
+    /// without loads.
+    pub(crate) fn idle_motions(&self) -> Option<Vec<Motion>> {
+        let mut unloaded = self.model.clone();
+        unloaded.clear_loads();
+        let solution = hyperstat_assembly::solve(&unloaded).ok()?;
+        Some(solution.idle)
+    }
+
     /// The error that a solution means on the command line: an output that moves freely.
     pub(crate) fn free_output(&self, solution: &Solution) -> Option<CliError> {
         if solution.output.free_motions.is_empty() {
@@ -103,6 +117,21 @@ impl Case {
             location: Box::new(self.source().output()),
             output: model.node_name(output),
             motions: solution.output.free_motions.iter().map(in_words).collect(),
+            drives: MissingDrives::of(model, body),
+        })
+    }
+
+    /// Compares a solution with the independent solver's.
+    pub(crate) fn verify(&self, solution: &Solution) -> Result<Verification, CliError> {
+        let reference = hyperstat_reference::solve(&self.model).map_err(CliError::Unverified)?;
+        Ok(Verification::new(&self.model, solution, &reference))
+    }
+
+    /// The mechanism in this configuration as a mechanism file.
+    pub(crate) fn mechanism_file(&self, registry: &Registry) -> Result<String, CliError> {
+        hyperstat_mechanisms::write(&self.model, registry).map_err(|source| CliError::Export {
+            location: Box::new(self.source().output()),
+            source,
         })
     }
 
@@ -167,9 +196,17 @@ impl Source<'_> {
             SolveError::LoadOnFreeMotion { load, .. } => self.load(*load),
             _ => self.output(),
         };
+        let drives = match &error {
+            SolveError::LoadOnFreeMotion { load, .. } => {
+                let node = model.loads()[*load].node;
+                MissingDrives::of(model, model.nodes()[node.0].body)
+            }
+            _ => MissingDrives::default(),
+        };
         CliError::Unsolvable {
             location: Box::new(location),
             source: error,
+            drives,
         }
     }
 

@@ -5,9 +5,11 @@ use std::path::PathBuf;
 
 use hyperstat_assembly::SolveError;
 use hyperstat_figures::FigureError;
-use hyperstat_mechanisms::{LoadError, Location, PoseError};
+use hyperstat_mechanisms::{LoadError, Location, PoseError, WriteError};
+use hyperstat_reference::ReferenceError;
 use thiserror::Error;
 
+use crate::drives::MissingDrives;
 use crate::report::Problem;
 
 /// A command that ends without its result.
@@ -51,6 +53,8 @@ pub(crate) enum CliError {
     Unsolvable {
         location: Box<Location>,
         source: SolveError,
+        /// What could hold what moves.
+        drives: MissingDrives,
     },
     /// An output that moves without energy.
     #[error("the output `{output}` moves freely, drives locked: {}", .motions.join("; "))]
@@ -58,6 +62,17 @@ pub(crate) enum CliError {
         location: Box<Location>,
         output: String,
         motions: Vec<String>,
+        /// What could hold it.
+        drives: MissingDrives,
+    },
+    /// A model that the independent solver does not take.
+    #[error("the independent solver has no result to compare with: {0}")]
+    Unverified(#[source] ReferenceError),
+    /// A mechanism that no mechanism file describes.
+    #[error("cannot be exported: {source}")]
+    Export {
+        location: Box<Location>,
+        source: WriteError,
     },
     /// A result that could not be written.
     #[error("cannot write {}: {source}", .path.display())]
@@ -86,7 +101,8 @@ impl CliError {
             Self::NoSuchPose { location, .. }
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
-            | Self::FreeOutput { location, .. } => Some(location),
+            | Self::FreeOutput { location, .. }
+            | Self::Export { location, .. } => Some(location),
             _ => None,
         }
     }
@@ -104,8 +120,24 @@ impl CliError {
                 Some(format!("choose `--pose` from 0 to {}", count - 1))
             }
             Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
-            Self::Unsolvable { .. } if self.is_free() => Some(HOLD.into()),
-            Self::FreeOutput { .. } => Some(HOLD.into()),
+            Self::Unsolvable {
+                source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
+                drives,
+                ..
+            } => Some(drives.help()),
+            Self::Unsolvable {
+                source: SolveError::Singular | SolveError::Overflow,
+                ..
+            } => Some(
+                "look for numbers of too different size: units are m, N, rad and kg, so a length \
+                 in mm, a modulus in MPa or a stiffness far above all others is a slip"
+                    .into(),
+            ),
+            Self::FreeOutput { drives, .. } => Some(format!(
+                "{}; `solve --allow-free` takes it as it is",
+                drives.help()
+            )),
+            Self::Unverified(_) => Some("leave `--verify` out".into()),
             _ => None,
         }
     }
@@ -127,20 +159,7 @@ impl CliError {
             column: location.map(|location| location.column),
         }
     }
-
-    fn is_free(&self) -> bool {
-        matches!(
-            self,
-            Self::Unsolvable {
-                source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
-                ..
-            }
-        )
-    }
 }
-
-const HOLD: &str = "lock a drive (`locked: true`), give a joint `stiffness`, or add the joint that \
-                    is missing";
 
 /// The message, without the place where there is one to show.
 fn load_message(error: &LoadError) -> String {

@@ -308,7 +308,12 @@ impl Beam {
 
 /// The 6×6 matrix of one node from its axial and torsional entry and the (vv, vθ, θθ) entries of
 /// bending along y (θ = φz) and along z (θ = −φy).
-fn node_matrix(axial: f64, torsional: f64, in_y: [f64; 3], in_z: [f64; 3]) -> Matrix6<f64> {
+pub(crate) fn node_matrix(
+    axial: f64,
+    torsional: f64,
+    in_y: [f64; 3],
+    in_z: [f64; 3],
+) -> Matrix6<f64> {
     let mut m = Matrix6::zeros();
     m[(0, 0)] = axial;
     m[(3, 3)] = torsional;

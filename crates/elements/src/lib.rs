@@ -12,14 +12,20 @@
 
 mod beam;
 mod error;
+mod flexible;
 mod frame;
 mod material;
 mod section;
 pub mod stress;
 pub mod subassembly;
+mod taper;
+mod tapered_beam;
 
 pub use beam::{Beam, Matrix12, SectionStrain};
 pub use error::ElementError;
+pub use flexible::FlexibleBody;
 pub use frame::{element_frame, rotate_matrix6, rotate_matrix12, rotate_vector6, transport};
 pub use material::{Elasticity, Material};
 pub use section::{Section, SectionShape};
+pub use taper::Taper;
+pub use tapered_beam::TaperedBeam;

@@ -11,12 +11,20 @@
 //! | rectangle | at a corner, exact | middle of a long side, Roark's series | bound from above: the two peak at different points |
 //! | general | bound from above, as if a corner lay at (y_max, z_max) | \|T\| / torsion modulus | bound from above |
 //!
-//! Without loads between its nodes a beam's section wrench is linear along it, so its largest
-//! stresses are at its ends.
+//! Without loads between its nodes a beam's section wrench is linear along it, so the largest
+//! stresses of a prismatic beam are at its ends; where the section changes they may be anywhere,
+//! and [`largest_stress`] searches for them.
 
-use nalgebra::Vector6;
+use nalgebra::{Vector3, Vector6};
 
+use crate::frame::transport;
 use crate::section::{Section, SectionShape};
+use crate::taper::Taper;
+
+/// Places along a beam of changing section that are looked at first.
+const PLACES: usize = 256;
+/// Steps of the search about the best of them, each of which leaves 0.62 of the interval.
+const STEPS: usize = 40;
 
 /// Largest stresses over a section \[Pa\], all positive or zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,9 +63,76 @@ pub fn section_stress(section: &Section, wrench: &Vector6<f64>) -> Option<Sectio
     })
 }
 
+/// Largest stresses along a beam of this length \[m\] whose section changes, under the wrench
+/// `end_wrench` on it at node 2 (element frame) with no load between its nodes; the three may be
+/// largest at different places. `None` as for [`section_stress`].
+pub fn largest_stress(
+    taper: &Taper,
+    length: f64,
+    end_wrench: &Vector6<f64>,
+) -> Option<SectionStress> {
+    let at = |xi: f64| {
+        let arm = Vector3::new(length * (1.0 - xi), 0.0, 0.0);
+        section_stress(&taper.at(xi), &(transport(&arm).transpose() * end_wrench))
+    };
+    section_stress(taper.from(), end_wrench)?;
+    let largest = |stress: fn(&SectionStress) -> f64| {
+        maximum(|xi| at(xi).map_or(0.0, |found| stress(&found)))
+    };
+    Some(SectionStress {
+        normal: largest(|s| s.normal),
+        shear: largest(|s| s.shear),
+        von_mises: largest(|s| s.von_mises),
+    })
+}
+
+/// The largest value of a function on 0 to 1: the best of many places, refined by golden section.
+fn maximum(value: impl Fn(f64) -> f64) -> f64 {
+    let place = |k: usize| k as f64 / PLACES as f64;
+    let best = (0..=PLACES).max_by(|a, b| value(place(*a)).total_cmp(&value(place(*b))));
+    let best = best.unwrap_or(0);
+    let golden = (5f64.sqrt() - 1.0) / 2.0;
+    let mut low = place(best.saturating_sub(1));
+    let mut high = place((best + 1).min(PLACES));
+    let mut largest = value(place(best));
+    for _ in 0..STEPS {
+        let width = golden * (high - low);
+        let (left, right) = (high - width, low + width);
+        let (at_left, at_right) = (value(left), value(right));
+        largest = largest.max(at_left).max(at_right);
+        if at_left > at_right {
+            high = right;
+        } else {
+            low = left;
+        }
+    }
+    largest
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A round console whose diameter grows linearly from the loaded end: σ = 32 F x / (π d³) is
+    /// largest where d is 1.5 times that of the end.
+    #[test]
+    fn a_tapered_console_is_stressed_most_where_it_is_half_as_thick_again() {
+        let circle = |diameter| section(SectionShape::Circle { diameter });
+        let taper = Taper::new(circle(0.05), circle(0.02)).unwrap();
+        let (length, force) = (0.9, 400.0);
+        let load = Vector6::new(0.0, force, 0.0, 0.0, 0.0, 0.0);
+        let stress = largest_stress(&taper, length, &load).unwrap();
+        let arm = 0.01 / 0.03 * length;
+        let expected = 32.0 * force * arm / (std::f64::consts::PI * 0.03f64.powi(3));
+        assert!((stress.normal / expected - 1.0).abs() < 1e-14);
+        assert_eq!(stress.shear, 0.0);
+        assert_eq!(stress.von_mises, stress.normal);
+        // Torsion is hardest on the thin end.
+        let torque = Vector6::new(0.0, 0.0, 0.0, 7.0, 0.0, 0.0);
+        let thin = section_stress(taper.to(), &torque).unwrap().shear;
+        let found = largest_stress(&taper, length, &torque).unwrap().shear;
+        assert!((found / thin - 1.0).abs() < 1e-14);
+    }
 
     fn section(shape: SectionShape) -> Section {
         Section::new(shape, None, None).unwrap()

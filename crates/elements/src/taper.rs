@@ -72,7 +72,7 @@ impl Taper {
 
     /// The section at `xi` (0 at the first node, 1 at the second).
     pub fn at(&self, xi: f64) -> Section {
-        let mix = |from: f64, to: f64| from + (to - from) * xi;
+        let mix = |from: f64, to: f64| mix(from, to, xi);
         let mix_option = |from: Option<f64>, to: Option<f64>| Some(mix(from?, to?));
         let shape = match (*self.from.shape(), *self.to.shape()) {
             (SectionShape::Circle { diameter: a }, SectionShape::Circle { diameter: b }) => {
@@ -142,6 +142,14 @@ impl Taper {
         }
     }
 
+    /// The taper from `to` to `from`.
+    pub fn reversed(&self) -> Self {
+        Self {
+            from: self.to.clone(),
+            to: self.from.clone(),
+        }
+    }
+
     /// Calls `visit` on intervals (first, last) that together make up 0 to `end`. On each of
     /// them the section's flexibility is a smooth function, far from a pole: no dimension changes
     /// by more than a factor of two, and a rectangle's longer side stays the longer one.
@@ -154,11 +162,12 @@ impl Taper {
     }
 
     fn bisect(&self, first: f64, last: f64, visit: &mut impl FnMut(f64, f64)) {
-        let ends = [first, last].map(|xi| dimensions(&self.at(xi)));
-        let changes = ends[0].iter().zip(&ends[1]);
-        let ratio = changes.fold(1.0_f64, |most, (a, b)| most.max(a / b).max(b / a));
+        let ends = dimensions(&self.from).into_iter().zip(dimensions(&self.to));
+        let ratio = ends.fold(1.0_f64, |most, (from, to)| {
+            let [a, b] = [first, last].map(|xi| mix(from, to, xi));
+            most.max(a / b).max(b / a)
+        });
         let middle = first + (last - first) / 2.0;
-        // Sections within the range of doubles end this long before the interval is a point.
         if ratio <= LARGEST_RATIO || middle <= first || middle >= last {
             visit(first, last);
         } else {
@@ -185,8 +194,13 @@ impl Taper {
     }
 }
 
-/// The lengths that a section's flexibility has poles at the zeros of, and the ratios of its shear
-/// areas.
+/// The value at `xi` of what changes linearly; positive where both ends are.
+fn mix(from: f64, to: f64, xi: f64) -> f64 {
+    (1.0 - xi) * from + xi * to
+}
+
+/// What changes linearly along a taper: the lengths at whose zeros the flexibility has poles, and
+/// the shear areas' ratios to the area.
 fn dimensions(section: &Section) -> [f64; 6] {
     let ratio = |area: Option<f64>| area.map_or(1.0, |a| a / section.area());
     let [a, b, c, d] = match *section.shape() {

@@ -10,7 +10,7 @@ use crate::figures::{self, Figure};
 use crate::fragment::{Fragment, first_at};
 use crate::mechanism::Mechanism;
 use crate::poses::{Given, Poses};
-use crate::prebuilt::{PoseError, Prebuilt};
+use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::{load, loads, names, parameters};
@@ -27,7 +27,7 @@ pub struct Batch {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Job {
-    /// Name, the stem of its output files: letters, digits, `_`, `-` and `.`, not starting
+    /// Name, the stem of its output files: ASCII letters, digits, `_`, `-` and `.`, not starting
     /// with `.`.
     pub name: String,
     /// Figures to draw, in the order of the file.
@@ -42,7 +42,7 @@ enum Subject {
     File(Mechanism),
     Prebuilt {
         mechanism: Box<dyn Prebuilt>,
-        /// The model with its loads in the first pose that can be reached.
+        /// The model with its loads in a pose that can be reached.
         template: Result<Model, PoseError>,
     },
 }
@@ -59,28 +59,44 @@ impl Batch {
             let fields = Fields::read(fragment, "a job", &known, &[])?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
-            if let Some(first) = seen.insert(name.clone(), at) {
-                return Err(at
-                    .error(format!("two jobs have the name `{name}`"))
-                    .with_help(first_at(first)));
+            if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
+                return Err(same_name(at, &name, first, &other));
             }
             jobs.push(Job::read(name, &fields, at.place(), registry)?);
         }
         if jobs.is_empty() {
-            return Err(list.error("the batch has no jobs"));
+            return Err(list
+                .error("the batch has no jobs")
+                .with_help("give at least one, `[(name: \"…\", mechanism: File(\"file.ron\"))]`"));
         }
         Ok(Self { jobs })
     }
 }
 
+/// The error of the name `at`, which makes the same files as the one `first`.
+fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
+    if name == other {
+        return at
+            .error(format!("two jobs have the name `{name}`"))
+            .with_help(first_at(first));
+    }
+    at.error(format!(
+        "the names `{other}` and `{name}` differ only in case"
+    ))
+    .with_help("give one of them another name: some file systems take them for the same file")
+}
+
 /// Reads a name that can be the stem of a file's name.
 fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
     let name = fragment.string()?;
-    let allowed = |c: char| c.is_alphanumeric() || "_-.".contains(c);
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
         return Err(fragment
             .error(format!("`{name}` cannot be the name of a job"))
-            .with_help("a name is of letters, digits, `_`, `-` and `.`, not starting with `.`"));
+            .with_help(
+                "a name is of the letters a to z and A to Z, digits, `_`, `-` and `.`, not starting \
+                 with `.`",
+            ));
     }
     Ok(name)
 }
@@ -112,10 +128,11 @@ impl Job {
         self.poses.len()
     }
 
-    /// The model with the job's loads, in the first pose that can be reached.
+    /// The model with the job's loads, in pose 0 or, where that cannot be reached, in another pose
+    /// that can, which need not be one of the job's.
     ///
     /// # Errors
-    /// Why pose 0 cannot be reached, where none can.
+    /// Why pose 0 cannot be reached, where no other pose was found.
     pub fn model(&self) -> Result<Model, PoseError> {
         match &self.subject {
             Subject::File(mechanism) => Ok(mechanism.model.clone()),
@@ -139,6 +156,7 @@ impl Job {
                 geometry.positions.clone_from(&own.positions);
                 geometry.y_axes.clone_from(&own.y_axes);
                 geometry.frames.clone_from(&own.frames);
+                geometry.rotations.clone_from(&own.rotations);
                 let output = model.output().map(|node| own.positions[node.0]);
                 let [x, y, z] = output.unwrap_or_default().into();
                 Ok([x, y, z, 0.0, 0.0, 0.0])
@@ -195,8 +213,15 @@ fn subject(fields: &Fields<'_>, registry: &Registry) -> Result<(Subject, Poses),
             }
             Ok((Subject::File(mechanism), Poses::Own))
         }
-        name if parameters::KINDS.contains(&name) => {
-            let mechanism = parameters::read(name, whole, arguments)?;
+        name => {
+            let Some(prebuilt) = parameters::find(name) else {
+                let known = parameters::KINDS.iter().map(|kind| kind.name);
+                let known = std::iter::once("File").chain(known);
+                return Err(kind
+                    .error(format!("unknown mechanism `{name}`"))
+                    .with_help(names::help(name, "mechanisms", known)));
+            };
+            let mechanism = parameters::read(prebuilt, whole, arguments)?;
             let poses = prebuilt_poses(poses, mechanism.as_ref(), whole)?;
             let template = template(mechanism.as_ref(), &poses, fields.get("loads"))?;
             let subject = Subject::Prebuilt {
@@ -204,12 +229,6 @@ fn subject(fields: &Fields<'_>, registry: &Registry) -> Result<(Subject, Poses),
                 template,
             };
             Ok((subject, poses))
-        }
-        other => {
-            let known = std::iter::once("File").chain(parameters::KINDS);
-            Err(kind
-                .error(format!("unknown mechanism `{other}`"))
-                .with_help(names::help(other, "mechanisms", known)))
         }
     }
 }
@@ -245,26 +264,44 @@ fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
     (target, coordinates.len())
 }
 
-/// The model of the first pose that can be reached, with its loads; the first pose's error
-/// where none can.
+/// The model with its loads in the first of these poses that can be reached: the job's first
+/// [`TRIED`] poses, the poses of [`probes`], the rest of the job's; the first pose's error where
+/// none can. The loads are checked in a pose that the job does not have, too: the names of a
+/// mechanism are the same in every pose.
 fn template(
     mechanism: &dyn Prebuilt,
     poses: &Poses,
     loads: Option<Fragment<'_>>,
 ) -> Result<Result<Model, PoseError>, LoadError> {
-    let build = |pose| {
-        let (target, count) = given(mechanism, &poses.get(pose));
+    let build = |pose: [f64; 6]| {
+        let (target, count) = given(mechanism, &pose);
         mechanism.model(&target[..count])
     };
-    let mut template = build(0);
-    for pose in 1..poses.len() {
-        if template.is_ok() {
-            break;
-        }
-        template = build(pose).or(template);
-    }
+    let first = poses.len().min(TRIED);
+    let tried = (1..first).map(|pose| poses.get(pose));
+    let rest = (first..poses.len()).map(|pose| poses.get(pose));
+    let mut others = tried.chain(probes(mechanism.coordinates())).chain(rest);
+    let mut template =
+        build(poses.get(0)).or_else(|error| others.find_map(|pose| build(pose).ok()).ok_or(error));
     if let (Ok(model), Some(list)) = (&mut template, loads) {
         loads::read(list, model)?;
     }
     Ok(template)
+}
+
+/// Number of poses of a job that are tried before any other: a large grid may be out of reach.
+const TRIED: usize = 1000;
+
+/// Poses of which a mechanism of any size between a millimetre and a kilometre is likely to reach
+/// one: home, and one coordinate at a time on either side of it, by steps of 3 %.
+fn probes(coordinates: &[PoseCoordinate]) -> impl Iterator<Item = [f64; 6]> {
+    let values = || (0..=468).flat_map(|k| [1.0, -1.0].map(|sign| sign * 1e-3 * 1.03_f64.powi(k)));
+    let moved = coordinates.iter().flat_map(move |coordinate| {
+        values().map(|value| {
+            let mut pose = [0.0; 6];
+            pose[coordinate.index()] = value;
+            pose
+        })
+    });
+    std::iter::once([0.0; 6]).chain(moved)
 }

@@ -1,4 +1,4 @@
-//! Poses in a table of comma-separated numbers, with a line of column names at its top.
+//! Tables of comma-separated numbers: poses, with a line of column names at the top, and matrices.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,35 +23,68 @@ pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6
             .error("the table of poses is empty")
             .with_help("its first line names the columns: x,y,z or x,y,z,rx,ry,rz"));
     };
-    let columns = columns(table, header, &place)?;
+    let columns = columns(table, header.clone(), &place)?;
     let mut poses = Vec::new();
     for line in lines {
         let cells: Vec<_> = cells(table.text(), &line).collect();
         if cells.len() != columns.len() {
-            return Err(place(line).error(format!(
-                "expected {} numbers, one a column, found {}",
-                columns.len(),
-                cells.len()
-            )));
+            return Err(place(line)
+                .error(format!(
+                    "expected {} numbers, one a column, found {}",
+                    columns.len(),
+                    cells.len()
+                ))
+                .with_help(format!(
+                    "give a number for each of the columns {}, with a comma between two of them",
+                    &table.text()[header.clone()]
+                )));
         }
         let mut pose = [0.0; 6];
         for (cell, &column) in cells.into_iter().zip(&columns) {
-            let text = unquoted(&table.text()[cell.clone()]);
             let place = place(cell);
-            pose[column] = match text.parse::<f64>() {
-                Ok(number) if number.is_finite() => number,
-                Ok(_) => return Err(place.error(format!("`{text}` is not a finite number"))),
-                Err(_) => return Err(place.error(format!("expected a number, found `{text}`"))),
-            };
+            pose[column] = number(&place)?;
             given.check(column, pose[column], &place)?;
         }
         poses.push(pose);
     }
     if poses.is_empty() {
         return Err(place(table.text().len()..table.text().len())
-            .error("the table names its columns and holds no pose"));
+            .error("the table names its columns and holds no pose")
+            .with_help("add a line of numbers for every pose"));
     }
     Ok(poses)
+}
+
+/// Reads a table of numbers without names of columns, each with its place; empty lines are passed
+/// over.
+pub(crate) fn numbers(table: &Arc<Source>) -> Result<Vec<Vec<(f64, Place)>>, LoadError> {
+    let cell = |span| {
+        let place = Place {
+            source: Arc::clone(table),
+            span,
+        };
+        Ok((number(&place)?, place))
+    };
+    lines(table.text())
+        .map(|line| cells(table.text(), &line).map(cell).collect())
+        .collect()
+}
+
+/// What would be right instead of what is no number.
+const NUMBER: &str = "give a number such as 0.25 or 2.1e11 in every cell, with a decimal point";
+
+/// The finite number in a cell.
+fn number(place: &Place) -> Result<f64, LoadError> {
+    let text = unquoted(&place.source.text()[place.span.clone()]);
+    match text.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        Ok(_) => Err(place
+            .error(format!("`{text}` is not a finite number"))
+            .with_help(NUMBER)),
+        Err(_) => Err(place
+            .error(format!("expected a number, found `{text}`"))
+            .with_help(NUMBER)),
+    }
 }
 
 /// The place in a pose of every column of the header.
@@ -69,7 +102,9 @@ fn columns(
                 .with_help(names::help(name, "columns", COLUMNS)));
         };
         if columns.contains(&column) {
-            return Err(place(cell).error(format!("the column `{name}` is given twice")));
+            return Err(place(cell)
+                .error(format!("the column `{name}` is given twice"))
+                .with_help("the columns are x,y,z or x,y,z,rx,ry,rz"));
         }
         columns.push(column);
     }

@@ -35,7 +35,8 @@ impl<'a> Fields<'a> {
             let owner = &fields.owner;
             if reserved.contains(&name.text()) {
                 let message = format!("`{}` is reserved and not supported yet", name.text());
-                return Err(name.error(message));
+                let help = "leave it out; a later version will take it";
+                return Err(name.error(message).with_help(help));
             }
             if !known.contains(&name.text()) {
                 return Err(name
@@ -117,7 +118,7 @@ impl<'a> Fields<'a> {
                     Some(given) => {
                         format!("`{field}` of {} cannot be {}", self.owner, given.text())
                     }
-                    None => format!("`{field}` of {} comes out as {value}", self.owner),
+                    None => format!("`{field}` of {} comes out as {value:?}", self.owner),
                 };
                 let help = format!("it must be {wanted}");
                 self.error(field, message).with_help(help)

@@ -132,7 +132,9 @@ fn locked(fragment: Fragment<'_>, joint: &dyn Joint) -> Result<DofSet, LoadError
                 }));
         }
         if locked.contains(dof) {
-            return Err(item.error(format!("`{dof}` is listed twice")));
+            return Err(item
+                .error(format!("`{dof}` is listed twice"))
+                .with_help("name every direction once"));
         }
         locked.insert(dof);
     }

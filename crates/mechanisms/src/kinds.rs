@@ -1,12 +1,13 @@
 //! The built-in joint kinds and their arguments.
 
 use hyperstat_joints::{
-    Cylindrical, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
+    Cylindrical, Dof, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
     frame_from_axes,
 };
+use nalgebra::Rotation3;
 
 use crate::error::LoadError;
-use crate::registry::{Arguments, Orientation, ParsedJoint, Registry};
+use crate::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
 
 /// Adds all built-in kinds.
 pub(crate) fn register(registry: &mut Registry) {
@@ -18,6 +19,31 @@ pub(crate) fn register(registry: &mut Registry) {
     registry.register("Universal", &["axes"], universal);
     registry.register("Spherical", &["axis"], |a| may_have_axis(a, Spherical));
     registry.register("Planar", &["normal"], |a| along(a, "normal", Planar));
+
+    for kind in ["Revolute", "Prismatic", "Cylindrical"] {
+        registry.register_writer(kind, |_, frame| vec![axis("axis", frame)]);
+    }
+    for kind in ["Fixed", "Spherical"] {
+        registry.register_writer(kind, |_, frame| match *frame == Rotation3::identity() {
+            true => Vec::new(),
+            false => vec![axis("axis", frame)],
+        });
+    }
+    registry.register_writer("Planar", |_, frame| vec![axis("normal", frame)]);
+    registry.register_writer("Screw", |joint, frame| {
+        let pitch = joint.basis()[(Dof::Y.index(), Dof::V.index())];
+        vec![axis("axis", frame), ("pitch", Argument::Number(pitch))]
+    });
+    registry.register_writer("Universal", |_, frame| {
+        let [x, y] = [0, 1].map(|k| frame.matrix().column(k).into_owned());
+        vec![("axes", Argument::TwoDirections([x, y]))]
+    });
+}
+
+/// The argument `name` that is y of the frame.
+fn axis(name: &'static str, frame: &Rotation3<f64>) -> (&'static str, Argument) {
+    let y = frame.matrix().column(1).into_owned();
+    (name, Argument::Direction(y))
 }
 
 /// A joint whose y is the direction `name`.

@@ -9,12 +9,14 @@
 //! x y z \[m\] and a rotation vector rx ry rz \[rad\] from the home orientation.
 
 mod batch;
+mod beams;
 mod bodies;
 mod brackets;
 mod csv;
 mod error;
 mod fields;
 mod figures;
+mod flexible;
 mod fragment;
 mod joints;
 mod kinds;

@@ -88,9 +88,9 @@ pub(crate) fn mechanism_of(
 pub(crate) fn read_named(path: Fragment<'_>) -> Result<Arc<Source>, LoadError> {
     let file = path.source().relative(&path.string()?);
     Source::read(&file).map_err(|error| match error {
-        LoadError::Read { path: file, source } => {
-            path.error(format!("cannot read {}: {source}", file.display()))
-        }
+        LoadError::Read { path: file, source } => path
+            .error(format!("cannot read {}: {source}", file.display()))
+            .with_help("a path is relative to the folder of the file that names it"),
         other => other,
     })
 }
@@ -101,7 +101,7 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
         return Batch::read(value, registry).map(Input::Batch);
     }
     match value.variant("") {
-        Ok((kind, _)) if parameters::KINDS.contains(&kind.text()) => {
+        Ok((kind, _)) if parameters::find(kind.text()).is_some() => {
             return Err(kind
                 .error(format!("`{}` stands in a job of a batch", kind.text()))
                 .with_help("write `(jobs: [(name: \"…\", mechanism: …, poses: …)])`"));

@@ -1,11 +1,33 @@
 //! Materials and sections, as tables of a mechanism file or in place in a prebuilt one.
 
-use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape, Taper};
 
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
 use crate::names;
+
+/// What the table of sections holds.
+#[derive(Debug, Clone)]
+pub(crate) enum Profile {
+    /// One section all along.
+    Uniform(Section),
+    /// A section that changes along what it is used for.
+    Tapered(Taper),
+}
+
+impl Profile {
+    /// The section at `first` and, where it changes, that at `last` (0 to 1).
+    pub(crate) fn part(&self, first: f64, last: f64) -> (Section, Option<Section>) {
+        match self {
+            Self::Uniform(section) => (section.clone(), None),
+            Self::Tapered(taper) => {
+                let part = taper.part(first, last);
+                (part.from().clone(), Some(part.to().clone()))
+            }
+        }
+    }
+}
 
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
@@ -32,9 +54,37 @@ pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, 
         .map_err(|error| fields.element_error(&error))
 }
 
+/// Reads a section, or `Tapered(from: …, to: …)` with two sections.
+pub(crate) fn profile(fragment: Fragment<'_>, owner: &str) -> Result<Profile, LoadError> {
+    let arguments = match fragment.variant("") {
+        Ok((kind, arguments)) if kind.text() == "Tapered" => arguments,
+        _ => return section(fragment, owner).map(Profile::Uniform),
+    };
+    let fields = match arguments {
+        Some(given) => Fields::read(given, owner, &["from", "to"], &[])?.within(fragment),
+        None => Fields::none(fragment, owner),
+    };
+    let end = |name: &str| section(fields.required(name)?, &format!("`{name}` of {owner}"));
+    let taper = Taper::new(end("from")?, end("to")?).map_err(|error| match error {
+        ElementError::DifferentKinds { from, to } => fields
+            .error(
+                "to",
+                format!("{owner} cannot change from a {from} to a {to}"),
+            )
+            .with_help(
+                "give both ends sections of one kind; a circle is a `Tube` with `inner: 0.0`",
+            ),
+        ElementError::OneEnd { field } => fields
+            .error("to", format!("{owner} has `{field}` at one end only"))
+            .with_help(format!("give `{field}` at both ends, or at none")),
+        other => fields.element_error(&other),
+    })?;
+    Ok(Profile::Tapered(taper))
+}
+
 /// Reads `Circle(…)`, `Tube(…)`, `Rectangle(…)` or `General(…)`.
 pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, LoadError> {
-    const KINDS: [&str; 4] = ["Circle", "Tube", "Rectangle", "General"];
+    const KINDS: [&str; 5] = ["Circle", "Tube", "Rectangle", "General", "Tapered"];
     let (kind, arguments) = fragment.variant("a section, such as `Circle(diameter: 0.02)`")?;
     let known: &[&str] = match kind.text() {
         "Circle" => &["diameter", "shear_y", "shear_z"],
@@ -51,6 +101,12 @@ pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, Lo
             "z_max",
             "torsion_modulus",
         ],
+        "Tapered" => {
+            return Err(kind.error(format!("{owner} cannot taper")).with_help(
+                "give one section; a section of the table `sections` can be \
+                     `Tapered(from: …, to: …)`, between two that do not taper",
+            ));
+        }
         other => {
             return Err(kind
                 .error(format!("unknown kind of section `{other}`"))

@@ -44,11 +44,11 @@ impl Mechanism {
                 materials::material(entry.value, owner)
             })?,
             sections: Table::read(fields.get("sections"), "section", |entry, owner| {
-                materials::section(entry.value, owner)
+                materials::profile(entry.value, owner)
             })?,
             points: Table::read(Some(fields.required("points")?), "point", |entry, _| {
                 check_name(entry, "point")?;
-                entry.value.vector().map(Point3::from)
+                place(entry.value)
             })?,
         };
         let mut bodies = Vec::new();
@@ -113,4 +113,19 @@ impl Mechanism {
     pub fn locate_load(&self, load: usize) -> Location {
         self.loads[load].location()
     }
+}
+
+/// Largest coordinate of a point (m): with those beyond it, sums of squares and the stiffness of
+/// what they span would overflow.
+const FARTHEST: f64 = 1e50;
+
+/// Reads the place of a point.
+fn place(fragment: Fragment<'_>) -> Result<Point3<f64>, LoadError> {
+    let place = fragment.vector()?;
+    if place.amax() > FARTHEST {
+        return Err(fragment
+            .error(format!("no point can be farther than {FARTHEST:?} m"))
+            .with_help("give the coordinates in metres"));
+    }
+    Ok(place.into())
 }

@@ -1,25 +1,42 @@
 //! Prebuilt mechanisms of a batch file: their parameters.
 
+mod exechon;
+mod hexapod;
+mod legs;
+mod linear_delta;
+mod orthoglide;
+mod planar_three_rrr;
+mod spherical_three_rrr;
+mod three_prs;
+mod three_rps;
+mod tricept;
+mod tripteron;
+
 use hyperstat_elements::{Material, Section};
+use hyperstat_joints::Dof;
 
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::prebuilt::{Delta, Elbow, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom};
+use crate::prebuilt::{
+    Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
+};
 use crate::{bodies, joints, materials};
 
-/// Names of the prebuilt mechanisms.
-pub(crate) const KINDS: [&str; 2] = ["Delta", "SingleFreedom"];
+/// A kind of prebuilt mechanism in a batch file.
+pub(crate) struct Kind {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Names of its parameters.
+    fields: &'static [&'static str],
+    read: fn(&Fields<'_>) -> Result<Box<dyn Prebuilt>, LoadError>,
+}
 
-/// Reads the parameters of the prebuilt mechanism `kind`, one of [`KINDS`]; `whole` is the
-/// mechanism, `arguments` what stands in its parentheses.
-pub(crate) fn read(
-    kind: &str,
-    whole: Fragment<'_>,
-    arguments: Option<Fragment<'_>>,
-) -> Result<Box<dyn Prebuilt>, LoadError> {
-    let known: &[&str] = match kind {
-        "Delta" => &[
+/// The prebuilt mechanisms.
+pub(crate) const KINDS: &[Kind] = &[
+    Kind {
+        name: "Delta",
+        fields: &[
             "base_radius",
             "platform_radius",
             "arm_length",
@@ -34,17 +51,44 @@ pub(crate) fn read(
             "drive_stiffness",
             "elements",
         ],
-        _ => &["lengths", "sections", "material", "joint_stiffness"],
-    };
-    let owner = format!("`{kind}`");
+        read: |fields| Ok(Box::new(delta(fields)?)),
+    },
+    Kind {
+        name: "SingleFreedom",
+        fields: &["lengths", "sections", "material", "joint_stiffness"],
+        read: |fields| Ok(Box::new(single_freedom(fields)?)),
+    },
+    exechon::KIND,
+    hexapod::KIND,
+    hexapod::CUBIC,
+    linear_delta::KIND,
+    orthoglide::KIND,
+    planar_three_rrr::KIND,
+    spherical_three_rrr::KIND,
+    three_prs::KIND,
+    three_rps::KIND,
+    tricept::KIND,
+    tripteron::KIND,
+];
+
+/// The prebuilt mechanism of this name.
+pub(crate) fn find(name: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}
+
+/// Reads the parameters of a prebuilt mechanism; `whole` is the mechanism, `arguments` what
+/// stands in its parentheses.
+pub(crate) fn read(
+    kind: &Kind,
+    whole: Fragment<'_>,
+    arguments: Option<Fragment<'_>>,
+) -> Result<Box<dyn Prebuilt>, LoadError> {
+    let owner = format!("`{}`", kind.name);
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, known, &[])?.within(whole),
+        Some(given) => Fields::read(given, owner, kind.fields, &[])?.within(whole),
         None => Fields::none(whole, owner),
     };
-    match kind {
-        "Delta" => Ok(Box::new(delta(&fields)?)),
-        _ => Ok(Box::new(single_freedom(&fields)?)),
-    }
+    (kind.read)(&fields)
 }
 
 fn delta(fields: &Fields<'_>) -> Result<Delta, LoadError> {
@@ -63,9 +107,9 @@ fn delta(fields: &Fields<'_>) -> Result<Delta, LoadError> {
         arm: link(fields, "arm")?,
         bar: link(fields, "bar")?,
         rod: link(fields, "rod")?,
-        joint_stiffness: optional(fields, "joint_stiffness", joints::directions)?,
-        drive_stiffness: optional(fields, "drive_stiffness", |k| joints::spring(k).map(Some))?,
-        elements: fields.get("elements").map_or(Ok(1), bodies::elements)?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
     };
     delta.check().map_err(|error| refused(fields, &error))?;
     Ok(delta)
@@ -114,6 +158,27 @@ fn pair<'a, T>(
 ) -> Result<(T, T), LoadError> {
     let [first, second] = fields.required(name)?.array(expected)?;
     Ok((read(first)?, read(second)?))
+}
+
+fn elbow_side(fields: &Fields<'_>) -> Result<ElbowSide, LoadError> {
+    optional(fields, "elbow", |value| value.parse("`Left` or `Right`"))
+}
+
+/// Reads the stiffness of passive joints, all of them free about v: zero there is the same as
+/// nothing.
+fn joint_stiffness(fields: &Fields<'_>) -> Result<[Option<f64>; 6], LoadError> {
+    let mut stiffness = optional(fields, "joint_stiffness", joints::directions)?;
+    let about_axis = &mut stiffness[Dof::V.index()];
+    *about_axis = about_axis.filter(|&k| k != 0.0);
+    Ok(stiffness)
+}
+
+fn drive_stiffness(fields: &Fields<'_>) -> Result<Option<f64>, LoadError> {
+    optional(fields, "drive_stiffness", |k| joints::spring(k).map(Some))
+}
+
+fn elements(fields: &Fields<'_>) -> Result<usize, LoadError> {
+    fields.get("elements").map_or(Ok(1), bodies::elements)
 }
 
 fn section(fragment: Fragment<'_>) -> Result<Section, LoadError> {

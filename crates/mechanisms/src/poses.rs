@@ -14,8 +14,8 @@ pub(crate) enum Poses {
     Own,
     /// These.
     List(Vec<[f64; 6]>),
-    /// All combinations of values of x, y and z, x fastest.
-    Grid([Values; 3]),
+    /// All combinations of values of the six coordinates, x fastest.
+    Grid([Values; 6]),
 }
 
 /// What poses a mechanism can be given.
@@ -33,14 +33,13 @@ impl Given<'_> {
         if value == 0.0 || self.coordinates.iter().any(follows) {
             return Ok(());
         }
-        let name = |coordinate: &PoseCoordinate| csv::COLUMNS[coordinate.index()];
-        let names: Vec<_> = self.coordinates.iter().map(name).collect();
+        let mut pose = ["0"; 6];
+        for coordinate in self.coordinates {
+            pose[coordinate.index()] = csv::COLUMNS[coordinate.index()];
+        }
         Err(at
             .error(format!("`{}` cannot follow this coordinate", self.kind))
-            .with_help(format!(
-                "a pose of it is {}; the others stay zero",
-                names.join(", ")
-            )))
+            .with_help(format!("a pose of it is `({})`", pose.join(", "))))
     }
 }
 
@@ -53,6 +52,13 @@ pub(crate) struct Values {
 }
 
 impl Values {
+    /// Zero alone.
+    const ZERO: Self = Self {
+        first: 0.0,
+        last: 0.0,
+        count: 1,
+    };
+
     fn get(&self, k: usize) -> f64 {
         if k == 0 {
             return self.first;
@@ -77,10 +83,13 @@ impl Poses {
         match self {
             Self::Own => [0.0; 6],
             Self::List(poses) => poses[k],
-            Self::Grid([x, y, z]) => {
-                let (row, column) = (k / x.count, k % x.count);
-                let (layer, row) = (row / y.count, row % y.count);
-                [x.get(column), y.get(row), z.get(layer), 0.0, 0.0, 0.0]
+            Self::Grid(axes) => {
+                let mut rest = k;
+                axes.map(|axis| {
+                    let value = axis.get(rest % axis.count);
+                    rest /= axis.count;
+                    value
+                })
             }
         }
     }
@@ -100,7 +109,7 @@ impl Poses {
                 let [list] = arguments()?.array("one list, `List([(x, y, z), …])`")?;
                 list_of_poses(list, given).map(Self::List)
             }
-            "Grid" => grid(arguments()?, fragment),
+            "Grid" => grid(arguments()?, fragment, given),
             other => Err(kind
                 .error(format!("unknown kind of poses `{other}`"))
                 .with_help(names::help(
@@ -128,20 +137,40 @@ fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>,
         poses.push(pose);
     }
     if poses.is_empty() {
-        return Err(list.error("the list of poses is empty"));
+        return Err(list
+            .error("the list of poses is empty")
+            .with_help("give at least one pose, `List([(x, y, z)])`"));
     }
     Ok(poses)
 }
 
-fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<Poses, LoadError> {
-    let fields = Fields::read(arguments, "`Grid`", &["x", "y", "z"], &[])?.within(whole);
-    let axis = |name| values(fields.required(name)?);
-    let axes = [axis("x")?, axis("y")?, axis("z")?];
+/// A position that the mechanism takes must be given; a rotation that is not is zero.
+fn grid(
+    arguments: Fragment<'_>,
+    whole: Fragment<'_>,
+    given: &Given<'_>,
+) -> Result<Poses, LoadError> {
+    let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS, &[])?.within(whole);
+    let mut axes = [Values::ZERO; 6];
+    for (index, (axis, name)) in axes.iter_mut().zip(csv::COLUMNS).enumerate() {
+        let position = |c: &PoseCoordinate| c.index() == index && index < 3;
+        let field = match fields.get(name) {
+            Some(field) => field,
+            None if given.coordinates.iter().any(position) => fields.required(name)?,
+            None => continue,
+        };
+        *axis = values(field)?;
+        for value in [axis.first, axis.last] {
+            given.check(index, value, &field.place())?;
+        }
+    }
     let total = axes
         .iter()
         .try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
     if total.is_none() {
-        return Err(whole.error("the grid has more poses than can be counted"));
+        return Err(whole
+            .error("the grid has more poses than can be counted")
+            .with_help("give fewer values of a coordinate, `x: (first, last, count)`"));
     }
     Ok(Poses::Grid(axes))
 }
@@ -172,7 +201,9 @@ mod tests {
     #[test]
     fn a_grid_runs_through_x_first_and_ends_exactly() {
         let axis = |first, last, count| Values { first, last, count };
-        let grid = Poses::Grid([axis(-0.2, 0.2, 5), axis(0.1, 0.3, 3), axis(0.5, 0.5, 1)]);
+        let alone = Values::ZERO;
+        let (x, y, z) = (axis(-0.2, 0.2, 5), axis(0.1, 0.3, 3), axis(0.5, 0.5, 1));
+        let grid = Poses::Grid([x, y, z, alone, alone, alone]);
         assert_eq!(grid.len(), 15);
         assert_eq!(grid.get(0), [-0.2, 0.1, 0.5, 0.0, 0.0, 0.0]);
         assert_eq!(grid.get(2)[0], 0.0);
@@ -182,13 +213,27 @@ mod tests {
     }
 
     #[test]
+    fn a_grid_of_rotations() {
+        let alone = Values::ZERO;
+        let turn = Values {
+            first: -0.1,
+            last: 0.1,
+            count: 3,
+        };
+        let grid = Poses::Grid([alone, alone, alone, alone, turn, turn]);
+        assert_eq!(grid.len(), 9);
+        assert_eq!(grid.get(5), [0.0, 0.0, 0.0, 0.0, 0.1, 0.0]);
+    }
+
+    #[test]
     fn a_large_grid_takes_no_memory() {
         let axis = Values {
             first: -1.0,
             last: 1.0,
             count: 1 << 20,
         };
-        let grid = Poses::Grid([axis; 3]);
+        let alone = Values::ZERO;
+        let grid = Poses::Grid([axis, axis, axis, alone, alone, alone]);
         assert_eq!(grid.len(), 1 << 60);
         assert_eq!(grid.get((1 << 60) - 1)[..3], [1.0; 3]);
     }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hyperstat_joints::Joint;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 use serde::de::DeserializeOwned;
 
 use crate::error::LoadError;
@@ -17,11 +17,13 @@ pub struct Registry {
 }
 
 type Reader = dyn Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync;
+type Writer = dyn Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)> + Send + Sync;
 
 struct Kind {
     name: String,
     arguments: &'static [&'static str],
     reader: Box<Reader>,
+    writer: Option<Box<Writer>>,
 }
 
 impl Registry {
@@ -46,7 +48,36 @@ impl Registry {
             name: name.into(),
             arguments,
             reader: Box::new(reader),
+            writer: None,
         });
+    }
+
+    /// Says how joints of the kind `name` are written into a file: `writer` gets the joint and its
+    /// frame (columns x, y, z in global axes) and gives the arguments that the kind's reader makes
+    /// them from. Beside an argument that is one direction, the axis, the frame's x is written as
+    /// the joint's `x_axis`. Only [`write`](crate::write()) needs it. Without a kind of this name
+    /// it does nothing.
+    pub fn register_writer(
+        &mut self,
+        name: &str,
+        writer: impl Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)>
+        + Send
+        + Sync
+        + 'static,
+    ) {
+        if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.name == name) {
+            kind.writer = Some(Box::new(writer));
+        }
+    }
+
+    /// The arguments of a joint as a file gives them; `None` where its kind has no writer.
+    pub(crate) fn arguments(
+        &self,
+        joint: &dyn Joint,
+        frame: &Rotation3<f64>,
+    ) -> Option<Vec<(&'static str, Argument)>> {
+        let kind = self.kinds.iter().find(|kind| kind.name == joint.kind())?;
+        kind.writer.as_ref().map(|writer| writer(joint, frame))
     }
 
     /// Names of all kinds.
@@ -148,6 +179,17 @@ impl Arguments<'_> {
     pub fn error(&self, name: &str, message: impl Into<String>) -> LoadError {
         self.fields.error(name, message)
     }
+}
+
+/// An argument of a joint kind as a writer gives it; directions are in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Argument {
+    /// A number.
+    Number(f64),
+    /// A direction.
+    Direction(Vector3<f64>),
+    /// Two directions.
+    TwoDirections([Vector3<f64>; 2]),
 }
 
 /// A joint as a reader returns it.

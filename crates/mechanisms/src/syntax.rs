@@ -18,11 +18,16 @@ pub(crate) fn error(source: &Arc<Source>, error: &SpannedError) -> LoadError {
         source: Arc::clone(source),
         span: at..at + width,
     };
-    match brackets::imbalance(source.text()) {
-        Some(Imbalance::Text { start }) if start <= noticed => {
+    match brackets::imbalance(source.text(), noticed) {
+        Some(Imbalance::Text { start, hashes }) if start <= noticed => {
             return place(start, 1)
-                .error("this text is not closed in its line")
-                .with_help("add the missing `\"`");
+                .error("this text is not closed")
+                .with_help(format!("add the missing `\"{}`", "#".repeat(hashes)));
+        }
+        Some(Imbalance::Comment { start }) if start <= noticed => {
+            return place(start, 2)
+                .error("this comment is not closed")
+                .with_help("add the missing `*/`");
         }
         Some(Imbalance::Mismatch { open, close }) if close <= noticed => {
             let line = place(open, 1).location().line;
@@ -75,6 +80,10 @@ fn describe(code: &Error, next: Option<char>) -> (String, Option<&'static str>) 
         Error::ExceededRecursionLimit => say(
             "brackets are nested too deeply",
             "no value of the format is nested more than a dozen deep",
+        ),
+        Error::InvalidIntegerDigit { digit, .. } => (
+            format!("`{digit}` cannot stand here in a number"),
+            Some("write a number such as 0.25, -3 or 2.1e11"),
         ),
         Error::UnexpectedChar(c) => (format!("unexpected `{c}`"), None),
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) => say(

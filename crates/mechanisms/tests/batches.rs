@@ -159,9 +159,37 @@ fn poses_out_of_reach_are_errors_of_their_own() {
         job.place(1, &mut geometry).unwrap(),
         [0.1, 0.0, 0.5, 0.0, 0.0, 0.0]
     );
+}
 
-    let batch = delta("poses: List([(0, 0, 5.0)])");
-    assert!(batch.jobs[0].model().is_err());
+#[test]
+fn a_job_without_a_pose_in_reach_has_a_model_with_its_loads() {
+    let out_of_reach = [
+        "List([(0, 0, 5.0)])",
+        "Grid(x: (3, 5, 1000), y: (3, 5, 1000), z: (0, 1, 1000))",
+    ];
+    for poses in out_of_reach {
+        let batch = delta(&format!(
+            r#"poses: {poses}, loads: [(on: ("platform", "P"), force: (1, 0, 0))]"#
+        ));
+        let job = &batch.jobs[0];
+        let model = job.model().unwrap();
+        assert_eq!(model.node_name(model.loads()[0].node), "platform.P");
+        let mut geometry = model.geometry().clone();
+        for pose in [0, job.len() - 1] {
+            assert!(job.place(pose, &mut geometry).is_err());
+        }
+        assert_eq!(&geometry, model.geometry());
+    }
+}
+
+/// A grid whose first pose in reach comes late is found.
+#[test]
+fn a_mechanism_is_built_in_a_late_pose() {
+    let batch = delta("poses: Grid(x: (0, 0, 1), y: (0, 0, 1), z: (-5, 0.5, 100000))");
+    let job = &batch.jobs[0];
+    let mut geometry = job.model().unwrap().geometry().clone();
+    assert!(job.place(0, &mut geometry).is_err());
+    assert!(job.place(job.len() - 1, &mut geometry).is_ok());
 }
 
 #[test]
@@ -189,4 +217,29 @@ fn figures_have_defaults() {
         },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
+}
+
+/// Zero on a direction that is free anyway is the same as nothing.
+#[test]
+fn a_delta_takes_no_stiffness_about_its_axes() {
+    let job = |stiffness: &str| {
+        let mechanism = DELTA.replace(
+            "base_radius",
+            &format!("joint_stiffness: {stiffness}, base_radius"),
+        );
+        let text =
+            format!("(jobs: [(name: \"d\", mechanism: {mechanism}, poses: List([(0, 0, 0.5)]))])");
+        read(&text).jobs[0].model().unwrap()
+    };
+    let [zero, none] = ["(x: 1e8, v: 0)", "(x: 1e8)"].map(job);
+    let stiffness = |model: &hyperstat_assembly::Model| {
+        let joints = model.joints().iter();
+        joints
+            .map(|joint| joint.stiffness.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        format!("{:?}", stiffness(&zero)),
+        format!("{:?}", stiffness(&none))
+    );
 }

@@ -1,9 +1,10 @@
 //! Whatever a file holds, the loader answers: with a mechanism or batch, or with an error in
 //! the file.
 
+mod fuzzing;
+
 use std::path::Path;
 
-use hyperstat_mechanisms::{Registry, load_str};
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
@@ -51,24 +52,9 @@ const PIECES: [&str; 34] = [
     "é",
 ];
 
-/// Reads a text; an error must point into it or into a file beside it.
 fn answer(text: &str) {
-    let path = Path::new("../../examples/mutated.ron");
-    let Err(error) = load_str(text, path, &Registry::builtin()) else {
-        return;
-    };
-    let at = error.location().expect("the text itself was read");
-    assert!(at.line >= 1 && at.column >= 1 && at.width >= 1);
-    assert!(!error.message().is_empty() && !at.text.contains('\n'));
-    if at.path == path {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let line = text
-            .split('\n')
-            .nth(at.line - 1)
-            .expect("a line of the text");
-        assert_eq!(at.text, line.trim_end_matches('\r'));
-        assert!(at.column <= line.chars().count() + 1);
-    }
+    // What a batch names is found beside it.
+    fuzzing::answer(text, Path::new("../../examples/mutated.ron"));
 }
 
 fn boundary(text: &str, at: prop::sample::Index) -> usize {

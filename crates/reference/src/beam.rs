@@ -3,9 +3,10 @@
 //! Formed here anew, not taken from `hyperstat-elements`, so that an error there shows.
 
 use hyperstat_assembly::Segment;
-use nalgebra::{Matrix3, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 
 use crate::row::Row;
+use crate::taper::TaperFlexibility;
 
 /// Stiffness of an element over both its nodes.
 pub(crate) type ElementStiffness = SMatrix<f64, 12, 12>;
@@ -15,7 +16,7 @@ const UPRIGHT_LIMIT: f64 = 0.9;
 /// Below this sine a direction counts as running along the segment.
 const ALONG: f64 = 1e-9;
 
-/// A straight prismatic beam element between two nodes.
+/// A straight beam element between two nodes.
 #[derive(Debug, Clone)]
 pub(crate) struct Element {
     /// First and second node; local x runs from the first to the second.
@@ -32,11 +33,23 @@ pub(crate) struct Element {
     bending: [f64; 2],
     /// 12 E I / (κ G A L²) of deflection along local y and along local z; 0 for Euler–Bernoulli.
     shear: [f64; 2],
+    /// In place of the four above, where the section changes along the element.
+    taper: Option<TaperFlexibility>,
 }
 
 impl Element {
-    /// An element of a segment: `length` of it, with the segment's `frame`.
-    pub fn new(nodes: [usize; 2], segment: &Segment, frame: Matrix3<f64>, length: f64) -> Self {
+    /// An element of a segment: the `part` of it between two places (0 to 1) along its `length`,
+    /// with the segment's `frame`.
+    pub fn new(
+        nodes: [usize; 2],
+        segment: &Segment,
+        frame: Matrix3<f64>,
+        length: f64,
+        part: [f64; 2],
+    ) -> Self {
+        let taper = segment.taper.as_ref();
+        let taper = taper.map(|to| TaperFlexibility::new(segment, to, part, length));
+        let length = length * (part[1] - part[0]);
         let (material, section) = (&segment.material, &segment.section);
         let bending = [section.iz(), section.iy()].map(|i| material.young() * i);
         let shear_area = [section.shear_y(), section.shear_z()];
@@ -53,6 +66,7 @@ impl Element {
             torsion: material.shear() * section.torsion(),
             bending,
             shear,
+            taper,
         }
     }
 
@@ -69,6 +83,26 @@ impl Element {
         let antisymmetric = |chord: Vector3<f64>, axis: Vector3<f64>, stiffness: f64| {
             self.row([chord, -chord], [axis, axis], stiffness)
         };
+        if let Some(taper) = &self.taper {
+            let [in_y, in_z] = taper.bending;
+            // Deflection of the ends against each other, carried to the elastic centre as by
+            // rigid arms.
+            let across = |chord: Vector3<f64>, axis: Vector3<f64>, centre: f64, c: f64| {
+                self.row(
+                    [-chord, chord],
+                    [-axis * centre, -axis * (l - centre)],
+                    1.0 / c,
+                )
+            };
+            return [
+                opposite(x, zero, 1.0 / taper.axial),
+                opposite(zero, x, 1.0 / taper.torsion),
+                opposite(zero, z, 1.0 / in_y.turn),
+                opposite(zero, y, 1.0 / in_z.turn),
+                across(y, z, in_y.centre, in_y.deflection),
+                across(z, -y, in_z.centre, in_z.deflection),
+            ];
+        }
         let along = |plane: usize| 3.0 * self.bending[plane] / (l * (1.0 + self.shear[plane]));
         [
             opposite(x, zero, self.axial / l),
@@ -88,8 +122,22 @@ impl Element {
         }
     }
 
-    /// The stiffness in global axes, written out in closed form.
+    /// The stiffness in global axes, as the sum over the deformations.
+    fn summed_stiffness(&self) -> ElementStiffness {
+        let mut sum = ElementStiffness::zeros();
+        for row in self.deformations() {
+            let [(_, first), (_, second)] = [&row.terms[0], &row.terms[1]];
+            let a = SVector::<f64, 12>::from_iterator(first.iter().chain(second).copied());
+            sum += a * a.transpose() / row.flexibility;
+        }
+        sum
+    }
+
+    /// The stiffness in global axes, written out in closed form where the section does not change.
     pub fn stiffness(&self) -> ElementStiffness {
+        if self.taper.is_some() {
+            return self.summed_stiffness();
+        }
         let l = self.length;
         let mut k = ElementStiffness::zeros();
         let mut set = |r: usize, c: usize, value: f64| {
@@ -162,7 +210,7 @@ pub(crate) fn join(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64
 mod tests {
     use hyperstat_assembly::Model;
     use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
-    use nalgebra::{DVector, Point3, SVector};
+    use nalgebra::{DVector, Point3};
 
     use super::*;
 
@@ -185,21 +233,14 @@ mod tests {
             .unwrap();
         let span = Vector3::new(0.1, 0.2, -0.2);
         let frame = segment_frame(&span, Some(&Vector3::new(1.0, 1.0, 0.0))).unwrap();
-        Element::new([0, 1], &model.segments()[0], frame, span.norm())
+        Element::new([0, 1], &model.segments()[0], frame, span.norm(), [0.0, 1.0])
     }
 
     #[test]
     fn deformations_and_closed_form_are_the_same_stiffness() {
         for shear in [None, Some(4e-4)] {
             let element = element(shear);
-            let mut sum = ElementStiffness::zeros();
-            for row in element.deformations() {
-                let mut a = SVector::<f64, 12>::zeros();
-                for (node, coefficients) in &row.terms {
-                    a.fixed_rows_mut::<6>(6 * node).copy_from(coefficients);
-                }
-                sum += a * a.transpose() / row.flexibility;
-            }
+            let sum = element.summed_stiffness();
             let closed = element.stiffness();
             assert!((sum - closed).amax() < 1e-14 * closed.amax());
         }

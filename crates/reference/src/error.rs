@@ -27,6 +27,14 @@ pub enum ReferenceError {
         /// Index of the segment on the body, from 0.
         segment: usize,
     },
+    /// A flexible body whose stiffness, held at its first node, is not positive definite.
+    #[error(
+        "the stiffness of flexible body `{body}` is not positive definite where its first node is held"
+    )]
+    Flexible {
+        /// Name of the body.
+        body: String,
+    },
     /// A joint whose six directions are not independent.
     #[error("the six directions of joint `{joint}` are not independent")]
     JointBasis {

@@ -35,11 +35,11 @@ impl Pieces {
         )
     }
 
-    /// Rigid bodies, and elastic ones as far as beams connect their nodes: what stays rigid when
-    /// nothing takes up energy.
+    /// Rigid and flexible bodies, and others as far as beams connect their nodes: what stays rigid
+    /// when nothing takes up energy.
     pub fn undeformed(model: &Model, structure: &Structure) -> Self {
-        let rigid = node_pairs(model, |kind| kind == BodyKind::Rigid);
-        Self::joined(structure, rigid.chain(beams(structure)))
+        let whole = node_pairs(model, |kind| kind != BodyKind::Elastic);
+        Self::joined(structure, whole.chain(beams(structure)))
     }
 
     /// Rigid bodies, and every other node by itself.

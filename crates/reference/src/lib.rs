@@ -4,6 +4,7 @@
 
 mod beam;
 mod error;
+mod flexible;
 mod independence;
 mod joint;
 mod kinematics;
@@ -11,6 +12,7 @@ mod row;
 mod saddle;
 mod solution;
 mod structure;
+mod taper;
 mod traditional;
 
 pub use error::ReferenceError;

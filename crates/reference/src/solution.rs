@@ -172,8 +172,7 @@ struct Rows {
 
 impl Rows {
     fn of(structure: &Structure, redundancy: &Redundancy) -> Self {
-        let deformations = structure.elements.iter().flat_map(|e| e.deformations());
-        let mut rows: Vec<Row> = deformations.collect();
+        let mut rows = structure.deformations();
         let elements = rows.len();
         rows.extend(structure.rigid_bodies.iter().cloned());
         let before_joints = rows.len();

@@ -5,6 +5,7 @@ use nalgebra::{DVector, Point3, Vector3, Vector6};
 
 use crate::beam::{Element, join, segment_frame};
 use crate::error::ReferenceError;
+use crate::flexible::FlexibleElement;
 use crate::joint::JointConditions;
 use crate::row::Row;
 
@@ -18,6 +19,8 @@ pub(crate) struct Structure {
     pub positions: Vec<Point3<f64>>,
     /// Beam elements.
     pub elements: Vec<Element>,
+    /// Flexible bodies.
+    pub flexibles: Vec<FlexibleElement>,
     /// Conditions that make each rigid body move as one (Eq. 37), a row a component.
     pub rigid_bodies: Vec<Row>,
     /// Joints, by `JointId`.
@@ -57,11 +60,19 @@ impl Structure {
             size: size(&positions),
             positions,
             elements,
+            flexibles: flexibles(model)?,
             rigid_bodies: rigid_bodies(model),
             joints,
             output,
             loads,
         })
+    }
+
+    /// Rows of all deformations of elastic bodies.
+    pub fn deformations(&self) -> Vec<Row> {
+        let beams = self.elements.iter().flat_map(Element::deformations);
+        let flexibles = self.flexibles.iter().flat_map(|f| f.deformations.clone());
+        beams.chain(flexibles).collect()
     }
 
     /// The six rows that are the output's displacement.
@@ -97,17 +108,17 @@ fn elements(
         let frame = segment_frame(&span, geometry.y_axes[k].as_ref());
         let frame = frame.ok_or_else(|| segment_error(model, k))?;
         let count = segment.elements.max(1);
-        let length = span.norm() / count as f64;
+        let along = |step: usize| step as f64 / count as f64;
         let mut from = first;
         for step in 1..=count {
             let to = if step == count {
                 last
             } else {
-                let fraction = step as f64 / count as f64;
-                positions.push(positions[first] + span * fraction);
+                positions.push(positions[first] + span * along(step));
                 positions.len() - 1
             };
-            elements.push(Element::new([from, to], segment, frame, length));
+            let part = [along(step - 1), along(step)];
+            elements.push(Element::new([from, to], segment, frame, span.norm(), part));
             from = to;
         }
     }
@@ -121,6 +132,17 @@ fn segment_error(model: &Model, segment: usize) -> ReferenceError {
         body: body.name.clone(),
         segment: segment - first,
     }
+}
+
+fn flexibles(model: &Model) -> Result<Vec<FlexibleElement>, ReferenceError> {
+    let elements = model.flexibles().iter().map(|flexible| {
+        let body = &model.bodies()[flexible.body.0];
+        let element = FlexibleElement::new(model, flexible);
+        element.ok_or_else(|| ReferenceError::Flexible {
+            body: body.name.clone(),
+        })
+    });
+    elements.collect()
 }
 
 fn rigid_bodies(model: &Model) -> Vec<Row> {

@@ -61,6 +61,14 @@ pub fn traditional(
             }
         }
     }
+    for row in structure.flexibles.iter().flat_map(|f| &f.deformations) {
+        for (i, a) in &row.terms {
+            for (j, b) in &row.terms {
+                let mut block = matrix.fixed_view_mut::<6, 6>(6 * i, 6 * j);
+                block += a * b.transpose() / row.flexibility;
+            }
+        }
+    }
     for (connection, joint) in model.joints().iter().zip(&structure.joints) {
         let open = |dof: &Dof| is_open(connection, *dof);
         let free: Vec<Dof> = Dof::ALL.into_iter().filter(open).collect();

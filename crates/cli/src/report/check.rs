@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use hyperstat_assembly::{Kinematics, Solution};
 use serde::Serialize;
 
-use super::{list, solve::in_words, warning_in_words};
+use super::{list, redundancies, solve::in_words};
 use crate::case::Case;
 use crate::error::CliError;
 
@@ -23,9 +23,10 @@ pub(crate) struct CheckReport {
     unknowns: Option<usize>,
     mobility: Option<usize>,
     overconstraint: Option<usize>,
+    redundant_constraints: Vec<Vec<String>>,
     idle_modes: Option<usize>,
     idle_motions: Vec<String>,
-    /// All motions that nothing resists, where there is no solution that names the idle ones.
+    /// All motions that nothing resists, drives locked: the idle ones and those of the output.
     free_motions: Vec<String>,
     undetermined: Vec<String>,
     warnings: Vec<String>,
@@ -66,22 +67,24 @@ impl CheckReport {
             solvable: error.is_none(),
             mobility: Some(kinematics.mobility),
             overconstraint: Some(kinematics.overconstraint),
+            redundant_constraints: redundancies(model),
+            free_motions: in_words(&kinematics.motions, model),
             problem: error.map(CliError::problem),
             ..Self::default()
         };
-        if solution.is_none() {
-            report.free_motions = in_words(&kinematics.motions, model);
+        let idle = solution.map(|solution| solution.idle.clone());
+        if let Some(idle) = idle.or_else(|| case.idle_motions()) {
+            report.idle_modes = Some(idle.len());
+            report.idle_motions = in_words(&idle, model);
         }
         if let Some(solution) = solution {
             report.unknowns = Some(solution.unknowns);
-            report.idle_modes = Some(solution.idle.len());
-            report.idle_motions = in_words(&solution.idle, model);
             report.undetermined = solution
                 .undetermined()
                 .iter()
                 .map(|joint| model.joints()[joint.0].name.clone())
                 .collect();
-            report.warnings = solution.warnings.iter().map(warning_in_words).collect();
+            report.warnings = solution.warnings.iter().map(ToString::to_string).collect();
         }
         report
     }
@@ -107,10 +110,20 @@ impl CheckReport {
         }
         list(&mut text, "Warnings", &self.warnings);
         list(&mut text, "Idle motions", &self.idle_motions);
+        if self.idle_modes != Some(self.free_motions.len()) {
+            list(
+                &mut text,
+                "Motions that nothing resists, drives locked",
+                &self.free_motions,
+            );
+        }
+        let groups: Vec<_> = (self.redundant_constraints.iter())
+            .map(|group| group.join(" "))
+            .collect();
         list(
             &mut text,
-            "Motions that nothing resists, drives locked",
-            &self.free_motions,
+            "Redundant constraints (of each line any one direction can be freed, and nothing moves)",
+            &groups,
         );
         list(
             &mut text,

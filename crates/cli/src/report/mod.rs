@@ -6,7 +6,7 @@ mod table;
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::Warning;
+use hyperstat_assembly::{Model, redundant_constraints};
 use nalgebra::{Matrix6, Vector6};
 use serde::{Serialize, Serializer};
 
@@ -87,6 +87,12 @@ pub(crate) fn stiffness_table(stiffness: &Rows) -> Table {
     matrix_table(WRENCH, DISPLACEMENT, stiffness)
 }
 
+/// The redundant constraints of a mechanism: joint directions such as `A1.x`, in groups.
+fn redundancies(model: &Model) -> Vec<Vec<String>> {
+    let redundant = redundant_constraints(model);
+    redundant.iter().map(|group| group.names(model)).collect()
+}
+
 /// A heading and what stands under it, with an empty line before.
 fn section(text: &mut String, heading: &str, body: impl std::fmt::Display) {
     // Writing to a String cannot fail.
@@ -98,18 +104,5 @@ fn list(text: &mut String, heading: &str, items: &[String]) {
     if !items.is_empty() {
         let body: String = items.iter().map(|item| format!("  - {item}\n")).collect();
         section(text, heading, body);
-    }
-}
-
-fn warning_in_words(warning: &Warning) -> String {
-    match warning {
-        Warning::NearSingular { value } => format!(
-            "a singular value of {value:.1e} lies between zero and not zero: the counts may be \
-             those of a neighbouring geometry; give the coordinates with more digits"
-        ),
-        Warning::LostDigits { residual } => {
-            format!("digits are lost: the relative residual is {residual:.1e}")
-        }
-        other => format!("{other:?}"),
     }
 }

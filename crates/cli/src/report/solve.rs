@@ -3,15 +3,15 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{Model, Motion, Segment, SegmentForces, Solution};
-use hyperstat_elements::stress::section_stress;
-use nalgebra::Vector6;
+use hyperstat_elements::stress::{largest_stress, section_stress};
 use serde::Serialize;
 
 use super::{
-    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, rows, section,
-    stiffness_table, warning_in_words,
+    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
+    rows, section, stiffness_table,
 };
 use crate::case::Case;
+use crate::verification::Verification;
 
 /// Everything that one solve found. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]
@@ -24,6 +24,7 @@ pub(crate) struct SolveReport {
     unknowns: usize,
     mobility: usize,
     overconstraint: usize,
+    redundant_constraints: Vec<Vec<String>>,
     idle_modes: usize,
     idle_motions: Vec<String>,
     output: OutputReport,
@@ -32,6 +33,8 @@ pub(crate) struct SolveReport {
     undetermined: Vec<String>,
     segments: Vec<SegmentReport>,
     warnings: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verification: Option<Verification>,
 }
 
 #[derive(Debug, Serialize)]
@@ -74,7 +77,11 @@ struct StressReport {
 
 impl SolveReport {
     /// Collects what is to be reported of a solution.
-    pub(crate) fn new(case: &Case, solution: &Solution) -> Self {
+    pub(crate) fn new(
+        case: &Case,
+        solution: &Solution,
+        verification: Option<Verification>,
+    ) -> Self {
         let model = &case.model;
         let nodes = 0..model.nodes().len();
         let joints = model.joints().iter().zip(&solution.joint_wrenches);
@@ -86,6 +93,7 @@ impl SolveReport {
             unknowns: solution.unknowns,
             mobility: solution.mobility,
             overconstraint: solution.overconstraint,
+            redundant_constraints: redundancies(model),
             idle_modes: solution.idle.len(),
             idle_motions: in_words(&solution.idle, model),
             output: OutputReport::new(model, solution),
@@ -108,7 +116,10 @@ impl SolveReport {
             segments: segments
                 .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
                 .collect(),
-            warnings: solution.warnings.iter().map(warning_in_words).collect(),
+            warnings: (solution.warnings.iter().map(ToString::to_string))
+                .chain(verification.iter().flat_map(Verification::warnings))
+                .collect(),
+            verification,
         }
     }
 
@@ -142,7 +153,19 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        self.write_verification(&mut text);
         text
+    }
+
+    fn write_verification(&self, text: &mut String) {
+        let Some(verification) = &self.verification else {
+            return;
+        };
+        let mut table = Table::new(1, &["", "largest relative difference"]);
+        for (name, difference) in verification.differences() {
+            table.row(&[name], [difference]);
+        }
+        section(text, "Verification by the independent solver", table);
     }
 
     fn write_joints(&self, text: &mut String) {
@@ -265,15 +288,25 @@ impl SegmentReport {
             length: forces.length,
             axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
             end_forces: forces.ends.each_ref().map(numbers),
-            stress: StressReport::new(segment, &forces.ends),
+            stress: StressReport::new(segment, forces),
         }
     }
 }
 
 impl StressReport {
-    /// The largest stresses lie at an end: between the ends no load acts, so that moments are
-    /// linear, and all three stresses are convex in the section's wrench.
-    fn new(segment: &Segment, ends: &[Vector6<f64>; 2]) -> Option<Self> {
+    //    /// The largest stresses lie at an end where the section does not change: between the ends no
+    /// load acts, so that moments are linear, and all three stresses are convex in the section's
+    /// wrench. Else they are searched for.
+    fn new(segment: &Segment, forces: &SegmentForces) -> Option<Self> {
+        let ends = &forces.ends;
+        if let Ok(Some(taper)) = segment.change_of_section() {
+            let largest = largest_stress(&taper, forces.length, &ends[1])?;
+            return Some(Self {
+                normal: largest.normal,
+                shear: largest.shear,
+                von_mises: largest.von_mises,
+            });
+        }
         let first = section_stress(&segment.section, &-ends[0])?;
         let second = section_stress(&segment.section, &ends[1])?;
         Some(Self {

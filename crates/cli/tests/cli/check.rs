@@ -105,3 +105,22 @@ fn what_nothing_resists_is_listed_where_there_is_no_solution() {
     );
     assert_eq!(report["problem"]["line"], 8);
 }
+
+/// A load on an idle rod leaves no solution; the rod is idle all the same.
+#[test]
+fn idle_motions_are_counted_where_there_is_no_solution() {
+    let bench = Bench::new("check-idle-loaded");
+    let batch = delta_batch("delta", "List([(0.0, 0.0, 0.45)])", "")
+        .replace(
+            "rod_spacing: 0.12,",
+            "rod_spacing: 0.12, rod_ends: Spherical,",
+        )
+        .replace(r#"("platform", "P")"#, r#"("roda1", "Ba1")"#);
+    bench.file("delta.ron", &batch);
+    let outcome = bench.hyperstat(&["check", "delta.ron", "--format", "json"]);
+    let report = outcome.ends_with(2).json();
+    assert_eq!(report["solvable"], false);
+    assert_eq!(report["unknowns"], Value::Null);
+    assert_eq!(report["idle_modes"], 12);
+    assert_eq!(report["idle_motions"].as_array().unwrap().len(), 12);
+}

@@ -32,9 +32,19 @@ fn every_command_has_help_with_an_example() {
     let expected = [
         (
             "solve",
-            &["--format", "--job", "--pose", "text", "json"][..],
+            &[
+                "--format",
+                "--job",
+                "--pose",
+                "--verify",
+                "--allow-free",
+                "Rectangle",
+                "text",
+                "json",
+            ][..],
         ),
         ("check", &["--format", "--job", "--pose", "Ends with 2"]),
+        ("export", &["--job", "--pose", "--out", "FILE.ron"]),
         ("run", &["--out", "k11,k12", "unreachable", "BATCH.ron"]),
     ];
     for (command, parts) in expected {

@@ -1,6 +1,8 @@
 //! The binary as a user meets it: files in, reports, files and exit statuses out.
 
 mod check;
+mod diagnosis;
+mod export;
 mod help;
 mod messages;
 mod run;

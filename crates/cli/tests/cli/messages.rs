@@ -1,6 +1,6 @@
 //! Mistakes in files: the place, the line, what is wrong, what would be right.
 
-use crate::support::{Bench, CANTILEVER};
+use crate::support::{Bench, CANTILEVER, delta_batch};
 
 #[test]
 fn a_mistake_is_shown_with_its_line() {
@@ -54,4 +54,36 @@ fn a_body_that_nothing_holds_is_pointed_at() {
     bench.file("loose.ron", &text);
     let outcome = bench.hyperstat(&["solve", "loose.ron"]).ends_with(2);
     outcome.says(&["loose.ron:7:", "`loose`", "help: "]);
+}
+
+#[test]
+fn numbers_out_of_all_proportion_get_help() {
+    let bench = Bench::new("messages-proportion");
+    let twice = r#"(on: ("bar", "B"), moment: (1.7e308, 0.0, 0.0)), "#.repeat(2);
+    let text = CANTILEVER.replace("loads: [", &format!("loads: [{twice}"));
+    assert_ne!(text, CANTILEVER);
+    bench.file("huge.ron", &text);
+    let outcome = bench.hyperstat(&["solve", "huge.ron"]).ends_with(2);
+    outcome.says(&["overflow", "help: ", "too different size", "units"]);
+}
+
+#[test]
+fn a_load_on_an_unknown_body_is_told_where_no_pose_is_in_reach() {
+    let bench = Bench::new("messages-unreachable-load");
+    let batch = delta_batch("delta", "List([(0.0, 0.0, 9.0)])", "");
+    bench.file(
+        "delta.ron",
+        &batch.replace("(\"platform\", \"P\")", "(\"platfrm\", \"P\")"),
+    );
+    for command in ["run", "check", "solve"] {
+        let out: &[&str] = if command == "run" {
+            &["--out", "out"]
+        } else {
+            &[]
+        };
+        let arguments = [&[command, "delta.ron"][..], out].concat();
+        let outcome = bench.hyperstat(&arguments).ends_with(2);
+        outcome.says(&["delta.ron:", "unknown body `platfrm`", "`platform`"]);
+    }
+    assert!(!bench.path("out").exists());
 }

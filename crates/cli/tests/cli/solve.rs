@@ -269,6 +269,9 @@ fn every_reference_file_is_solved() {
                 path.display()
             );
         }
+        let redundant = report["redundant_constraints"].as_array().unwrap();
+        let overconstraint = report["overconstraint"].as_u64().unwrap();
+        assert_eq!(redundant.len() as u64, overconstraint, "{}", path.display());
         let found: Vec<_> = rows(&report["output"]["stiffness"]);
         let wanted: Vec<_> = rows(&expected["output_stiffness"]);
         for r in 0..6 {

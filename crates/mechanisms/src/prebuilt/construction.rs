@@ -3,8 +3,9 @@
 
 use std::fmt;
 
-use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, NodeId};
-use hyperstat_joints::{DofSet, Joint};
+use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
+use hyperstat_elements::element_frame;
+use hyperstat_joints::{Dof, DofSet, Joint};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::{Link, PoseError, check_numbering};
@@ -149,11 +150,13 @@ fn named(points: &[NamedPoint]) -> Vec<(String, Point3<f64>)> {
 }
 
 fn borrowed(points: &[(String, Point3<f64>)]) -> Vec<(&str, Point3<f64>)> {
-    let borrow = |(name, at): &'_ (String, _)| -> (&str, _) { (name.as_str(), *at) };
-    points.iter().map(borrow).collect()
+    points
+        .iter()
+        .map(|(name, at)| (name.as_str(), *at))
+        .collect()
 }
 
-/// Counts the parts.
+/// Counts the parts, and refuses those that a model would refuse.
 #[derive(Debug, Default)]
 struct Counts {
     nodes: usize,
@@ -163,8 +166,17 @@ struct Counts {
 
 impl Parts for Counts {
     fn beam(&mut self, beam: &BeamPart<'_>) -> Result<(), PoseError> {
+        for (segment, ends) in beam.points.windows(2).enumerate() {
+            element_frame(&(ends[1].1 - ends[0].1), Some(&beam.y_axis)).map_err(|source| {
+                ModelError::Segment {
+                    body: beam.name.to_string(),
+                    segment,
+                    source,
+                }
+            })?;
+            self.segments += 1;
+        }
         self.nodes += beam.points.len();
-        self.segments += beam.points.len() - 1;
         Ok(())
     }
 
@@ -214,4 +226,29 @@ impl Parts for Writer<'_> {
         self.next.joints += 1;
         Ok(())
     }
+}
+
+/// Stiffness of a joint from that of all: only the directions that the joint constrains.
+pub(super) fn constrained_stiffness(
+    joint: &dyn Joint,
+    stiffness: [Option<f64>; 6],
+) -> [Option<f64>; 6] {
+    let free = joint.free();
+    Dof::ALL.map(|d| stiffness[d.index()].filter(|_| !free.contains(d)))
+}
+
+/// Stiffness of a revolute joint from that of all, with `axis` about its axis (N·m/rad).
+pub(super) fn revolute_stiffness(
+    mut stiffness: [Option<f64>; 6],
+    axis: Option<f64>,
+) -> [Option<f64>; 6] {
+    stiffness[Dof::V.index()] = axis;
+    stiffness
+}
+
+/// Stiffness of a rigid guide, with `axis` along it (N/m).
+pub(super) fn prismatic_stiffness(axis: Option<f64>) -> [Option<f64>; 6] {
+    let mut stiffness = [None; 6];
+    stiffness[Dof::Y.index()] = axis;
+    stiffness
 }

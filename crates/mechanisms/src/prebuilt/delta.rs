@@ -7,7 +7,6 @@ mod tests;
 mod topology;
 
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape};
-use hyperstat_joints::Dof;
 use serde::Deserialize;
 
 use super::{Link, ParameterError, parameter};
@@ -107,18 +106,7 @@ impl Delta {
         parameter::positive_length("arm_length", self.arm_length)?;
         parameter::positive_length("rod_length", self.rod_length)?;
         parameter::positive_length("rod_spacing", self.rod_spacing)?;
-        for stiffness in self.joint_stiffness {
-            parameter::stiffness("joint_stiffness", stiffness)?;
-        }
-        if let Some(stiffness) = self.joint_stiffness[Dof::V.index()] {
-            return Err(ParameterError {
-                field: "joint_stiffness",
-                message: format!(
-                    "v: {stiffness} would make every joint of the delta elastic about its axis"
-                ),
-                help: Some("leave v out; `drive_stiffness` makes the drives elastic".into()),
-            });
-        }
+        parameter::joint_stiffness("joint_stiffness", &self.joint_stiffness)?;
         parameter::stiffness("drive_stiffness", self.drive_stiffness)?;
         parameter::elements("elements", self.elements)
     }

@@ -1,8 +1,8 @@
 //! Prebuilt mechanisms: a few numbers and a pose in, a [`Model`] out.
 //!
 //! A [`Prebuilt`] knows its own topology and solves its own inverse kinematics, so a pose of the
-//! output is all that a sweep has to give. Two are built in, the paper's two case studies; any
-//! other type may implement the trait.
+//! output is all that a sweep has to give. The paper's two case studies are drawn below, the other
+//! mechanisms on the pages of their types; any other type may implement the trait.
 //!
 //! # `Delta`: the over-constrained delta of the paper's §4
 //!
@@ -65,12 +65,28 @@
 //! Two beams held at their outer ends and a rigid body of 0.1 m between them; the joints B and
 //! C are elastic along x. The structure does not move: its pose takes no coordinates.
 
+mod construction;
 mod delta;
 mod error;
+mod exechon;
+mod hexapod;
+mod limbs;
+mod linear_delta;
+mod orthoglide;
 mod parameter;
+mod planar_three_rrr;
+mod rail;
 mod single_freedom;
+mod spherical_three_rrr;
+mod telescope;
+mod three_prs;
+mod three_rps;
+mod tricept;
+mod tripteron;
+mod two_links;
 #[cfg(test)]
 mod written_out;
+mod zero_torsion;
 
 use std::fmt::Debug;
 
@@ -79,7 +95,20 @@ use hyperstat_elements::{Material, Section};
 
 pub use delta::{Delta, Elbow, RodEnds};
 pub use error::{ParameterError, PoseError};
+pub use exechon::Exechon;
+pub use hexapod::Hexapod;
+pub use linear_delta::LinearDelta;
+pub use orthoglide::Orthoglide;
+pub use planar_three_rrr::PlanarThreeRrr;
+pub use rail::{CarriageSide, Rails};
 pub use single_freedom::SingleFreedom;
+pub use spherical_three_rrr::SphericalThreeRrr;
+pub use telescope::{FootJoint, TelescopicLeg};
+pub use three_prs::ThreePrs;
+pub use three_rps::ThreeRps;
+pub use tricept::Tricept;
+pub use tripteron::Tripteron;
+pub use two_links::ElbowSide;
 
 /// A mechanism that builds its own model for a pose of its output.
 pub trait Prebuilt: Debug + Send + Sync {

@@ -5,7 +5,9 @@ use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionSha
 use hyperstat_joints::{Dof, DofSet, Fixed};
 use nalgebra::{Point3, Rotation3};
 
-use super::{ParameterError, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates, parameter};
+use super::{
+    ParameterError, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates, parameter,
+};
 
 /// Length of the rigid body BC (m).
 const RIGID_LENGTH: f64 = 0.1;

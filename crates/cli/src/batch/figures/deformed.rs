@@ -55,11 +55,13 @@ fn curve(model: &Model, solution: &Solution, segment: SegmentId) -> Result<Curve
     })
 }
 
+/// Bodies that are not drawn as elastic curves: rigid ones, and flexible ones, of which only the
+/// nodes are known.
 fn rigid_bodies(model: &Model, solution: &Solution) -> Vec<RigidBody> {
     let rigid = model
         .bodies()
         .iter()
-        .filter(|body| body.kind == BodyKind::Rigid);
+        .filter(|body| body.kind != BodyKind::Elastic);
     rigid
         .map(|body| RigidBody {
             points: body

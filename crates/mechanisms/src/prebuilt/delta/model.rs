@@ -10,9 +10,7 @@ use nalgebra::Point3;
 use super::limb::Limb;
 use super::topology::{BODIES, COUNTS, JOINTS, JointRole, LIMBS, LimbJoint, Part, Point, Side};
 use super::{Delta, RodEnds};
-use crate::prebuilt::{
-    Link, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates,
-};
+use crate::prebuilt::{Link, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates};
 
 impl Prebuilt for Delta {
     fn kind(&self) -> &str {

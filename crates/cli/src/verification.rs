@@ -1,0 +1,258 @@
+//! A solution beside that of the independent solver (`solve --verify`).
+
+use hyperstat_assembly::{BodyId, Model, Solution};
+use hyperstat_reference::ReferenceSolution;
+use nalgebra::{Matrix6, Vector6};
+use serde::Serialize;
+
+/// Two solutions that agree this well are equal for every use of them.
+const AGREEMENT: f64 = 1e-8;
+/// Diagonal entries of a stiffness below this share of the largest of their kind are zero: a
+/// direction in which the output is free.
+const FREE: f64 = 1e-12;
+
+/// The largest differences between a solution and the independent solver's. Field names are those
+/// of the JSON output.
+#[derive(Debug, Serialize)]
+pub(crate) struct Verification {
+    /// Largest |ΔK_ij| / √(K_ii K_jj) of the output's stiffness; `None` where it has none.
+    stiffness: Option<f64>,
+    /// The same of its compliance; `None` where it has none.
+    compliance: Option<f64>,
+    /// Of the displacements of all nodes, without those of bodies that move freely: over the
+    /// largest, rotations times the mechanism's size.
+    displacements: f64,
+    /// Of the joint wrenches that are determined: over the largest, forces times the size.
+    joint_wrenches: f64,
+    /// What only one of the two solvers finds, or both find differently.
+    disagreements: Vec<String>,
+}
+
+impl Verification {
+    /// Compares `solution` with `reference`, both of `model`.
+    pub(crate) fn new(model: &Model, solution: &Solution, reference: &ReferenceSolution) -> Self {
+        let size = size(model);
+        let free = bodies_that_move(model);
+        let displacements = (solution.displacements.iter())
+            .zip(&reference.displacements)
+            .zip(model.nodes())
+            .filter(|(_, node)| !free.contains(&node.body))
+            .map(|(pair, _)| pair);
+        let wrenches = (solution.joint_wrenches.iter())
+            .zip(&reference.joint_wrenches)
+            .filter_map(|(found, expected)| found.as_ref().zip(expected.as_ref()));
+        let both = |found: &Option<Matrix6<f64>>, expected: &Option<Matrix6<f64>>| {
+            let pair = found.as_ref().zip(expected.as_ref());
+            pair.map(|(found, expected)| matrix_difference(found, expected))
+        };
+        Self {
+            stiffness: both(&solution.output.stiffness, &reference.stiffness),
+            compliance: both(&solution.output.compliance, &reference.compliance),
+            displacements: vector_difference(displacements, [1.0, size]),
+            joint_wrenches: vector_difference(wrenches, [size, 1.0]),
+            disagreements: disagreements(model, solution, reference),
+        }
+    }
+
+    /// Each difference with what it is of.
+    pub(crate) fn differences(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let optional = [
+            ("output stiffness", self.stiffness),
+            ("output compliance", self.compliance),
+            ("displacements", Some(self.displacements)),
+            ("joint wrenches", Some(self.joint_wrenches)),
+        ];
+        optional
+            .into_iter()
+            .filter_map(|(name, difference)| Some((name, difference?)))
+    }
+
+    /// What the two solvers do not agree on, in words.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        let far = self
+            .differences()
+            .filter(|(_, d)| *d > AGREEMENT || d.is_nan());
+        far.map(|(name, difference)| {
+            format!("the independent solver's {name} differ by {difference:.1e}")
+        })
+        .chain(self.disagreements.iter().cloned())
+        .collect()
+    }
+}
+
+fn disagreements(model: &Model, solution: &Solution, reference: &ReferenceSolution) -> Vec<String> {
+    let counts = [
+        ("mobility", solution.mobility, reference.mobility),
+        (
+            "over-constraint",
+            solution.overconstraint,
+            reference.overconstraint,
+        ),
+        ("idle motions", solution.idle.len(), reference.idle_modes),
+    ];
+    let counts = counts
+        .into_iter()
+        .filter(|(_, found, expected)| found != expected)
+        .map(|(name, found, expected)| {
+            format!("{name}: {found} here, {expected} by the independent solver")
+        });
+    let output = [
+        (
+            "output stiffness",
+            solution.output.stiffness.is_some(),
+            reference.stiffness.is_some(),
+        ),
+        (
+            "output compliance",
+            solution.output.compliance.is_some(),
+            reference.compliance.is_some(),
+        ),
+    ];
+    let output = output.map(|(name, found, expected)| (name.to_string(), found, expected));
+    let wrenches = model
+        .joints()
+        .iter()
+        .zip(&solution.joint_wrenches)
+        .zip(&reference.joint_wrenches)
+        .map(|((joint, found), expected)| {
+            let name = format!("wrench of joint `{}`", joint.name);
+            (name, found.is_some(), expected.is_some())
+        });
+    let presence = output
+        .into_iter()
+        .chain(wrenches)
+        .filter(|(_, found, expected)| found != expected)
+        .map(|(name, found, _)| match found {
+            true => format!("{name}: found here, not by the independent solver"),
+            false => format!("{name}: not found here, but by the independent solver"),
+        });
+    counts.chain(presence).collect()
+}
+
+/// Bodies that move without energy, drives locked: their displacements are not defined.
+fn bodies_that_move(model: &Model) -> Vec<BodyId> {
+    let motions = hyperstat_assembly::analyse(model).motions;
+    let twists = motions.into_iter().flat_map(|motion| motion.twists);
+    twists.map(|(body, _)| body).collect()
+}
+
+/// Diagonal of the box around all nodes (m); 1 where they coincide.
+fn size(model: &Model) -> f64 {
+    let positions = &model.geometry().positions;
+    let Some(first) = positions.first() else {
+        return 1.0;
+    };
+    let (low, high) = positions
+        .iter()
+        .fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
+    let diagonal = (high - low).norm();
+    if diagonal > 0.0 { diagonal } else { 1.0 }
+}
+
+/// Largest |Δ_ij| / √(K_ii K_jj).
+fn matrix_difference(found: &Matrix6<f64>, expected: &Matrix6<f64>) -> f64 {
+    let scale: [f64; 6] = std::array::from_fn(|k| {
+        let kind = 3 * (k / 3);
+        let largest = (kind..kind + 3).fold(0.0_f64, |largest, d| largest.max(expected[(d, d)]));
+        let own = expected[(k, k)];
+        if own > FREE * largest { own } else { largest }
+    });
+    let differences = (0..36).map(|entry| {
+        let (r, c) = (entry / 6, entry % 6);
+        ratio(
+            (found[(r, c)] - expected[(r, c)]).abs(),
+            (scale[r] * scale[c]).sqrt(),
+        )
+    });
+    largest(differences)
+}
+
+/// Largest difference over the largest expected entry, linear and angular parts times `units`.
+fn vector_difference<'a>(
+    pairs: impl Iterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)>,
+    units: [f64; 2],
+) -> f64 {
+    let (mut difference, mut scale) = (0.0, 0.0);
+    for (found, expected) in pairs {
+        let unit = |k: usize| units[k / 3];
+        difference = largest(
+            (0..6)
+                .map(|k| (found[k] - expected[k]).abs() * unit(k))
+                .chain([difference]),
+        );
+        scale = largest((0..6).map(|k| expected[k].abs() * unit(k)).chain([scale]));
+    }
+    ratio(difference, scale)
+}
+
+/// `difference / scale`, and 0 for no difference from nothing.
+fn ratio(difference: f64, scale: f64) -> f64 {
+    if difference == 0.0 {
+        0.0
+    } else {
+        difference / scale
+    }
+}
+
+/// The largest of numbers of which none is negative; NaN where one of them is.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, |largest, number| {
+        if number > largest || number.is_nan() {
+            number
+        } else {
+            largest
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_taken_on_the_scale_of_its_row_and_column() {
+        let stiff = Matrix6::from_diagonal(&Vector6::new(1e8, 1e8, 1e4, 1e5, 1e5, 10.0));
+        let mut found = stiff;
+        found[(2, 5)] += 1.0;
+        let expected = 1.0 / (1e4_f64 * 10.0).sqrt();
+        assert_eq!(matrix_difference(&found, &stiff), expected);
+        assert_eq!(matrix_difference(&stiff, &stiff), 0.0);
+    }
+
+    #[test]
+    fn rounding_in_a_free_direction_is_no_difference() {
+        let free = Matrix6::from_diagonal(&Vector6::new(1e8, 0.0, 1e4, 1e5, 1e5, 10.0));
+        let mut found = free;
+        found[(1, 1)] = 1e-8;
+        assert_eq!(matrix_difference(&found, &free), 1e-16);
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_seen() {
+        let zero = Vector6::zeros();
+        let nan = Vector6::repeat(f64::NAN);
+        let one = Vector6::repeat(1.0);
+        assert_eq!(
+            vector_difference([(&zero, &zero)].into_iter(), [1.0, 1.0]),
+            0.0
+        );
+        let pairs = [(&nan, &one), (&one, &one)];
+        assert!(vector_difference(pairs.into_iter(), [1.0, 1.0]).is_nan());
+        let verification = Verification {
+            stiffness: Some(f64::NAN),
+            compliance: None,
+            displacements: 1e-9,
+            joint_wrenches: 2e-8,
+            disagreements: vec!["mobility".into()],
+        };
+        assert_eq!(verification.warnings().len(), 3);
+    }
+
+    #[test]
+    fn rotations_count_with_the_size() {
+        let expected = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let found = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.01);
+        let difference = vector_difference([(&found, &expected)].into_iter(), [1.0, 2.0]);
+        assert_eq!(difference, 0.02);
+    }
+}

@@ -1,0 +1,274 @@
+//! Straight beams whose section changes along them: exact flexibility by integration.
+//!
+//! With no load between its nodes a beam's section wrenches are known from the wrench at node 2
+//! alone, so its flexibility is an integral of the sections' compliances along it, exact for any
+//! change of section. Each plane of bending is kept by its *elastic centre*, where a force across
+//! the beam and a moment do not act on each other's displacement: that way neither the
+//! flexibility nor its inverse cancels.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use crate::beam::{SectionStrain, node_matrix};
+use crate::error::{ElementError, check, positive};
+use crate::frame::transport;
+use crate::material::Material;
+use crate::taper::Taper;
+
+/// Positive nodes and their weights of the 16-point Gauss–Legendre rule on −1 to 1. On the
+/// intervals of a taper its error is far below rounding: the nearest pole lies an interval's
+/// length away, so that the error falls by 5.8² with each point.
+const GAUSS: [(f64, f64); 8] = [
+    (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
+    (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
+    (0.458_016_777_657_227_4, 0.169_156_519_395_002_54),
+    (0.617_876_244_402_643_7, 0.149_595_988_816_576_73),
+    (0.755_404_408_355_003, 0.124_628_971_255_533_87),
+    (0.865_631_202_387_831_7, 0.095_158_511_682_492_78),
+    (0.944_575_023_073_232_6, 0.062_253_523_938_647_89),
+    (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
+];
+
+/// A straight beam whose section changes along it, with no load between its nodes.
+///
+/// Everything is in the element frame, as for a [`Beam`](crate::Beam): x from node 1 to node 2 through the
+/// centroids of the sections, y and z their principal axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TaperedBeam {
+    material: Material,
+    taper: Taper,
+    length: f64,
+    whole: Flexibility,
+}
+
+/// Flexibility of the part of a beam from node 1 to some place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Flexibility {
+    /// ∫ dx/EA \[m/N\].
+    axial: f64,
+    /// ∫ dx/GJ \[rad/(N·m)\].
+    torsional: f64,
+    /// Bending with deflection along y and along z.
+    planes: [Plane; 2],
+}
+
+/// Bending in one plane.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Plane {
+    /// ∫ dx/EI \[rad/(N·m)\].
+    turn: f64,
+    /// Distance c of the elastic centre from node 1, ∫ x dx/EI over ∫ dx/EI \[m\].
+    centre: f64,
+    /// ∫ (x − c)² dx/EI + ∫ dx/GA_s \[m/N\]: deflection per force at the elastic centre.
+    deflection: f64,
+}
+
+impl Plane {
+    /// Both together, for parts of one beam that follow each other.
+    fn joined(self, next: Self) -> Self {
+        let turn = self.turn + next.turn;
+        if turn == 0.0 {
+            return self;
+        }
+        let share = next.turn / turn;
+        let apart = next.centre - self.centre;
+        Self {
+            turn,
+            centre: self.centre + share * apart,
+            deflection: self.deflection + next.deflection + self.turn * share * apart * apart,
+        }
+    }
+
+    /// Entries (v, v), (v, θ) and (θ, θ) of the compliance at a place `arm` beyond the centre.
+    fn compliance(&self, arm: f64) -> [f64; 3] {
+        let turned = self.turn * arm;
+        [self.deflection + turned * arm, turned, self.turn]
+    }
+
+    /// Entries (v, v), (v, θ) and (θ, θ) of the inverse of [`Plane::compliance`].
+    fn stiffness(&self, arm: f64) -> [f64; 3] {
+        let force = 1.0 / self.deflection;
+        [force, -force * arm, 1.0 / self.turn + force * arm * arm]
+    }
+}
+
+impl TaperedBeam {
+    /// A beam of this material, change of section and length \[m\].
+    ///
+    /// # Errors
+    /// [`ElementError::OutOfRange`] for a length that is not finite and positive, or so short or
+    /// long that a stiffness leaves the range of a double.
+    pub fn new(material: &Material, taper: &Taper, length: f64) -> Result<Self, ElementError> {
+        positive("length", length)?;
+        let mut beam = Self {
+            material: material.clone(),
+            taper: taper.clone(),
+            length,
+            whole: Flexibility::default(),
+        };
+        beam.whole = beam.flexibility(1.0);
+        let representable = |m: &Matrix6<f64>| {
+            m.iter().all(|v| v.is_finite()) && m.diagonal().iter().all(|v| v.is_normal())
+        };
+        let right = representable(&beam.cantilever_compliance())
+            && representable(&beam.cantilever_stiffness());
+        let wanted = "a length [m] for which the stiffness stays within double precision";
+        check(right, "length", length, wanted)?;
+        Ok(beam)
+    }
+
+    /// The same beam from node 2 to node 1, in the element frame turned by π about z: the change
+    /// of section runs the other way.
+    pub fn reversed(&self) -> Self {
+        let mut whole = self.whole;
+        for plane in &mut whole.planes {
+            plane.centre = self.length - plane.centre;
+        }
+        Self {
+            material: self.material.clone(),
+            taper: self.taper.reversed(),
+            length: self.length,
+            whole,
+        }
+    }
+
+    /// Length L \[m\].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The change of section.
+    pub fn taper(&self) -> &Taper {
+        &self.taper
+    }
+
+    /// The vector from node 1 to node 2 in the element frame \[m\].
+    pub fn span(&self) -> Vector3<f64> {
+        Vector3::new(self.length, 0.0, 0.0)
+    }
+
+    /// Compliance C_b at node 2 of the beam held at node 1, element frame: displacement of node 2
+    /// per wrench on it. \[m/N\], \[rad/N\] = \[m/(N·m)\], \[rad/(N·m)\].
+    pub fn cantilever_compliance(&self) -> Matrix6<f64> {
+        let [in_y, in_z] = self.whole.planes;
+        let entries = |plane: Plane| plane.compliance(self.length - plane.centre);
+        node_matrix(
+            self.whole.axial,
+            self.whole.torsional,
+            entries(in_y),
+            entries(in_z),
+        )
+    }
+
+    /// Stiffness at node 2 of the beam held at node 1, element frame: the inverse of
+    /// [`cantilever_compliance`](Self::cantilever_compliance).
+    pub fn cantilever_stiffness(&self) -> Matrix6<f64> {
+        let [in_y, in_z] = self.whole.planes;
+        let entries = |plane: Plane| plane.stiffness(self.length - plane.centre);
+        node_matrix(
+            1.0 / self.whole.axial,
+            1.0 / self.whole.torsional,
+            entries(in_y),
+            entries(in_z),
+        )
+    }
+
+    /// Displacement of node 2 relative to node 1's rigid motion, element frame: u2 − M u1.
+    pub fn deformation(&self, u1: &Vector6<f64>, u2: &Vector6<f64>) -> Vector6<f64> {
+        u2 - transport(&self.span()) * u1
+    }
+
+    /// Displacement at `xi` (0 at node 1, 1 at node 2) along the beam for these displacements of
+    /// its nodes, element frame: the exact elastic curve, shear deformation included.
+    pub fn displacement(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> Vector6<f64> {
+        let d = self.deformation(u1, u2);
+        let part = self.flexibility(xi);
+        let bend = |plane: usize, v: f64, theta: f64| {
+            let (whole, part) = (self.whole.planes[plane], part.planes[plane]);
+            let force = (v - (self.length - whole.centre) * theta) / whole.deflection;
+            // Bending moment at the part's elastic centre.
+            let moment = theta / whole.turn + force * (whole.centre - part.centre);
+            let turned = part.turn * moment;
+            let arm = xi * self.length - part.centre;
+            (arm * turned + part.deflection * force, turned)
+        };
+        let (y, phi_z) = bend(0, d[1], d[5]);
+        let (z, minus_phi_y) = bend(1, d[2], -d[4]);
+        let axial = d[0] * part.axial / self.whole.axial;
+        let twist = d[3] * part.torsional / self.whole.torsional;
+        let bent = Vector6::new(axial, y, z, twist, -minus_phi_y, phi_z);
+        transport(&(self.span() * xi)) * u1 + bent
+    }
+
+    /// Wrenches on the beam at nodes 1 and 2 for these displacements of its nodes, element frame.
+    pub fn end_wrenches(&self, u1: &Vector6<f64>, u2: &Vector6<f64>) -> [Vector6<f64>; 2] {
+        let second = self.cantilever_stiffness() * self.deformation(u1, u2);
+        let first = -(transport(&self.span()).transpose() * second);
+        [first, second]
+    }
+
+    /// Section wrench at `xi` from the wrench on the beam at node 2, element frame, by
+    /// equilibrium, as [`Beam::section_wrench`](crate::Beam::section_wrench).
+    pub fn section_wrench(&self, xi: f64, end_wrench: &Vector6<f64>) -> Vector6<f64> {
+        transport(&(self.span() * (1.0 - xi))).transpose() * end_wrench
+    }
+
+    /// Strains of the section at `xi` for these displacements of the nodes, element frame
+    /// (Eq. 46).
+    pub fn strain(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> SectionStrain {
+        let [_, end] = self.end_wrenches(u1, u2);
+        let wrench = self.section_wrench(xi, &end);
+        let section = self.taper.at(xi);
+        let (young, shear) = (self.material.young(), self.material.shear());
+        let sheared = |area: Option<f64>, force: f64| area.map_or(0.0, |a| force / (shear * a));
+        SectionStrain {
+            axial: wrench[0] / (young * section.area()),
+            shear_y: sheared(section.shear_y(), wrench[1]),
+            shear_z: sheared(section.shear_z(), wrench[2]),
+            twist: wrench[3] / (shear * section.torsion()),
+            curvature_y: wrench[4] / (young * section.iy()),
+            curvature_z: wrench[5] / (young * section.iz()),
+        }
+    }
+
+    /// Flexibility of the part from node 1 to `end` (0 to 1).
+    fn flexibility(&self, end: f64) -> Flexibility {
+        let mut sum = Flexibility::default();
+        self.taper.intervals(end, |first, last| {
+            let part = self.interval(first, last);
+            sum.axial += part.axial;
+            sum.torsional += part.torsional;
+            for (sum, part) in sum.planes.iter_mut().zip(part.planes) {
+                *sum = sum.joined(part);
+            }
+        });
+        sum
+    }
+
+    /// Flexibility of one interval of the taper, by Gauss's rule.
+    fn interval(&self, first: f64, last: f64) -> Flexibility {
+        let (young, shear) = (self.material.young(), self.material.shear());
+        let (middle, half) = ((first + last) / 2.0, (last - first) / 2.0);
+        let mut out = Flexibility::default();
+        for (node, weight) in GAUSS {
+            for xi in [middle - half * node, middle + half * node] {
+                let section = self.taper.at(xi);
+                let dx = weight * half * self.length;
+                out.axial += dx / (young * section.area());
+                out.torsional += dx / (shear * section.torsion());
+                let planes = [
+                    (section.iz(), section.shear_y()),
+                    (section.iy(), section.shear_z()),
+                ];
+                for (plane, (inertia, shear_area)) in out.planes.iter_mut().zip(planes) {
+                    let slice = Plane {
+                        turn: dx / (young * inertia),
+                        centre: xi * self.length,
+                        deflection: shear_area.map_or(0.0, |area| dx / (shear * area)),
+                    };
+                    *plane = plane.joined(slice);
+                }
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,38 @@
+//! The Exechon in a batch file.
+
+use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::Exechon;
+
+pub(super) const KIND: Kind = Kind {
+    name: "Exechon",
+    fields: &[
+        "base_width",
+        "base_depth",
+        "platform_width",
+        "platform_depth",
+        "housing",
+        "ram",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<Exechon, LoadError> {
+    let mechanism = Exechon {
+        base_width: fields.number("base_width")?,
+        base_depth: fields.number("base_depth")?,
+        platform_width: fields.number("platform_width")?,
+        platform_depth: fields.number("platform_depth")?,
+        housing: link(fields, "housing")?,
+        ram: link(fields, "ram")?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

@@ -1,0 +1,64 @@
+//! The hexapod in a batch file, and the cubic one.
+
+use super::legs::{foot_joint, telescopic_leg};
+use super::{Kind, drive_stiffness, elements, joint_stiffness, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::Hexapod;
+
+pub(super) const KIND: Kind = Kind {
+    name: "Hexapod",
+    fields: &[
+        "base_radius",
+        "base_angle",
+        "platform_radius",
+        "platform_angle",
+        "base_joints",
+        "leg",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+pub(super) const CUBIC: Kind = Kind {
+    name: "CubicHexapod",
+    fields: &[
+        "edge",
+        "leg",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read_cubic(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<Hexapod, LoadError> {
+    let mechanism = Hexapod {
+        base_radius: fields.number("base_radius")?,
+        base_angle: fields.number("base_angle")?,
+        platform_radius: fields.number("platform_radius")?,
+        platform_angle: fields.number("platform_angle")?,
+        base_joints: foot_joint(fields, "base_joints")?,
+        leg: telescopic_leg(fields)?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}
+
+fn read_cubic(fields: &Fields<'_>) -> Result<Hexapod, LoadError> {
+    let edge = fields.number("edge")?;
+    let cubic = Hexapod::cubic(edge, telescopic_leg(fields)?);
+    let mechanism = Hexapod {
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+        ..cubic.map_err(|error| refused(fields, &error))?
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

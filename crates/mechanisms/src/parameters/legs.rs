@@ -1,0 +1,50 @@
+//! Parts that several of the prebuilt mechanisms of a batch file have: telescopic legs, rails,
+//! the joints of legs and rods.
+
+use super::{link, optional, pair, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::fragment::Fragment;
+use crate::prebuilt::{CarriageSide, FootJoint, Rails, TelescopicLeg};
+
+/// The field `leg`.
+pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadError> {
+    let known = ["cylinder", "piston", "cylinder_length", "lengths"];
+    let fields = Fields::read(fields.required("leg")?, "`leg`", &known, &[])?;
+    let leg = TelescopicLeg {
+        cylinder: link(&fields, "cylinder")?,
+        piston: link(&fields, "piston")?,
+        cylinder_length: fields.number("cylinder_length")?,
+        lengths: pair(
+            &fields,
+            "lengths",
+            "two lengths, `(shortest, longest)`",
+            Fragment::number,
+        )?,
+    };
+    leg.check().map_err(|error| refused(&fields, &error))?;
+    Ok(leg)
+}
+
+/// The field `rails`.
+pub(super) fn rails(fields: &Fields<'_>) -> Result<Rails, LoadError> {
+    let known = ["radius", "tilt", "travel", "carriage"];
+    let fields = Fields::read(fields.required("rails")?, "`rails`", &known, &[])?;
+    let rails = Rails {
+        radius: fields.number("radius")?,
+        tilt: fields.optional_number("tilt")?.unwrap_or_default(),
+        travel: fields.number("travel")?,
+        carriage: optional(&fields, "carriage", |value| {
+            value.parse::<CarriageSide>("`Near` or `Far`")
+        })?,
+    };
+    rails.check().map_err(|error| refused(&fields, &error))?;
+    Ok(rails)
+}
+
+/// The kind of the joints by which legs or rods stand.
+pub(super) fn foot_joint(fields: &Fields<'_>, name: &str) -> Result<FootJoint, LoadError> {
+    optional(fields, name, |value| {
+        value.parse("`Universal` or `Spherical`")
+    })
+}

@@ -1,0 +1,39 @@
+//! The linear delta in a batch file.
+
+use super::legs::{foot_joint, rails};
+use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::LinearDelta;
+
+pub(super) const KIND: Kind = Kind {
+    name: "LinearDelta",
+    fields: &[
+        "rails",
+        "platform_radius",
+        "rod_length",
+        "rod_spacing",
+        "carriage_joints",
+        "rod",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<LinearDelta, LoadError> {
+    let mechanism = LinearDelta {
+        rails: rails(fields)?,
+        platform_radius: fields.number("platform_radius")?,
+        rod_length: fields.number("rod_length")?,
+        rod_spacing: fields.number("rod_spacing")?,
+        carriage_joints: foot_joint(fields, "carriage_joints")?,
+        rod: link(fields, "rod")?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

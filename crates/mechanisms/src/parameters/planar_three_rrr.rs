@@ -1,0 +1,40 @@
+//! The planar 3-RRR in a batch file.
+
+use super::{Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::PlanarThreeRrr;
+
+pub(super) const KIND: Kind = Kind {
+    name: "PlanarThreeRrr",
+    fields: &[
+        "base_radius",
+        "platform_radius",
+        "proximal_length",
+        "distal_length",
+        "elbow",
+        "proximal",
+        "distal",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<PlanarThreeRrr, LoadError> {
+    let mechanism = PlanarThreeRrr {
+        base_radius: fields.number("base_radius")?,
+        platform_radius: fields.number("platform_radius")?,
+        proximal_length: fields.number("proximal_length")?,
+        distal_length: fields.number("distal_length")?,
+        elbow: elbow_side(fields)?,
+        proximal: link(fields, "proximal")?,
+        distal: link(fields, "distal")?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

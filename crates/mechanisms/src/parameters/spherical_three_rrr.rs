@@ -1,0 +1,42 @@
+//! The spherical 3-RRR in a batch file.
+
+use super::{Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::SphericalThreeRrr;
+
+pub(super) const KIND: Kind = Kind {
+    name: "SphericalThreeRrr",
+    fields: &[
+        "radius",
+        "base_angle",
+        "platform_angle",
+        "proximal_angle",
+        "distal_angle",
+        "elbow",
+        "proximal",
+        "distal",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<SphericalThreeRrr, LoadError> {
+    let mechanism = SphericalThreeRrr {
+        radius: fields.number("radius")?,
+        base_angle: fields.number("base_angle")?,
+        platform_angle: fields.number("platform_angle")?,
+        proximal_angle: fields.number("proximal_angle")?,
+        distal_angle: fields.number("distal_angle")?,
+        elbow: elbow_side(fields)?,
+        proximal: link(fields, "proximal")?,
+        distal: link(fields, "distal")?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

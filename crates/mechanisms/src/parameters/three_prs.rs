@@ -1,0 +1,35 @@
+//! The 3-PRS in a batch file.
+
+use super::legs::rails;
+use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::ThreePrs;
+
+pub(super) const KIND: Kind = Kind {
+    name: "ThreePrs",
+    fields: &[
+        "rails",
+        "platform_radius",
+        "rod_length",
+        "rod",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<ThreePrs, LoadError> {
+    let mechanism = ThreePrs {
+        rails: rails(fields)?,
+        platform_radius: fields.number("platform_radius")?,
+        rod_length: fields.number("rod_length")?,
+        rod: link(fields, "rod")?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

@@ -1,0 +1,33 @@
+//! The 3-RPS in a batch file.
+
+use super::legs::telescopic_leg;
+use super::{Kind, drive_stiffness, elements, joint_stiffness, refused};
+use crate::error::LoadError;
+use crate::fields::Fields;
+use crate::prebuilt::ThreeRps;
+
+pub(super) const KIND: Kind = Kind {
+    name: "ThreeRps",
+    fields: &[
+        "base_radius",
+        "platform_radius",
+        "leg",
+        "joint_stiffness",
+        "drive_stiffness",
+        "elements",
+    ],
+    read: |fields| Ok(Box::new(read(fields)?)),
+};
+
+fn read(fields: &Fields<'_>) -> Result<ThreeRps, LoadError> {
+    let mechanism = ThreeRps {
+        base_radius: fields.number("base_radius")?,
+        platform_radius: fields.number("platform_radius")?,
+        leg: telescopic_leg(fields)?,
+        joint_stiffness: joint_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields)?,
+        elements: elements(fields)?,
+    };
+    mechanism.check().map_err(|error| refused(fields, &error))?;
+    Ok(mechanism)
+}

@@ -1,0 +1,268 @@
+//! The Orthoglide (3-PRPaR): parameters, model and poses.
+
+use hyperstat_assembly::{Geometry, Model};
+use hyperstat_joints::{Joint, Prismatic, Revolute, frame_from_axis};
+use nalgebra::{Point3, Vector3};
+
+use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::limbs::{LIMBS, per_limb};
+use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+
+/// How far, relative to the rods' length, a pose may miss the edge of a limb's reach and still
+/// count as on it (rods normal to the rail). Loops then close to this, not to rounding.
+const EDGE: f64 = 1e-12;
+
+/// The Orthoglide (3-PRPaR): a platform that keeps its orientation, on three parallelograms whose
+/// drives slide along x, y and z.
+///
+/// ```text
+///   y                        Limb 1 seen against z, with the platform on the rail's line:
+///   │     Ab ═══ rodb ═══ Cb
+///   │     ║               ║      D, the drive, slides along x and is locked; A and C
+///   │ ─►D A               C ─ P  are revolute joints along y, Aa, Ab, Ca and Cb along
+///   │     ║               ║      the normal of the parallelogram.
+///   │     Aa ═══ roda ═══ Ca     Aa–Ab is rod_spacing, Aa–Ca rod_length, C–P
+///   │                            platform_radius.
+///   └────────────────── x
+/// ```
+///
+/// Limb i belongs to axis i of x, y, z: its rail is that axis, and its revolute joints A and C
+/// are along the next one in cyclic order (y for limb 1, z for limb 2, x for limb 3). The rods
+/// run from the carriage towards the axis' positive side.
+///
+/// A pose is the position x, y, z (m) of the platform's centre P, which is the output. The
+/// orientation is constant. With P at the origin the rods are along the rails, every drive moves
+/// its own coordinate alone, and all limbs are alike.
+///
+/// | body | runs through | local y along |
+/// |---|---|---|
+/// | `shoulder` | Aa, A, Ab | the parallelogram's axes |
+/// | `wrist` | Ca, C, Cb | the parallelogram's axes |
+/// | `roda` | Aa, Ca | the parallelogram's axes |
+/// | `rodb` | Ab, Cb | the parallelogram's axes |
+///
+/// | joint | between | axis (y of its frame) | x of its frame |
+/// |---|---|---|---|
+/// | `D`, prismatic | ground, `carriage` | the rail | the axis of A |
+/// | `A` | `carriage`, `shoulder` | the next axis | along the rods, made normal to it |
+/// | `Aa`, `Ca` | `shoulder` or `wrist`, `roda` | the parallelogram's | along the rods |
+/// | `Ab`, `Cb` | `shoulder` or `wrist`, `rodb` | the parallelogram's | along the rods |
+/// | `C` | `wrist`, `platform` | the next axis | along the rods, made normal to it |
+///
+/// The rigid `carriage` holds A alone (D sits there too), the rigid `platform` P, C1, C2 and C3;
+/// a is the side against the next axis, b the other. Names carry the limb's number.
+///
+/// Sixteen bodies and 21 joints give −9 by Grübler's count: the mobility is 3 and the degree of
+/// over-constraint 12, three in each parallelogram and three between the limbs.
+///
+/// P. Wenger and D. Chablat, *Kinematic analysis of a new parallel machine tool: the Orthoglide*,
+/// Advances in Robot Kinematics (2000) 305–314; D. Chablat and P. Wenger, *Architecture
+/// optimization of a 3-DOF translational parallel mechanism for machining applications, the
+/// Orthoglide*, IEEE Transactions on Robotics and Automation 19 (2003) 403–410.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orthoglide {
+    /// Distance of the wrists C from the platform's centre P, against the limb's axis (m).
+    pub platform_radius: f64,
+    /// Length of the rods (m).
+    pub rod_length: f64,
+    /// Distance between the two rods of a limb (m).
+    pub rod_spacing: f64,
+    /// Cross links, Aa to Ab and Ca to Cb.
+    pub bar: Link,
+    /// Rods, Aa to Ca and Ab to Cb.
+    pub rod: Link,
+    /// Stiffness of every revolute joint in its directions x y z (N/m), u w (N·m/rad): `None` is
+    /// rigid, zero frees a direction. v, the axis, must be `None`.
+    pub joint_stiffness: [Option<f64>; 6],
+    /// Stiffness of the drives along their rails (N/m); `None` or zero is locked rigidly. The
+    /// rails are rigid in all other directions.
+    pub drive_stiffness: Option<f64>,
+    /// Number of beam elements a segment is divided into.
+    pub elements: usize,
+}
+
+impl Orthoglide {
+    /// Looks whether every parameter is in its physical range.
+    ///
+    /// # Errors
+    /// The first that is not: a length that is not above zero, a negative radius or stiffness,
+    /// a number that is not finite, a stiffness about the joints' axes, no element.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        parameter::radius("platform_radius", self.platform_radius)?;
+        parameter::positive_length("rod_length", self.rod_length)?;
+        parameter::positive_length("rod_spacing", self.rod_spacing)?;
+        parameter::joint_stiffness("joint_stiffness", &self.joint_stiffness)?;
+        parameter::stiffness("drive_stiffness", self.drive_stiffness)?;
+        parameter::elements("elements", self.elements)
+    }
+
+    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+        self.check()?;
+        let centre = Vector3::from(coordinates::<3>(self.kind(), pose)?);
+        Ok(Configuration {
+            centre: Point3::from(centre),
+            limbs: per_limb(|index| self.limb(index, &centre))?,
+        })
+    }
+
+    fn limb(&self, index: usize, centre: &Vector3<f64>) -> Result<Limb, PoseError> {
+        let [rail, axis] = [index, (index + 1) % LIMBS].map(|k| Vector3::ith(k, 1.0));
+        let number = index + 1;
+        let c = centre - rail * self.platform_radius;
+        let lateral = c - rail * c.dot(&rail);
+        let distance = lateral.norm();
+        let length = self.rod_length;
+        let edge = EDGE * length;
+        if distance > length + edge {
+            return Err(PoseError::Unreachable {
+                what: format!(
+                    "limb {number}: point C{number} lies {distance:.6} m beside the rail, too \
+                     far for rods of {length:.6} m"
+                ),
+            });
+        }
+        let advance = ((length - distance) * (length + distance)).max(0.0).sqrt();
+        let rod = lateral + rail * advance;
+        let across = rod - axis * rod.dot(&axis);
+        if across.norm() <= edge {
+            return Err(PoseError::Singular {
+                what: format!(
+                    "limb {number}: the rods lie along the axes of A{number} and C{number}, so \
+                     the parallelogram has no plane"
+                ),
+            });
+        }
+        let a = c - rod;
+        let half = axis * (0.5 * self.rod_spacing);
+        Ok(Limb {
+            shoulder: [a - half, a, a + half].map(Point3::from),
+            wrist: [c - half, c, c + half].map(Point3::from),
+            rail,
+            axis,
+            parallelogram_axis: across.cross(&axis).normalize(),
+        })
+    }
+
+    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
+        for (index, limb) in configuration.limbs.iter().enumerate() {
+            let name = |word| Name::limb(word, index);
+            let (shoulder, wrist) = (limb.shoulder(index), limb.wrist(index));
+            let mut beam = |word, points: &[NamedPoint], link| {
+                parts.beam(&BeamPart {
+                    name: name(word),
+                    points,
+                    link,
+                    y_axis: limb.parallelogram_axis,
+                    elements: self.elements,
+                })
+            };
+            beam("shoulder", &shoulder, &self.bar)?;
+            beam("wrist", &wrist, &self.bar)?;
+            beam("roda", &[shoulder[0], wrist[0]], &self.rod)?;
+            beam("rodb", &[shoulder[2], wrist[2]], &self.rod)?;
+            parts.rigid(name("carriage"), &[shoulder[1]])?;
+        }
+        let wrist = |index: usize| configuration.limbs[index].wrist(index)[1];
+        let centre = (Name::alone("P"), configuration.centre);
+        parts.rigid(PLATFORM, &[centre, wrist(0), wrist(1), wrist(2)])?;
+        for (index, limb) in configuration.limbs.iter().enumerate() {
+            self.joints(index, limb, parts)?;
+        }
+        Ok(())
+    }
+
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut dyn Parts) -> Result<(), PoseError> {
+        let name = |word| Name::limb(word, index);
+        let body = |word| Some(name(word));
+        let rod = limb.wrist[1] - limb.shoulder[1];
+        let turn = frame_from_axis(Some(&limb.axis), Some(&rod))?;
+        let rod_end = frame_from_axis(Some(&limb.parallelogram_axis), Some(&rod))?;
+        parts.joint(&JointPart {
+            name: name("D"),
+            at: name("A"),
+            between: [None, body("carriage")],
+            joint: &Prismatic,
+            frame: frame_from_axis(Some(&limb.rail), Some(&limb.axis))?,
+            locked: true,
+            stiffness: construction::prismatic_stiffness(self.drive_stiffness),
+        })?;
+        let joint: &dyn Joint = &Revolute;
+        for (word, between, frame) in [
+            ("A", [body("carriage"), body("shoulder")], turn),
+            ("Aa", [body("shoulder"), body("roda")], rod_end),
+            ("Ca", [body("wrist"), body("roda")], rod_end),
+            ("Ab", [body("shoulder"), body("rodb")], rod_end),
+            ("Cb", [body("wrist"), body("rodb")], rod_end),
+            ("C", [body("wrist"), Some(PLATFORM)], turn),
+        ] {
+            parts.joint(&JointPart {
+                name: name(word),
+                at: name(word),
+                between,
+                joint,
+                frame,
+                locked: false,
+                stiffness: self.joint_stiffness,
+            })?;
+        }
+        Ok(())
+    }
+}
+
+const PLATFORM: Name = Name::alone("platform");
+
+struct Configuration {
+    centre: Point3<f64>,
+    limbs: [Limb; LIMBS],
+}
+
+struct Limb {
+    /// Aa, A and Ab.
+    shoulder: [Point3<f64>; 3],
+    /// Ca, C and Cb.
+    wrist: [Point3<f64>; 3],
+    /// Along the rail.
+    rail: Vector3<f64>,
+    /// Along the joints A and C.
+    axis: Vector3<f64>,
+    /// Along the joints at the ends of the rods.
+    parallelogram_axis: Vector3<f64>,
+}
+
+impl Limb {
+    fn shoulder(&self, index: usize) -> [NamedPoint; 3] {
+        let name = |word| Name::limb(word, index);
+        let [a, b, c] = self.shoulder;
+        [(name("Aa"), a), (name("A"), b), (name("Ab"), c)]
+    }
+
+    fn wrist(&self, index: usize) -> [NamedPoint; 3] {
+        let name = |word| Name::limb(word, index);
+        let [a, b, c] = self.wrist;
+        [(name("Ca"), a), (name("C"), b), (name("Cb"), c)]
+    }
+}
+
+impl Prebuilt for Orthoglide {
+    fn kind(&self) -> &str {
+        "Orthoglide"
+    }
+
+    fn coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+    }
+
+    fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::model("orthoglide", PLATFORM, |parts| {
+            self.walk(&configuration, parts)
+        })
+    }
+
+    fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
+        let [x, y, z] = configuration.centre.into();
+        Ok([x, y, z, 0.0, 0.0, 0.0])
+    }
+}

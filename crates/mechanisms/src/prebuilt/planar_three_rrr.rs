@@ -1,0 +1,217 @@
+//! The planar 3-RRR: parameters, model and poses.
+
+use hyperstat_assembly::{Geometry, Model};
+use hyperstat_joints::{Revolute, frame_from_axis};
+use nalgebra::{Point3, Vector3};
+
+use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::limbs::{LIMBS, outward, per_limb};
+use super::two_links::TwoLinks;
+use super::{
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
+};
+
+/// The planar 3-RRR: a platform that moves in the plane z = 0 on three limbs of two links each.
+///
+/// ```text
+///   y        A1 ▒              All joints are revolute, their axes along z. A1, A2 and A3
+///   │       ╱                  are the drives, which are locked.
+///   │   B1 ●  proximal
+///   │       ╲  distal          O–A is base_radius, P–C platform_radius, A–B
+///   │        ● C1              proximal_length, B–C distal_length.
+///   │       ╱ ╲
+///   │      ╱ P ╲               Limb i is limb 1 turned by 120° (i − 1) about z; A1 stands
+///   │  C2 ●─────● C3           over +y. At home (rz = 0) so does C1, seen from P.
+///   │
+///   O ───────── x
+/// ```
+///
+/// A pose is x, y (m) and rz (rad): the platform's centre P, which is the output, and its turn
+/// about z. The other coordinates are zero.
+///
+/// | body | runs through | local y along |
+/// |---|---|---|
+/// | `proximal` | A, B | z |
+/// | `distal` | B, C | z |
+///
+/// The rigid `platform` holds P, C1, C2 and C3. Joints are named as their points: `A` between the
+/// ground and `proximal`, `B` between `proximal` and `distal`, `C` between `distal` and
+/// `platform`; y of their frames is z, x along the link that ends there (at A, that begins).
+/// Names carry the limb's number.
+///
+/// Seven bodies and nine revolute joints give −3 by Grübler's count in space: every limb keeps
+/// the platform in the plane by itself, so the mobility is 3 and the degree of over-constraint 6.
+///
+/// C. Gosselin and J. Angeles, *The optimum kinematic design of a planar three-degree-of-freedom
+/// parallel manipulator*, Journal of Mechanisms, Transmissions, and Automation in Design 110
+/// (1988) 35–41.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanarThreeRrr {
+    /// Distance of the drives A from z (m).
+    pub base_radius: f64,
+    /// Distance of the joints C from the platform's centre P (m).
+    pub platform_radius: f64,
+    /// Length of the proximal links, A to B (m).
+    pub proximal_length: f64,
+    /// Length of the distal links, B to C (m).
+    pub distal_length: f64,
+    /// On which side of the line from A to C the elbows B stand.
+    pub elbow: ElbowSide,
+    /// Proximal links, A to B.
+    pub proximal: Link,
+    /// Distal links, B to C.
+    pub distal: Link,
+    /// Stiffness of every joint in its directions x y z (N/m), u w (N·m/rad): `None` is rigid,
+    /// zero frees a direction. v, the axis, must be `None`.
+    pub joint_stiffness: [Option<f64>; 6],
+    /// Stiffness of the drives about their axes (N·m/rad); `None` or zero is locked rigidly.
+    pub drive_stiffness: Option<f64>,
+    /// Number of beam elements a link is divided into.
+    pub elements: usize,
+}
+
+impl PlanarThreeRrr {
+    /// Looks whether every parameter is in its physical range.
+    ///
+    /// # Errors
+    /// The first that is not: a length that is not above zero, a negative radius or stiffness,
+    /// a number that is not finite, a stiffness about the joints' axes, no element.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        parameter::radius("base_radius", self.base_radius)?;
+        parameter::radius("platform_radius", self.platform_radius)?;
+        parameter::positive_length("proximal_length", self.proximal_length)?;
+        parameter::positive_length("distal_length", self.distal_length)?;
+        parameter::joint_stiffness("joint_stiffness", &self.joint_stiffness)?;
+        parameter::stiffness("drive_stiffness", self.drive_stiffness)?;
+        parameter::elements("elements", self.elements)
+    }
+
+    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+        self.check()?;
+        let [x, y, turn] = coordinates::<3>(self.kind(), pose)?;
+        let centre = Point3::new(x, y, 0.0);
+        let limbs = per_limb(|index| {
+            let a = Point3::from(outward(index, 0.0) * self.base_radius);
+            let c = centre + outward(index, turn) * self.platform_radius;
+            let links = TwoLinks {
+                limb: index + 1,
+                proximal: self.proximal_length,
+                distal: self.distal_length,
+                side: self.elbow,
+            };
+            let [x, y] = links.elbow([c.x - a.x, c.y - a.y])?;
+            Ok(Limb {
+                a,
+                b: a + Vector3::new(x, y, 0.0),
+                c,
+            })
+        })?;
+        Ok(Configuration {
+            pose: [x, y, 0.0, 0.0, 0.0, turn],
+            limbs,
+        })
+    }
+
+    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
+        let z = Vector3::z();
+        for (index, limb) in configuration.limbs.iter().enumerate() {
+            let name = |word| Name::limb(word, index);
+            let [a, b, c] = limb.points(index);
+            for (word, points, link) in [
+                ("proximal", [a, b], &self.proximal),
+                ("distal", [b, c], &self.distal),
+            ] {
+                parts.beam(&BeamPart {
+                    name: name(word),
+                    points: &points,
+                    link,
+                    y_axis: z,
+                    elements: self.elements,
+                })?;
+            }
+        }
+        let [first, second, third] = &configuration.limbs;
+        let centre = Point3::new(configuration.pose[0], configuration.pose[1], 0.0);
+        parts.rigid(
+            PLATFORM,
+            &[
+                (Name::alone("P"), centre),
+                first.points(0)[2],
+                second.points(1)[2],
+                third.points(2)[2],
+            ],
+        )?;
+        for (index, limb) in configuration.limbs.iter().enumerate() {
+            let [proximal, distal] = ["proximal", "distal"].map(|word| Name::limb(word, index));
+            let along = [limb.b - limb.a, limb.b - limb.a, limb.c - limb.b];
+            let between = [
+                [None, Some(proximal)],
+                [Some(proximal), Some(distal)],
+                [Some(distal), Some(PLATFORM)],
+            ];
+            for (k, (at, _)) in limb.points(index).into_iter().enumerate() {
+                let drive = k == 0;
+                parts.joint(&JointPart {
+                    name: at,
+                    at,
+                    between: between[k],
+                    joint: &Revolute,
+                    frame: frame_from_axis(Some(&z), Some(&along[k]))?,
+                    locked: drive,
+                    stiffness: construction::revolute_stiffness(
+                        self.joint_stiffness,
+                        if drive { self.drive_stiffness } else { None },
+                    ),
+                })?;
+            }
+        }
+        Ok(())
+    }
+}
+
+const PLATFORM: Name = Name::alone("platform");
+
+struct Configuration {
+    pose: [f64; 6],
+    limbs: [Limb; LIMBS],
+}
+
+struct Limb {
+    a: Point3<f64>,
+    b: Point3<f64>,
+    c: Point3<f64>,
+}
+
+impl Limb {
+    fn points(&self, index: usize) -> [NamedPoint; 3] {
+        let name = |word| Name::limb(word, index);
+        [
+            (name("A"), self.a),
+            (name("B"), self.b),
+            (name("C"), self.c),
+        ]
+    }
+}
+
+impl Prebuilt for PlanarThreeRrr {
+    fn kind(&self) -> &str {
+        "PlanarThreeRrr"
+    }
+
+    fn coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Rz]
+    }
+
+    fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::model("planar 3-RRR", PLATFORM, |parts| {
+            self.walk(&configuration, parts)
+        })
+    }
+
+    fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
+        Ok(configuration.pose)
+    }
+}

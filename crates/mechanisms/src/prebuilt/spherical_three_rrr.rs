@@ -1,0 +1,276 @@
+//! The spherical 3-RRR: parameters, model and poses.
+
+use std::f64::consts::{PI, TAU};
+
+use hyperstat_assembly::{Geometry, Model};
+use hyperstat_joints::{Revolute, frame_from_axis};
+use nalgebra::{Point3, Rotation3, Vector3};
+
+use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::limbs::{LIMBS, outward, per_limb};
+use super::{
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
+};
+
+/// How far (rad) a pose may miss the edge of a limb's reach and still count as on it.
+const EDGE: f64 = 1e-12;
+
+/// Chords that the arc of a link is divided into.
+const CHORDS: usize = 4;
+
+/// The spherical 3-RRR: a platform that turns about a fixed point O, in which the axes of all
+/// joints meet.
+///
+/// ```text
+///             z
+///       axis  │   C ╲     axis of C,      All joints are revolute. A1, A2 and A3 are
+///             │  ╱   ╲    platform_angle  the drives, which are locked.
+///    platform │ ╱     ╲   from z at home
+///             │╱       │ distal,          A, B and C are at `radius` from O, and so
+///    ─────────O        B  distal_angle    are the links, arcs of great circles that
+///             │╲       │                  subtend proximal_angle and distal_angle.
+///             │ ╲     ╱ proximal,
+///             │  ╲   ╱  proximal_angle    Limb i is limb 1 turned by 120° (i − 1)
+///             │   A ╱   axis of A,        about z. At home A1 and C1 stand over +y.
+///                       base_angle from −z
+/// ```
+///
+/// A pose is the rotation vector rx, ry, rz (rad) of the platform from home. The output is O, as
+/// the platform's point P; its position is zero. The agile eye has all links of 90° and base and
+/// platform angles of acos(1/√3), with which the axes of A and those of C are each normal to
+/// each other.
+///
+/// | body | runs through | local y along |
+/// |---|---|---|
+/// | `proximal` | A, Aa, Ab, Ac, B | the normal of its arc, A × B |
+/// | `distal` | B, Ba, Bb, Bc, C | the normal of its arc, B × C |
+///
+/// A link is the polygon of four equal chords of its arc. The rigid `platform` holds P, C1, C2
+/// and C3. Joints are named as their points: `A` between the ground and `proximal`, `B` between
+/// `proximal` and `distal`, `C` between `distal` and `platform`; y of their frames points away
+/// from O, x along the arc: at A towards B, at B towards C, at C towards B. Names carry the
+/// limb's number.
+///
+/// Seven bodies and nine revolute joints give −3 by Grübler's count: every limb holds O by itself,
+/// so the mobility is 3 and the degree of over-constraint 6.
+///
+/// C. Gosselin and J. Angeles, *The optimum kinematic design of a spherical three-degree-of-freedom
+/// parallel manipulator*, Journal of Mechanisms, Transmissions, and Automation in Design 111
+/// (1989) 202–207; C. M. Gosselin and J.-F. Hamel, *The agile eye: a high-performance
+/// three-degree-of-freedom camera-orienting device*, IEEE International Conference on Robotics and
+/// Automation (1994) 781–786.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SphericalThreeRrr {
+    /// Distance of all joints from O (m).
+    pub radius: f64,
+    /// Angle of the axes of A from −z (rad).
+    pub base_angle: f64,
+    /// Angle of the axes of C from z at home (rad).
+    pub platform_angle: f64,
+    /// Angle between the axes of A and B (rad).
+    pub proximal_angle: f64,
+    /// Angle between the axes of B and C (rad).
+    pub distal_angle: f64,
+    /// On which side of the arc from A to C the elbows B stand.
+    pub elbow: ElbowSide,
+    /// Proximal links, A to B.
+    pub proximal: Link,
+    /// Distal links, B to C.
+    pub distal: Link,
+    /// Stiffness of every joint in its directions x y z (N/m), u w (N·m/rad): `None` is rigid,
+    /// zero frees a direction. v, the axis, must be `None`.
+    pub joint_stiffness: [Option<f64>; 6],
+    /// Stiffness of the drives about their axes (N·m/rad); `None` or zero is locked rigidly.
+    pub drive_stiffness: Option<f64>,
+    /// Number of beam elements a chord is divided into.
+    pub elements: usize,
+}
+
+impl SphericalThreeRrr {
+    /// Looks whether every parameter is in its physical range.
+    ///
+    /// # Errors
+    /// The first that is not: a radius that is not above zero, an angle that is not between 0 and
+    /// π, a negative stiffness, a number that is not finite, a stiffness about the joints' axes,
+    /// no element.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        parameter::positive_length("radius", self.radius)?;
+        parameter::angle("base_angle", self.base_angle)?;
+        parameter::angle("platform_angle", self.platform_angle)?;
+        parameter::angle("proximal_angle", self.proximal_angle)?;
+        parameter::angle("distal_angle", self.distal_angle)?;
+        parameter::joint_stiffness("joint_stiffness", &self.joint_stiffness)?;
+        parameter::stiffness("drive_stiffness", self.drive_stiffness)?;
+        parameter::elements("elements", self.elements)
+    }
+
+    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+        self.check()?;
+        let turn = coordinates::<3>(self.kind(), pose)?;
+        let rotation = Rotation3::from_scaled_axis(Vector3::from(turn));
+        let cone =
+            |index, angle: f64| outward(index, 0.0) * angle.sin() + Vector3::z() * angle.cos();
+        let limbs = per_limb(|index| {
+            let mut a = cone(index, self.base_angle);
+            a.z = -a.z;
+            let c = rotation * cone(index, self.platform_angle);
+            Ok([a, self.elbow_axis(index + 1, &a, &c)?, c])
+        })?;
+        Ok(Configuration { turn, limbs })
+    }
+
+    /// The axis of B, at `proximal_angle` from that of A and `distal_angle` from that of C.
+    fn elbow_axis(
+        &self,
+        limb: usize,
+        a: &Vector3<f64>,
+        c: &Vector3<f64>,
+    ) -> Result<Vector3<f64>, PoseError> {
+        let (proximal, distal) = (self.proximal_angle, self.distal_angle);
+        let normal = a.cross(c);
+        let (sin, cos) = (normal.norm(), a.dot(c));
+        let distance = sin.atan2(cos);
+        let half = 0.5 * (proximal + distal + distance);
+        let unreachable = |how: &str, limit: f64| PoseError::Unreachable {
+            what: format!(
+                "limb {limb}: the axis of C{limb} is too {how} that of A{limb}: {distance:.6} rad, \
+                 and the two links end at {limit:.6} rad"
+            ),
+        };
+        if half - distance < -EDGE {
+            return Err(unreachable("far from", proximal + distal));
+        }
+        if half - proximal < -EDGE || half - distal < -EDGE {
+            return Err(unreachable("close to", (proximal - distal).abs()));
+        }
+        if half > PI + EDGE {
+            return Err(unreachable("far from", TAU - proximal - distal));
+        }
+        if sin <= EDGE {
+            return Err(PoseError::Singular {
+                what: format!(
+                    "limb {limb}: the axes of A{limb} and C{limb} are in one line, so the links \
+                     may have any angle"
+                ),
+            });
+        }
+
+        // In the axes along A, along the arc from A to C, and across it: the half-angle formula for the
+        // height of the spherical triangle keeps its digits where the links are nearly in line.
+        let along = (c - a * cos) / sin;
+        let forward = (distal.cos() - cos * proximal.cos()) / sin;
+        let square =
+            half.sin() * (half - proximal).sin() * (half - distal).sin() * (half - distance).sin();
+        let height = self.elbow.sign() * 2.0 * square.max(0.0).sqrt() / sin;
+        let axis = a * proximal.cos() + along * forward + normal * (height / sin);
+        Ok(axis.normalize())
+    }
+
+    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
+        for (index, [a, b, c]) in configuration.limbs.iter().enumerate() {
+            for (word, words, [from, to], link) in [
+                (
+                    "proximal",
+                    ["A", "Aa", "Ab", "Ac", "B"],
+                    [a, b],
+                    &self.proximal,
+                ),
+                ("distal", ["B", "Ba", "Bb", "Bc", "C"], [b, c], &self.distal),
+            ] {
+                let arc = arc(from, to).map(|direction| self.at(&direction));
+                let mut points = [(PLATFORM, Point3::origin()); CHORDS + 1];
+                for ((point, word), at) in points.iter_mut().zip(words).zip(arc) {
+                    *point = (Name::limb(word, index), at);
+                }
+                parts.beam(&BeamPart {
+                    name: Name::limb(word, index),
+                    points: &points,
+                    link,
+                    y_axis: from.cross(to),
+                    elements: self.elements,
+                })?;
+            }
+        }
+        let wrist = |index: usize| -> NamedPoint {
+            let [_, _, c] = &configuration.limbs[index];
+            (Name::limb("C", index), self.at(c))
+        };
+        let centre = (Name::alone("P"), Point3::origin());
+        parts.rigid(PLATFORM, &[centre, wrist(0), wrist(1), wrist(2)])?;
+        for (index, [a, b, c]) in configuration.limbs.iter().enumerate() {
+            let name = |word| Name::limb(word, index);
+            let [proximal, distal] = ["proximal", "distal"].map(name);
+            for (word, between, axis, x_axis) in [
+                ("A", [None, Some(proximal)], a, b),
+                ("B", [Some(proximal), Some(distal)], b, c),
+                ("C", [Some(distal), Some(PLATFORM)], c, b),
+            ] {
+                let drive = word == "A";
+                parts.joint(&JointPart {
+                    name: name(word),
+                    at: name(word),
+                    between,
+                    joint: &Revolute,
+                    frame: frame_from_axis(Some(axis), Some(x_axis))?,
+                    locked: drive,
+                    stiffness: construction::revolute_stiffness(
+                        self.joint_stiffness,
+                        self.drive_stiffness.filter(|_| drive),
+                    ),
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The point of the sphere in this direction from O.
+    fn at(&self, direction: &Vector3<f64>) -> Point3<f64> {
+        Point3::from(direction * self.radius)
+    }
+}
+
+/// Directions evenly along the arc between two, both included.
+fn arc(from: &Vector3<f64>, to: &Vector3<f64>) -> [Vector3<f64>; CHORDS + 1] {
+    let angle = from.cross(to).norm().atan2(from.dot(to));
+    std::array::from_fn(|k| match k {
+        0 => *from,
+        CHORDS => *to,
+        _ => {
+            let t = k as f64 / CHORDS as f64;
+            from * ((1.0 - t) * angle).sin() / angle.sin() + to * (t * angle).sin() / angle.sin()
+        }
+    })
+}
+
+const PLATFORM: Name = Name::alone("platform");
+
+struct Configuration {
+    /// The platform's rotation vector (rad).
+    turn: [f64; 3],
+    /// The axes of A, B and C of every limb, away from O.
+    limbs: [[Vector3<f64>; 3]; LIMBS],
+}
+
+impl Prebuilt for SphericalThreeRrr {
+    fn kind(&self) -> &str {
+        "SphericalThreeRrr"
+    }
+
+    fn coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::Rx, PoseCoordinate::Ry, PoseCoordinate::Rz]
+    }
+
+    fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::model("spherical 3-RRR", PLATFORM, |parts| {
+            self.walk(&configuration, parts)
+        })
+    }
+
+    fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        let configuration = self.configuration(pose)?;
+        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
+        let [rx, ry, rz] = configuration.turn;
+        Ok([0.0, 0.0, 0.0, rx, ry, rz])
+    }
+}

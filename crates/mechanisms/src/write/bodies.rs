@@ -1,0 +1,210 @@
+//! Bodies, their materials and sections.
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Body, BodyKind, Model, SegmentId};
+use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+
+use super::error::WriteError;
+use super::numbers::{fields, number, vector};
+
+/// Materials and sections, each once.
+#[derive(Default)]
+pub(super) struct Parts {
+    materials: Named<Material>,
+    /// Sections at the first end and, where they taper, at the second.
+    sections: Named<(Section, Option<Section>)>,
+}
+
+impl Parts {
+    /// Names and values of the materials.
+    pub(super) fn materials(&self) -> Vec<(&str, String)> {
+        self.materials.named(material)
+    }
+
+    /// Names and values of the sections.
+    pub(super) fn sections(&self) -> Vec<(&str, String)> {
+        self.sections.named(profile)
+    }
+}
+
+/// Values with names: that of the first body that has the value, with a number where it has more.
+struct Named<T>(Vec<(String, T)>);
+
+impl<T> Default for Named<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T: PartialEq + Clone> Named<T> {
+    /// The name of a value that `body` has.
+    fn name(&mut self, value: &T, body: &str) -> String {
+        if let Some((name, _)) = self.0.iter().find(|(_, known)| known == value) {
+            return name.clone();
+        }
+        let taken = |name: &str| self.0.iter().any(|(other, _)| other == name);
+        let numbered = (2..).map(|number| format!("{body}-{number}"));
+        let mut names = std::iter::once(body.to_owned()).chain(numbered);
+        let name = names.find(|name| !taken(name)).unwrap_or_default();
+        self.0.push((name.clone(), value.clone()));
+        name
+    }
+
+    fn named(&self, write: impl Fn(&T) -> String) -> Vec<(&str, String)> {
+        let written = self.0.iter().map(|(name, value)| (&**name, write(value)));
+        written.collect()
+    }
+}
+
+/// Writes a body.
+///
+/// # Errors
+/// A body that no mechanism file describes.
+pub(super) fn body(model: &Model, body: &Body, parts: &mut Parts) -> Result<String, WriteError> {
+    let names: Vec<_> = (body.nodes.iter())
+        .map(|node| format!("{:?}", model.nodes()[node.0].point))
+        .collect();
+    let names = names.join(", ");
+    if body.kind == BodyKind::Rigid {
+        return Ok(format!("Rigid(points: [{names}])"));
+    }
+    if body.kind == BodyKind::Flexible {
+        return Err(WriteError::Flexible {
+            body: body.name.clone(),
+        });
+    }
+    let members: Vec<_> = (body.segments.iter())
+        .map(|id| member(model, *id, &body.name, parts))
+        .collect();
+    let is_chain = body.segments.len() + 1 == body.nodes.len()
+        && body
+            .segments
+            .iter()
+            .enumerate()
+            .all(|(k, id)| model.segments()[id.0].ends == [body.nodes[k], body.nodes[k + 1]]);
+    if is_chain && members.windows(2).all(|pair| pair[0].rest == pair[1].rest) {
+        let mut sections: Vec<_> = members.iter().map(|member| &*member.section).collect();
+        // A taper named once would run along the whole beam.
+        let is_one = body.segments.len() == 1
+            || (members.windows(2)).all(|pair| pair[0].section == pair[1].section)
+                && model.segments()[body.segments[0].0].taper.is_none();
+        let section = if is_one {
+            sections.swap_remove(0).to_owned()
+        } else {
+            format!("[{}]", sections.join(", "))
+        };
+        let rest = &members[0].rest;
+        return Ok(format!(
+            "Beam(through: [{names}], section: {section}, {rest})"
+        ));
+    }
+    let members: Vec<_> = (members.iter())
+        .map(|member| {
+            let Member {
+                ends: [first, second],
+                section,
+                rest,
+            } = member;
+            format!("(through: [{first:?}, {second:?}], section: {section}, {rest})")
+        })
+        .collect();
+    Ok(format!("Frame(members: [{}])", members.join(", ")))
+}
+
+/// A segment's parts in a file.
+struct Member<'a> {
+    /// Names of its points.
+    ends: [&'a str; 2],
+    /// Name of its section, quoted.
+    section: String,
+    /// Its other fields.
+    rest: String,
+}
+
+fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Parts) -> Member<'a> {
+    let segment = &model.segments()[id.0];
+    let profile = (segment.section.clone(), segment.taper.clone());
+    let material = parts.materials.name(&segment.material, body);
+    let mut rest = format!("material: {material:?}");
+    if let Some(y_axis) = model.geometry().y_axes[id.0] {
+        let _ = write!(rest, ", y_axis: {}", vector(&y_axis));
+    }
+    if segment.elements != 1 {
+        let _ = write!(rest, ", elements: {}", segment.elements);
+    }
+    Member {
+        ends: segment.ends.map(|node| &*model.nodes()[node.0].point),
+        section: format!("{:?}", parts.sections.name(&profile, body)),
+        rest,
+    }
+}
+
+/// A material, with the Poisson's ratio of few digits that gives its shear modulus, if one does.
+fn material(material: &Material) -> String {
+    let (young, shear) = (material.young(), material.shear());
+    let poisson = young / (2.0 * shear) - 1.0;
+    let short = (poisson * 1e6).round() / 1e6;
+    let again = Material::new(young, Elasticity::Poisson(short), None);
+    let second = if again.is_ok_and(|again| again.shear() == shear) {
+        format!("poisson: {}", number(short))
+    } else {
+        format!("shear: {}", number(shear))
+    };
+    let density = material.density().map(|density| ("density", density));
+    let young = number(young);
+    fields(vec![format!("young: {young}"), second], density)
+}
+
+fn profile((from, to): &(Section, Option<Section>)) -> String {
+    match to {
+        None => section(from),
+        Some(to) => format!("Tapered(from: {}, to: {})", section(from), section(to)),
+    }
+}
+
+fn section(section: &Section) -> String {
+    let mut given = Vec::new();
+    let mut optional = vec![
+        ("shear_y", section.shear_y()),
+        ("shear_z", section.shear_z()),
+    ];
+    let kind = match *section.shape() {
+        SectionShape::Circle { diameter } => {
+            given.push(("diameter", diameter));
+            "Circle"
+        }
+        SectionShape::Tube { outer, inner } => {
+            given.extend([("outer", outer), ("inner", inner)]);
+            "Tube"
+        }
+        SectionShape::Rectangle { width, height } => {
+            given.extend([("width", width), ("height", height)]);
+            "Rectangle"
+        }
+        SectionShape::General {
+            area,
+            iy,
+            iz,
+            torsion,
+            y_max,
+            z_max,
+            torsion_modulus,
+        } => {
+            given.extend([("area", area), ("iy", iy), ("iz", iz), ("torsion", torsion)]);
+            let stress = [
+                ("y_max", y_max),
+                ("z_max", z_max),
+                ("torsion_modulus", torsion_modulus),
+            ];
+            optional.extend(stress);
+            "General"
+        }
+    };
+    given.extend(
+        optional
+            .into_iter()
+            .filter_map(|(name, value)| Some((name, value?))),
+    );
+    format!("{kind}{}", fields(Vec::new(), given))
+}

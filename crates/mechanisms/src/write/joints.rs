@@ -1,0 +1,106 @@
+//! Joints.
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Connection, JointStiffness, Model, NodeId};
+use hyperstat_joints::{Dof, DofSet};
+use nalgebra::Rotation3;
+
+use super::error::WriteError;
+use super::numbers::{fields, number, vector};
+use crate::bodies::GROUND;
+use crate::registry::{Argument, Registry};
+
+/// Writes a joint whose frame is `frame`.
+///
+/// # Errors
+/// A joint between points of two names, or of a kind without a writer.
+pub(super) fn joint(
+    model: &Model,
+    joint: &Connection,
+    frame: &Rotation3<f64>,
+    registry: &Registry,
+) -> Result<String, WriteError> {
+    let point = |node: Option<NodeId>| node.map(|node| &*model.nodes()[node.0].point);
+    let at = match joint.between.map(point) {
+        [Some(first), Some(second)] if first != second => {
+            return Err(WriteError::TwoPoints {
+                joint: joint.name.clone(),
+                first: first.into(),
+                second: second.into(),
+            });
+        }
+        [first, second] => first.or(second).unwrap_or_default(),
+    };
+    let [first, second] = joint.between.map(|node| match node {
+        Some(node) => &*model.bodies()[model.nodes()[node.0].body.0].name,
+        None => GROUND,
+    });
+    let kind = joint.joint.kind();
+    let arguments = registry
+        .arguments(joint.joint.as_ref(), frame)
+        .ok_or_else(|| WriteError::UnknownKind {
+            joint: joint.name.clone(),
+            kind: kind.into(),
+        })?;
+    let written: Vec<_> = (arguments.iter())
+        .map(|(name, argument)| format!("{name}: {}", self::argument(argument)))
+        .collect();
+    let written = match &written[..] {
+        [] => String::new(),
+        some => format!("({})", some.join(", ")),
+    };
+    let mut text = format!("(at: {at:?}, between: ({first:?}, {second:?}), kind: {kind}{written}");
+    if (arguments.iter()).any(|(_, argument)| matches!(argument, Argument::Direction(_))) {
+        let x = frame.matrix().column(0).into_owned();
+        let _ = write!(text, ", x_axis: {}", vector(&x));
+    }
+    if !joint.locked.is_empty() {
+        let _ = write!(
+            text,
+            ", locked: {}",
+            locked(joint.locked, joint.joint.free())
+        );
+    }
+    if let Some(stiffness) = stiffness(&joint.stiffness) {
+        let _ = write!(text, ", stiffness: {stiffness}");
+    }
+    Ok(text + ")")
+}
+
+fn argument(argument: &Argument) -> String {
+    match argument {
+        Argument::Number(value) => number(*value),
+        Argument::Direction(direction) => vector(direction),
+        Argument::TwoDirections([a, b]) => format!("({}, {})", vector(a), vector(b)),
+    }
+}
+
+fn locked(locked: DofSet, free: DofSet) -> String {
+    if locked == free {
+        return "true".into();
+    }
+    let directions: Vec<_> = locked.iter().map(Dof::name).collect();
+    format!("[{}]", directions.join(", "))
+}
+
+fn stiffness(stiffness: &JointStiffness) -> Option<String> {
+    match stiffness {
+        JointStiffness::Directions(values) => {
+            let given = Dof::ALL.into_iter().zip(values);
+            let given: Vec<_> = given
+                .filter_map(|(dof, value)| Some((dof.name(), (*value)?)))
+                .collect();
+            (!given.is_empty()).then(|| fields(Vec::new(), given))
+        }
+        JointStiffness::Matrix(matrix) => {
+            let rows: Vec<_> = (matrix.row_iter())
+                .map(|row| {
+                    let entries: Vec<_> = row.iter().map(|entry| number(*entry)).collect();
+                    format!("[{}]", entries.join(", "))
+                })
+                .collect();
+            Some(format!("Matrix([{}])", rows.join(", ")))
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! A model as a mechanism file: the text that loads as the same model.
+
+mod bodies;
+mod error;
+mod joints;
+mod numbers;
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Model, NodeId};
+use nalgebra::Point3;
+
+use crate::registry::Registry;
+use bodies::Parts;
+pub use error::WriteError;
+use numbers::vector;
+
+/// Nodes of one point's name may lie this far apart, over the mechanism's size.
+const SAME_PLACE: f64 = 1e-12;
+
+/// Writes `model`, as it stands, as a mechanism file. Numbers read back to the same double; axes
+/// that loading makes normal to each other may change in their last digit.
+///
+/// # Errors
+/// [`WriteError`]: what a mechanism file cannot say.
+pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
+    let mut parts = Parts::default();
+    let points = points(model)?;
+    let written_bodies: Vec<_> = (model.bodies().iter())
+        .map(|body| Ok((&*body.name, bodies::body(model, body, &mut parts)?)))
+        .collect::<Result<_, WriteError>>()?;
+    let written_joints: Vec<_> = (model.joints().iter())
+        .zip(&model.geometry().frames)
+        .map(|(joint, frame)| Ok((&*joint.name, joints::joint(model, joint, frame, registry)?)))
+        .collect::<Result<_, WriteError>>()?;
+    let output = model.output().ok_or(WriteError::NoOutput)?;
+
+    let mut text = String::from("(\n");
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "    name: {:?},", model.name);
+    map(&mut text, "materials", &parts.materials());
+    map(&mut text, "sections", &parts.sections());
+    map(&mut text, "points", &points);
+    map(&mut text, "bodies", &written_bodies);
+    map(&mut text, "joints", &written_joints);
+    if !model.loads().is_empty() {
+        text += "    loads: [\n";
+        for load in model.loads() {
+            let [force, moment] = [0, 3].map(|k| vector(&load.wrench.fixed_rows::<3>(k).into()));
+            let on = place(model, load.node);
+            let _ = writeln!(
+                text,
+                "        (on: {on}, force: {force}, moment: {moment}),"
+            );
+        }
+        text += "    ],\n";
+    }
+    let _ = writeln!(text, "    output: {},\n)", place(model, output));
+    Ok(text)
+}
+
+/// Writes the map `field`, an entry a line; nothing where it is empty and may be left out.
+fn map(text: &mut String, field: &str, entries: &[(impl AsRef<str>, String)]) {
+    if entries.is_empty() && matches!(field, "materials" | "sections") {
+        return;
+    }
+    let _ = writeln!(text, "    {field}: {{");
+    for (name, value) in entries {
+        let _ = writeln!(text, "        {:?}: {value},", name.as_ref());
+    }
+    *text += "    },\n";
+}
+
+/// The points of all bodies, each name once.
+fn points(model: &Model) -> Result<Vec<(&str, String)>, WriteError> {
+    let positions = &model.geometry().positions;
+    let size = positions
+        .iter()
+        .fold(0.0_f64, |size, p| size.max(p.coords.amax()));
+    let mut known: Vec<(&str, Point3<f64>)> = Vec::new();
+    for (node, position) in model.nodes().iter().zip(positions) {
+        match known.iter().find(|(name, _)| *name == node.point) {
+            None => known.push((&node.point, *position)),
+            Some((_, first)) if (first - position).norm() <= SAME_PLACE * size => {}
+            Some(_) => {
+                return Err(WriteError::TwoPlaces {
+                    point: node.point.clone(),
+                    body: model.bodies()[node.body.0].name.clone(),
+                });
+            }
+        }
+    }
+    let written = known.iter().map(|(name, p)| (*name, vector(&p.coords)));
+    Ok(written.collect())
+}
+
+/// `("body", "point")` of a node.
+fn place(model: &Model, node: NodeId) -> String {
+    let node = &model.nodes()[node.0];
+    format!("({:?}, {:?})", model.bodies()[node.body.0].name, node.point)
+}

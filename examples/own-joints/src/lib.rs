@@ -1,0 +1,7 @@
+#![doc = include_str!("../README.md")]
+
+mod cross_spring;
+mod offset_universal;
+
+pub use cross_spring::{Blades, CrossSpring};
+pub use offset_universal::OffsetUniversal;

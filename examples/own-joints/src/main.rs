@@ -1,0 +1,17 @@
+//! The `hyperstat` command line with two more kinds of joints.
+
+use std::process::ExitCode;
+
+use hyperstat_mechanisms::Registry;
+use own_joints::{CrossSpring, OffsetUniversal};
+
+fn main() -> ExitCode {
+    let mut registry = Registry::builtin();
+    registry.register("CrossSpring", CrossSpring::ARGUMENTS, CrossSpring::read);
+    registry.register(
+        "OffsetUniversal",
+        OffsetUniversal::ARGUMENTS,
+        OffsetUniversal::read,
+    );
+    hyperstat_cli::run(std::env::args_os(), &registry)
+}

@@ -1,0 +1,13 @@
+//! Tripteron, Orthoglide, Exechon, spherical and planar 3-RRR: mobility and over-constraint of the
+//! literature, results against the independent solver, loops that close in every pose, refusals,
+//! and the files that name or write out the mechanisms.
+
+mod files;
+mod kinematics;
+mod mechanisms;
+mod parameters;
+mod reach;
+mod results;
+
+/// Displacements (m, rad) below this are zero to rounding under the loads here.
+const FLOOR: [f64; 2] = [1e-9; 2];
