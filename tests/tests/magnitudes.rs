@@ -306,18 +306,18 @@ fn deltas_with_joints_from_1e_3() {
     assert!(compared > CASES * 9 / 10, "{compared} compared");
 }
 
-/// A joint of 1 N/m in one direction and of 1e18 N/m in the next, askew to all axes: a few in a
-/// hundred are refused, their sum in global axes having lost the softer one.
+/// A joint of 1 N/m in one direction and of 1e18 N/m in the next, askew to all axes: the stiff
+/// directions are absorbed, the soft ones keep coordinates of their own.
 #[test]
 fn chains_with_joints_of_unlike_directions() {
     let chains = chains_of_one_size(magnitudes(0.0, 18.0));
-    let compared = check_all(CASES, chains, |model| agrees_or_warns(&model));
+    let compared = check_all(CASES, chains, |model| agrees(&model));
     assert!(compared > CASES * 9 / 10, "{compared} compared");
 }
 
 #[test]
 fn deltas_with_joints_of_unlike_directions() {
     let joints = magnitudes(0.0, 18.0).prop_map(Some);
-    let compared = check_all(CASES, deltas(joints), |model| agrees_or_warns(&model));
+    let compared = check_all(CASES, deltas(joints), |model| agrees(&model));
     assert!(compared > CASES * 3 / 4, "{compared} compared");
 }
