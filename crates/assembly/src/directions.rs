@@ -16,7 +16,11 @@ pub(crate) struct Directions {
     pub free: DofSet,
     /// Stiffness over the directions; zero outside the elastic ones.
     pub stiffness: Matrix6<f64>,
-    /// Its inverse over the elastic directions, zero outside; `None` where it has none.
+    /// Whether that is all: a joint's own compliance may be singular, rigid in some combination
+    /// of its directions, and then serves only inside a subassembly.
+    pub has_stiffness: bool,
+    /// Inverse of the stiffness over the elastic directions, zero outside; `None` where it has
+    /// none.
     pub compliance: Option<Matrix6<f64>>,
 }
 
@@ -25,36 +29,25 @@ impl Directions {
     /// replaces the joint's own; zero on a locked direction leaves it locked, on a constrained
     /// one frees it.
     pub fn of(connection: &Connection) -> Self {
-        let (given, stiffness) = given_stiffness(connection);
+        let elasticity = Elasticity::of(connection);
         let by_kind = connection.joint.free();
-        let mut this = Self {
-            rigid: DofSet::EMPTY,
-            elastic: DofSet::EMPTY,
-            free: DofSet::EMPTY,
-            stiffness,
-            compliance: None,
-        };
-        for dof in Dof::ALL {
-            let d = dof.index();
-            let freed = given.contains(dof) && !by_kind.contains(dof);
-            let open = by_kind.contains(dof) && !connection.locked.contains(dof);
-            let set = if stiffness[(d, d)] > 0.0 {
-                &mut this.elastic
-            } else if freed || open {
-                &mut this.free
-            } else {
-                &mut this.rigid
-            };
-            set.insert(dof);
+        let open = by_kind.difference(connection.locked);
+        let freed = elasticity.given.difference(by_kind);
+        let free = open.union(freed).difference(elasticity.elastic);
+        Self {
+            rigid: free.union(elasticity.elastic).complement(),
+            elastic: elasticity.elastic,
+            free,
+            stiffness: elasticity.stiffness.unwrap_or_default(),
+            has_stiffness: elasticity.stiffness.is_some(),
+            compliance: elasticity.compliance,
         }
-        this.compliance = inverse_on(&stiffness, this.elastic);
-        this
     }
 
     /// Whether elastic directions share stiffness.
     pub fn is_coupled(&self) -> bool {
-        let diagonal = Matrix6::from_diagonal(&self.stiffness.diagonal());
-        self.stiffness != diagonal
+        let diagonal = |m: &Matrix6<f64>| *m == Matrix6::from_diagonal(&m.diagonal());
+        !(diagonal(&self.stiffness) && self.compliance.is_none_or(|c| diagonal(&c)))
     }
 
     /// The compliance of some of the elastic directions, zero elsewhere.
@@ -68,31 +61,62 @@ impl Directions {
     }
 }
 
-/// The directions whose stiffness is given, and the stiffness over all six.
-fn given_stiffness(connection: &Connection) -> (DofSet, Matrix6<f64>) {
-    match (&connection.stiffness, connection.joint.compliance()) {
-        (JointStiffness::Matrix(k), _) => (DofSet::ALL, (k + k.transpose()) * 0.5),
-        (JointStiffness::Directions(values), Some(own)) if values.iter().all(Option::is_none) => {
-            let given: DofSet = Dof::ALL
-                .into_iter()
-                .filter(|d| own[(d.index(), d.index())] > 0.0)
-                .collect();
-            (given, inverse_on(&own, given).unwrap_or_default())
+/// What is said of a joint's elasticity, in the file or by the joint itself.
+struct Elasticity {
+    /// Directions of which anything is said.
+    given: DofSet,
+    elastic: DofSet,
+    stiffness: Option<Matrix6<f64>>,
+    compliance: Option<Matrix6<f64>>,
+}
+
+impl Elasticity {
+    fn of(connection: &Connection) -> Self {
+        match (&connection.stiffness, connection.joint.compliance()) {
+            (JointStiffness::Matrix(k), _) => {
+                Self::of_stiffness(DofSet::ALL, (k + k.transpose()) * 0.5)
+            }
+            (JointStiffness::Directions(values), Some(own))
+                if values.iter().all(Option::is_none) =>
+            {
+                let give = positive(&own);
+                Self {
+                    given: give,
+                    elastic: give,
+                    stiffness: inverse_on(&own, give),
+                    compliance: Some(own),
+                }
+            }
+            (JointStiffness::Directions(values), _) => {
+                let given = Dof::ALL.into_iter();
+                let given = given.filter(|d| values[d.index()].is_some()).collect();
+                let diagonal = Vector6::from(values.map(Option::unwrap_or_default));
+                Self::of_stiffness(given, Matrix6::from_diagonal(&diagonal))
+            }
         }
-        (JointStiffness::Directions(values), _) => {
-            let given = Dof::ALL
-                .into_iter()
-                .filter(|d| values[d.index()].is_some())
-                .collect();
-            let diagonal = values.map(Option::unwrap_or_default);
-            (given, Matrix6::from_diagonal(&Vector6::from(diagonal)))
+    }
+
+    fn of_stiffness(given: DofSet, stiffness: Matrix6<f64>) -> Self {
+        let elastic = positive(&stiffness);
+        Self {
+            given,
+            elastic,
+            stiffness: Some(stiffness),
+            compliance: inverse_on(&stiffness, elastic),
         }
     }
 }
 
+/// Directions with a positive diagonal entry.
+fn positive(matrix: &Matrix6<f64>) -> DofSet {
+    let all = Dof::ALL.into_iter();
+    all.filter(|d| matrix[(d.index(), d.index())] > 0.0)
+        .collect()
+}
+
 /// Inverse of the block of `matrix` over `set`, zero elsewhere; `None` where the block, scaled to
 /// a unit diagonal, is singular to 1e-10.
-pub(crate) fn inverse_on(matrix: &Matrix6<f64>, set: DofSet) -> Option<Matrix6<f64>> {
+fn inverse_on(matrix: &Matrix6<f64>, set: DofSet) -> Option<Matrix6<f64>> {
     let places: Vec<usize> = set.iter().map(Dof::index).collect();
     let scale: Vec<f64> = places.iter().map(|&d| matrix[(d, d)].sqrt()).collect();
     let block = DMatrix::from_fn(places.len(), places.len(), |r, c| {

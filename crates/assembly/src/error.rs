@@ -115,6 +115,16 @@ pub enum SolveError {
     /// too different size.
     #[error("the stiffness matrix is singular to working precision")]
     Singular,
+    /// A joint whose own compliance is rigid in some combination of its directions, where there
+    /// is no elastic body to absorb it.
+    #[error(
+        "the compliance of joint `{joint}` is singular, and no beam's end or middle of its own \
+         takes it in: give it some compliance in every combination of its directions"
+    )]
+    SingularCompliance {
+        /// Name of the joint.
+        joint: String,
+    },
     /// Loads or stiffnesses so large or small that results overflow.
     #[error("the results overflow: loads or stiffnesses are out of all proportion")]
     Overflow,

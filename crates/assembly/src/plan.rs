@@ -135,6 +135,13 @@ impl Plan {
         let output = model.output().ok_or(SolveError::NoOutput)?;
         check_held(model, output)?;
         let topology = Topology::new(model, geometry, output);
+        for (joint, role) in model.joints().iter().zip(&topology.joints) {
+            if !role.springs.is_empty() && !role.directions.has_stiffness {
+                return Err(SolveError::SingularCompliance {
+                    joint: joint.name.clone(),
+                });
+            }
+        }
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, model, geometry)?;
         let size = characteristic_length(geometry);

@@ -1,7 +1,8 @@
 //! A joint whose stiffness matrix is positive semidefinite: what it resists and what it does not.
 
 use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, solve};
-use hyperstat_joints::{DofSet, Fixed};
+use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+use hyperstat_joints::{DofSet, Fixed, Joint};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector6};
 
 /// A rigid body on a spring of (1, 2, 0) ⊗ (1, 2, 0) 1e6 N/m and 1e6 in the other directions.
@@ -60,5 +61,77 @@ fn loads_along_it_are_refused() {
     assert!(
         matches!(result, Err(SolveError::LoadOnFreeMotion { .. })),
         "{result:?}"
+    );
+}
+
+/// A mount that gives along one combination of directions alone.
+#[derive(Debug, Clone)]
+struct Mount(Vector6<f64>);
+
+impl Joint for Mount {
+    fn kind(&self) -> &str {
+        "Mount"
+    }
+    fn free(&self) -> DofSet {
+        DofSet::EMPTY
+    }
+    fn compliance(&self) -> Option<Matrix6<f64>> {
+        Some(self.0 * self.0.transpose())
+    }
+    fn clone_box(&self) -> Box<dyn Joint> {
+        Box::new(self.clone())
+    }
+}
+
+/// A rod of 0.5 m along x on such a mount, or a rigid bar.
+fn mounted(rigid: bool, along: Vector6<f64>) -> Model {
+    let mut model = Model::new("mounted");
+    let points = [("A", Point3::origin()), ("B", Point3::new(0.5, 0.0, 0.0))];
+    if rigid {
+        model.add_rigid("rod", &points).expect("a body");
+    } else {
+        let steel = Material::new(2.1e11, Elasticity::Poisson(0.3), None).expect("a material");
+        let shape = SectionShape::Circle { diameter: 0.02 };
+        let section = Section::new(shape, None, None).expect("a section");
+        model
+            .add_beam("rod", &points, &steel, &section, None, 1)
+            .expect("a body");
+    }
+    let joint = Connection {
+        name: "mount".into(),
+        between: [None, model.node("rod", "A")],
+        joint: Box::new(Mount(along)),
+        locked: DofSet::EMPTY,
+        stiffness: JointStiffness::default(),
+    };
+    model
+        .add_joint(joint, Rotation3::identity())
+        .expect("a joint");
+    model.set_output(model.node("rod", "B").expect("a node"));
+    model
+}
+
+#[test]
+fn a_singular_compliance_is_absorbed_as_it_is() {
+    let along = Vector6::new(1e-4, 2e-4, 0.0, 0.0, 0.0, 3e-3);
+    let with = |along| {
+        let solution = solve(&mounted(false, along)).expect("a solution");
+        solution.output.compliance.expect("a compliance")
+    };
+    // At the tip the mount's motion is carried along the rod: Δy += φz L.
+    let mut tip = along;
+    tip[1] += along[5] * 0.5;
+    let expected = with(Vector6::zeros()) + tip * tip.transpose();
+    assert!((with(along) - expected).amax() < 1e-12 * expected.amax());
+}
+
+#[test]
+fn a_singular_compliance_between_rigid_bodies_is_refused() {
+    let along = Vector6::new(1e-4, 2e-4, 0.0, 0.0, 0.0, 3e-3);
+    assert_eq!(
+        solve(&mounted(true, along)).map(|_| ()),
+        Err(SolveError::SingularCompliance {
+            joint: "mount".into()
+        })
     );
 }

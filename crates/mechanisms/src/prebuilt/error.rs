@@ -72,3 +72,31 @@ pub struct ParameterError {
     /// What would be right, where that can be said.
     pub help: Option<String>,
 }
+
+/// A length (m) or an angle (rad) in a message: six decimals, or an exponent where they say
+/// nothing.
+pub(super) fn shown(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.6}")
+    } else {
+        format!("{value:.6e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::shown;
+
+    #[test]
+    fn numbers_of_every_size_are_short() {
+        let numbers = [0.0, 0.25, -3.0, 1e300, -1.5e-9];
+        let wanted = [
+            "0.000000",
+            "0.250000",
+            "-3.000000",
+            "1.000000e300",
+            "-1.500000e-9",
+        ];
+        assert_eq!(numbers.map(shown), wanted);
+    }
+}

@@ -6,6 +6,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use super::topology::{JointRole, Part, Point};
 use super::{Delta, Elbow, RodEnds};
 use crate::prebuilt::PoseError;
+use crate::prebuilt::error::shown;
 
 /// How far, relative to the limb's length, a pose may miss the edge of the limb's reach and
 /// still count as on it (arm and rods in one line). Loops then close to this, not to rounding.
@@ -113,9 +114,10 @@ fn elbow(
     if side.abs() > rod + edge {
         return Err(PoseError::Unreachable {
             what: format!(
-                "limb {limb}: point C{limb} lies {:.6} m along the joint axes from A{limb}, \
-                 too far for rods of {rod:.6} m",
-                side.abs(),
+                "limb {limb}: point C{limb} lies {} m along the joint axes from A{limb}, \
+                 too far for rods of {} m",
+                shown(side.abs()),
+                shown(rod),
             ),
         });
     }
@@ -128,17 +130,20 @@ fn elbow(
     if distance > sum + edge {
         return Err(PoseError::Unreachable {
             what: format!(
-                "limb {limb}: point C{limb} is too far from A{limb}: {distance:.6} m across the \
-                 joint axes, where arm and rods reach {sum:.6} m"
+                "limb {limb}: point C{limb} is too far from A{limb}: {} m across the \
+                 joint axes, where arm and rods reach {} m",
+                shown(distance),
+                shown(sum),
             ),
         });
     }
     if distance < difference.abs() - edge {
         return Err(PoseError::Unreachable {
             what: format!(
-                "limb {limb}: point C{limb} is too close to A{limb}: {distance:.6} m across the \
-                 joint axes, where arm and rods reach no nearer than {:.6} m",
-                difference.abs(),
+                "limb {limb}: point C{limb} is too close to A{limb}: {} m across the \
+                 joint axes, where arm and rods reach no nearer than {} m",
+                shown(distance),
+                shown(difference.abs()),
             ),
         });
     }
