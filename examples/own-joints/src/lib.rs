@@ -1,3 +1,5 @@
+//! Joints of one's own: a cross-spring flexure and an offset universal joint, registered by name.
+//!
 #![doc = include_str!("../README.md")]
 
 mod cross_spring;
