@@ -36,11 +36,26 @@ impl Elimination {
         Self::with_right_side(conditions, DVector::zeros(height), spared)
     }
 
+    /// Solves `conditions · x = 0`, doubtful pivots taken as zero.
+    pub fn without_doubtful(conditions: DMatrix<f64>) -> Self {
+        let height = conditions.nrows();
+        Self::solve(conditions, DVector::zeros(height), 0, DOUBTFUL.end)
+    }
+
     /// Solves `conditions · x = right_side`, whose inconsistent part is left out.
     pub fn with_right_side(
         conditions: DMatrix<f64>,
+        right_side: DVector<f64>,
+        spared: usize,
+    ) -> Self {
+        Self::solve(conditions, right_side, spared, RANK_TOLERANCE)
+    }
+
+    fn solve(
+        conditions: DMatrix<f64>,
         mut right_side: DVector<f64>,
         spared: usize,
+        tolerance: f64,
     ) -> Self {
         let columns = conditions.ncols();
         let mut rows: Vec<Row> = conditions
@@ -55,7 +70,7 @@ impl Elimination {
             if DOUBTFUL.contains(&size) {
                 doubtful = Some(doubtful.map_or(size, |d| d.max(size)));
             }
-            if size <= RANK_TOLERANCE {
+            if size <= tolerance {
                 break;
             }
             let pivot = rows[row].values[column];

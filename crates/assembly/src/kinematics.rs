@@ -26,6 +26,9 @@ pub struct Kinematics {
     /// A pivot between zero and not zero (1e-12 to 1e-4), where there is one: the counts are then
     /// those of a geometry that is only nearly the one meant.
     pub doubtful: Option<f64>,
+    /// Where that is among the conditions of the held mechanism: the motion that they only
+    /// nearly prevent, the softest of the mechanism.
+    pub nearly_free: Option<Motion>,
 }
 
 /// Mobility, over-constraint and motions without energy of a model as it stands.
@@ -38,8 +41,13 @@ pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
     let released = Jacobian::released(model, geometry);
     let constraints = released.rows.len();
     let released = released.eliminated();
-    let held = Jacobian::held(model, geometry).eliminated();
+    let conditions = Jacobian::held(model, geometry);
+    let held = conditions.eliminated();
     let size = characteristic_length(geometry);
+    let nearly_free = held.doubtful.and_then(|_| {
+        let column = conditions.nearly_free()?;
+        Some(motion(model, size, &column))
+    });
     let motions = echelon(held.null_space())
         .iter()
         .map(|column| motion(model, size, column))
@@ -48,7 +56,8 @@ pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
         mobility: 6 * model.bodies().len() - released.rank(),
         overconstraint: constraints - released.rank(),
         motions,
-        doubtful: released.doubtful.or(held.doubtful),
+        doubtful: held.doubtful.or(released.doubtful),
+        nearly_free,
     }
 }
 
@@ -160,6 +169,17 @@ impl Jacobian {
 
     pub fn eliminated(&self) -> Elimination {
         Elimination::new(self.dense(), 0)
+    }
+
+    /// With doubtful conditions left out, the motion that breaks them most.
+    fn nearly_free(&self) -> Option<DVector<f64>> {
+        let conditions = self.dense();
+        let basis = echelon(Elimination::without_doubtful(conditions.clone()).null_space());
+        basis
+            .into_iter()
+            .map(|motion| ((&conditions * &motion).amax(), motion))
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, motion)| motion)
     }
 }
 

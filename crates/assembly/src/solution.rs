@@ -95,6 +95,9 @@ pub enum Warning {
         /// The pivot of the rigid mechanism's conditions that lies between zero (below 1e-12)
         /// and not zero (above 1e-4).
         value: f64,
+        /// The motion that this condition only nearly prevents, in words, where it is one of the
+        /// held mechanism's.
+        motion: Option<String>,
     },
     /// Refinement could not bring the solution to rounding: digits are lost.
     LostDigits {
@@ -106,12 +109,19 @@ pub enum Warning {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NearSingular { value } => write!(
-                f,
-                "the mechanism is nearly singular or its coordinates are rounded: a condition of \
-                 relative size {value:.1e} lies between zero (below 1e-12) and not zero (above \
-                 1e-4), so mobility and over-constraint may be those of a neighbouring geometry"
-            ),
+            Self::NearSingular { value, motion } => {
+                write!(
+                    f,
+                    "the mechanism is nearly singular or its coordinates are rounded: a condition \
+                     of relative size {value:.1e} lies between zero (below 1e-12) and not zero \
+                     (above 1e-4), so mobility and over-constraint may be those of a neighbouring \
+                     geometry"
+                )?;
+                match motion {
+                    Some(motion) => write!(f, "; what it nearly leaves free: {motion}"),
+                    None => Ok(()),
+                }
+            }
             Self::LostDigits { residual } => write!(
                 f,
                 "parts of very different stiffness: results are good to about {residual:.0e} only"

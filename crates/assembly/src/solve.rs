@@ -112,7 +112,11 @@ impl Plan {
         let rigid = restraint.kinematics.doubtful;
         let doubtful = rigid.or(workspace.doubtful).or(recovered.doubtful);
         if let Some(value) = doubtful {
-            warnings.push(Warning::NearSingular { value });
+            let nearly_free = restraint.kinematics.nearly_free.as_ref();
+            warnings.push(Warning::NearSingular {
+                value,
+                motion: nearly_free.map(|motion| motion.describe(model)),
+            });
         }
         let lost = condensed.max(settled);
         if lost > LOST_DIGITS {

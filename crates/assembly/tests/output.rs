@@ -1,8 +1,8 @@
 //! What is said of outputs that are held, free, or neither; and of bodies that nothing holds.
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, analyse, solve};
+use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, Warning, analyse, solve};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
-use hyperstat_joints::{DofSet, Fixed, Joint, Revolute, Spherical, frame_from_axis};
+use hyperstat_joints::{DofSet, Fixed, Joint, Planar, Revolute, Spherical, frame_from_axis};
 use nalgebra::{Point3, Rotation3, Vector3, Vector6};
 
 fn steel() -> Material {
@@ -247,4 +247,32 @@ fn counts_of_a_model_need_no_output() {
     let kinematics = analyse(&model);
     assert_eq!((kinematics.mobility, kinematics.overconstraint), (3, 3));
     assert_eq!(kinematics.motions.len(), 3);
+}
+
+/// A slider between two stops that are nearly parallel to its guide: nearly free along it.
+#[test]
+fn a_nearly_singular_mechanism_is_solved_with_a_warning_that_names_the_motion() {
+    let mut model = pendulum(false, true, None);
+    model
+        .add_rigid("slider", &[("S", Point3::new(0.2, 0.1, 0.0))])
+        .expect("a body");
+    let slider = model.node("slider", "S");
+    for (name, normal) in [
+        ("guide", Vector3::new(0.0, 1.0, 0.0)),
+        ("stop", Vector3::new(1e-5, 1.0, 0.0)),
+        ("floor", Vector3::new(0.0, 0.0, 1.0)),
+    ] {
+        let joint = Connection {
+            between: [None, slider],
+            ..connection(name, Box::new(Planar))
+        };
+        let frame = frame_from_axis(Some(&normal), None).expect("an axis");
+        model.add_joint(joint, frame).expect("a joint");
+    }
+    let solution = solve(&model).expect("a solution");
+    let [Warning::NearSingular { value, motion }] = &solution.warnings[..] else {
+        panic!("{:?}", solution.warnings)
+    };
+    assert!((1e-7..1e-4).contains(value), "{value:e}");
+    assert_eq!(motion.as_deref(), Some("`slider` moves along (1, 0, 0)"));
 }
