@@ -4,7 +4,7 @@
 //! (Eq. 45's T_o); otherwise unit forces on it; and the loads. Every column starts at zero and is
 //! corrected by the factor from residuals formed in the elements' deformations,
 //! `Hᵀ F − Dᵀ k (D U + δ₀)`: the first correction is the plain solution, the others are refinement
-//! (paper-notes, "Digits go in rigid-motion cancellation").
+//! (the book, "Refinement").
 
 use nalgebra::{Matrix6, Vector6};
 

@@ -3,7 +3,7 @@
 //! It closes loops (dependent coordinates from independent ones), counts mobility, finds motions
 //! without energy and joint forces. Redundant rows are dropped and counted. After trees are formed
 //! a redundant row is pure rounding, so rank is judged against the unreduced conditions: callers
-//! give unit rows with lengths over the mechanism's size (paper-notes, "Rank of closing rows").
+//! give unit rows with lengths over the mechanism's size (the book, "Diagnosis").
 
 use nalgebra::{DMatrix, DVector};
 

@@ -3,7 +3,7 @@
 //!
 //! A *carrier* is what has six displacement coordinates: a node of an elastic body, or a whole
 //! rigid body. Joints tie carriers into trees; a joint that would close a loop gives conditions
-//! instead (paper-notes, "Where elimination runs out of nodes").
+//! instead (the book, "Overall model").
 
 use std::ops::Range;
 
