@@ -143,7 +143,8 @@ impl Plan {
     ) -> Result<PoseResult, Fault> {
         evaluate(self, model, geometry, workspace)?;
         let ready = !self.has_idle && self.output_is_independent();
-        if ready && self.condense(workspace, &[], ENOUGH_IN_SWEEP).is_ok() {
+        let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
+        if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
             let stiffness = self.stiffness_by_energy(workspace);
             if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
                 let displacement = if inverse(&stiffness, UNEVEN_PIVOT).is_some() {
@@ -161,7 +162,10 @@ impl Plan {
         let restraint = Restraint::new(model, geometry, self.output);
         restraint.check_loads(model, geometry)?;
         let pins = restraint.pins(self, model, geometry, workspace);
-        self.condense(workspace, &pins, ENOUGH_IN_SWEEP)?;
+        // A sweep has no place for a warning: what does not settle is refused.
+        if !converged(self.condense(workspace, &pins, ENOUGH_IN_SWEEP)) {
+            return Err(SolveError::Singular.into());
+        }
         let (output, _) = self.output(geometry, workspace, &pins, &restraint)?;
         let held = output.free_motions.is_empty();
         Ok(PoseResult {
