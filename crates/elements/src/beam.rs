@@ -6,6 +6,7 @@ use crate::error::{ElementError, check, positive};
 use crate::frame::transport;
 use crate::material::Material;
 use crate::section::Section;
+use crate::straight::StraightBeam;
 
 /// A 12×12 matrix over the two nodes of a beam, node 1 first.
 pub type Matrix12 = SMatrix<f64, 12, 12>;
@@ -40,6 +41,20 @@ pub struct SectionStrain {
     pub curvature_y: f64,
     /// Curvature dφz/dx \[rad/m\].
     pub curvature_z: f64,
+}
+
+impl From<Vector6<f64>> for SectionStrain {
+    /// From the components (εx γy γz κx κy κz).
+    fn from(s: Vector6<f64>) -> Self {
+        Self {
+            axial: s[0],
+            shear_y: s[1],
+            shear_z: s[2],
+            twist: s[3],
+            curvature_y: s[4],
+            curvature_z: s[5],
+        }
+    }
 }
 
 impl SectionStrain {
@@ -265,11 +280,7 @@ impl Beam {
     /// Displacement at `xi` (0 at node 1, 1 at node 2) along the beam for these displacements of
     /// its nodes, element frame: the exact elastic curve, shear deformation included.
     pub fn displacement(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> Vector6<f64> {
-        let d = self.deformation(u1, u2);
-        let (in_y, in_z) = self.planes();
-        let (y, phi_z) = in_y.shape(xi, d[1], d[5]);
-        let (z, minus_phi_y) = in_z.shape(xi, d[2], -d[4]);
-        let bent = Vector6::new(xi * d[0], y, z, xi * d[3], -minus_phi_y, phi_z);
+        let bent = bent(&self.planes(), xi, &self.deformation(u1, u2));
         transport(&(self.span() * xi)) * u1 + bent
     }
 
@@ -294,16 +305,53 @@ impl Beam {
     pub fn strain(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> SectionStrain {
         let [_, end] = self.end_wrenches(u1, u2);
         let wrench = self.section_wrench(xi, &end);
-        let s = self.section_compliance().component_mul(&wrench);
-        SectionStrain {
-            axial: s[0],
-            shear_y: s[1],
-            shear_z: s[2],
-            twist: s[3],
-            curvature_y: s[4],
-            curvature_z: s[5],
-        }
+        SectionStrain::from(self.section_compliance().component_mul(&wrench))
     }
+}
+
+impl StraightBeam for Beam {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn cantilever_stiffness(&self) -> Matrix6<f64> {
+        self.cantilever_stiffness()
+    }
+
+    fn shape(&self, xi: f64) -> Matrix6<f64> {
+        shape(&self.planes(), xi)
+    }
+
+    fn section_compliance_at(&self, _xi: f64) -> Vector6<f64> {
+        self.section_compliance()
+    }
+
+    fn intervals(&self, end: f64, visit: &mut dyn FnMut(f64, f64)) {
+        visit(0.0, end);
+    }
+}
+
+/// Displacement at `xi` for the displacement `d` of node 2, node 1 held.
+fn bent((in_y, in_z): &(Plane, Plane), xi: f64, d: &Vector6<f64>) -> Vector6<f64> {
+    let (y, phi_z) = in_y.shape(xi, d[1], d[5]);
+    let (z, minus_phi_y) = in_z.shape(xi, d[2], -d[4]);
+    Vector6::new(xi * d[0], y, z, xi * d[3], -minus_phi_y, phi_z)
+}
+
+fn shape(planes: &(Plane, Plane), xi: f64) -> Matrix6<f64> {
+    let columns = Matrix6::identity();
+    Matrix6::from_columns(&[0, 1, 2, 3, 4, 5].map(|k| bent(planes, xi, &columns.column(k).into())))
+}
+
+/// Displacement at `xi` per displacement of node 2, node 1 held, of a prismatic beam of this
+/// length \[m\] without shear deformation: cubic in bending, linear in tension and torsion.
+pub(crate) fn cubic_shape(length: f64, xi: f64) -> Matrix6<f64> {
+    let plane = || Plane {
+        length,
+        rigidity: 1.0,
+        shear: 0.0,
+    };
+    shape(&(plane(), plane()), xi)
 }
 
 /// The 6×6 matrix of one node from its axial and torsional entry and the (vv, vθ, θθ) entries of

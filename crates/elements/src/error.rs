@@ -140,6 +140,15 @@ pub enum ElementError {
         /// Number of motions without energy.
         found: usize,
     },
+    /// An inertia that no distribution of mass has.
+    #[error(
+        "the inertia has a negative principal moment, {moment:.6e} kg·m²; check the entries and \
+         their order: Jxx, Jyy, Jzz, Jxy, Jxz, Jyz"
+    )]
+    NegativeInertia {
+        /// The smallest principal moment \[kg·m²\].
+        moment: f64,
+    },
     /// A stiffness or compliance that is not finite or not positive definite.
     #[error("a stiffness or compliance is not finite or not symmetric positive semidefinite")]
     NotPositive,

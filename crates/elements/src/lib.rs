@@ -11,11 +11,17 @@
 //! workspace implements, as corrected in its book.
 
 mod beam;
+mod bernstein;
 mod error;
 mod flexible;
 mod frame;
+mod load;
+mod mass;
 mod material;
+mod quadrature;
+mod rigid_mass;
 mod section;
+mod straight;
 pub mod stress;
 pub mod subassembly;
 mod taper;
@@ -25,7 +31,11 @@ pub use beam::{Beam, Matrix12, SectionStrain};
 pub use error::ElementError;
 pub use flexible::FlexibleBody;
 pub use frame::{element_frame, rotate_matrix6, rotate_matrix12, rotate_vector6, transport};
+pub use load::{BeamLoad, TemperatureChange};
+pub use mass::{LineMass, MassShape, RotaryInertia};
 pub use material::{Elasticity, Material};
+pub use rigid_mass::RigidMass;
 pub use section::{Section, SectionShape};
+pub use straight::StraightBeam;
 pub use taper::Taper;
 pub use tapered_beam::TaperedBeam;

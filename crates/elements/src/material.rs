@@ -17,6 +17,8 @@ pub struct Material {
     young: f64,
     shear: f64,
     density: Option<f64>,
+    expansion: Option<f64>,
+    yield_strength: Option<f64>,
 }
 
 impl Material {
@@ -47,6 +49,36 @@ impl Material {
             young,
             shear,
             density,
+            expansion: None,
+            yield_strength: None,
+        })
+    }
+
+    /// The material with this coefficient of linear thermal expansion \[1/K\]; a negative one
+    /// shrinks when heated, as carbon fibres do along their axis.
+    ///
+    /// # Errors
+    /// [`ElementError::OutOfRange`] for one that is not finite.
+    pub fn with_expansion(self, expansion: f64) -> Result<Self, ElementError> {
+        let wanted = "a finite number [1/K]";
+        let expansion = Some(check(
+            expansion.is_finite(),
+            "expansion",
+            expansion,
+            wanted,
+        )?);
+        Ok(Self { expansion, ..self })
+    }
+
+    /// The material with this yield strength \[Pa\], which stresses are compared with.
+    ///
+    /// # Errors
+    /// [`ElementError::OutOfRange`] for one that is not finite and positive.
+    pub fn with_yield_strength(self, yield_strength: f64) -> Result<Self, ElementError> {
+        let yield_strength = Some(positive("yield", yield_strength)?);
+        Ok(Self {
+            yield_strength,
+            ..self
         })
     }
 
@@ -63,6 +95,16 @@ impl Material {
     /// Density \[kg/m³\], if one was given.
     pub fn density(&self) -> Option<f64> {
         self.density
+    }
+
+    /// Coefficient of linear thermal expansion \[1/K\], if one was given.
+    pub fn expansion(&self) -> Option<f64> {
+        self.expansion
+    }
+
+    /// Yield strength \[Pa\], if one was given.
+    pub fn yield_strength(&self) -> Option<f64> {
+        self.yield_strength
     }
 }
 
@@ -102,6 +144,26 @@ mod tests {
         }
         assert!(Material::new(1e9, Poisson(0.5), Some(0.0)).is_ok());
         assert!(Material::new(1e9, Poisson(-0.99), None).is_ok());
+    }
+
+    #[test]
+    fn expansion_and_yield_strength_are_added() {
+        let plain = Material::new(2.1e11, Elasticity::Poisson(0.3), None).unwrap();
+        assert_eq!((plain.expansion(), plain.yield_strength()), (None, None));
+        let steel = plain.clone().with_expansion(1.2e-5).unwrap();
+        let steel = steel.with_yield_strength(3.55e8).unwrap();
+        assert_eq!(steel.expansion(), Some(1.2e-5));
+        assert_eq!(steel.yield_strength(), Some(3.55e8));
+        assert_eq!((steel.young(), steel.density()), (2.1e11, None));
+        assert!(plain.clone().with_expansion(-5e-7).is_ok());
+        for bad in [f64::NAN, f64::INFINITY] {
+            let error = plain.clone().with_expansion(bad).unwrap_err();
+            assert!(error.to_string().starts_with("`expansion` is"), "{error}");
+        }
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let error = plain.clone().with_yield_strength(bad).unwrap_err();
+            assert!(error.to_string().starts_with("`yield` is"), "{error}");
+        }
     }
 
     #[test]

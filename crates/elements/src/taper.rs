@@ -60,6 +60,19 @@ impl Taper {
         Ok(Self { from, to })
     }
 
+    /// A section that stays the same along the beam.
+    pub fn constant(section: Section) -> Self {
+        Self {
+            from: section.clone(),
+            to: section,
+        }
+    }
+
+    /// Whether the section stays the same along the beam.
+    pub fn is_constant(&self) -> bool {
+        self.from == self.to
+    }
+
     /// The section at the first node.
     pub fn from(&self) -> &Section {
         &self.from
@@ -148,6 +161,17 @@ impl Taper {
             from: self.to.clone(),
             to: self.from.clone(),
         }
+    }
+
+    /// The area \[m²\] along the taper, (1 − ξ)² a₀ + 2 ξ (1 − ξ) a₁ + ξ² a₂: of every kind of
+    /// section it is exactly quadratic.
+    pub(crate) fn area_controls(&self) -> [f64; 3] {
+        let (first, last) = (self.from.area(), self.to.area());
+        [
+            first,
+            2.0 * self.at(0.5).area() - (first + last) / 2.0,
+            last,
+        ]
     }
 
     /// Calls `visit` on intervals (first, last) that together make up 0 to `end`. On each of

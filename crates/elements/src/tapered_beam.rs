@@ -12,21 +12,9 @@ use crate::beam::{SectionStrain, node_matrix};
 use crate::error::{ElementError, check, positive};
 use crate::frame::transport;
 use crate::material::Material;
+use crate::quadrature::gauss;
+use crate::straight::StraightBeam;
 use crate::taper::Taper;
-
-/// Positive nodes and their weights of the 16-point Gauss–Legendre rule on −1 to 1. On the
-/// intervals of a taper its error is far below rounding: the nearest pole lies an interval's
-/// length away, so that the error falls by 5.8² with each point.
-const GAUSS: [(f64, f64); 8] = [
-    (0.095_012_509_837_637_44, 0.189_450_610_455_068_5),
-    (0.281_603_550_779_258_9, 0.182_603_415_044_923_6),
-    (0.458_016_777_657_227_4, 0.169_156_519_395_002_54),
-    (0.617_876_244_402_643_7, 0.149_595_988_816_576_73),
-    (0.755_404_408_355_003, 0.124_628_971_255_533_87),
-    (0.865_631_202_387_831_7, 0.095_158_511_682_492_78),
-    (0.944_575_023_073_232_6, 0.062_253_523_938_647_89),
-    (0.989_400_934_991_649_9, 0.027_152_459_411_754_095),
-];
 
 /// A straight beam whose section changes along it, with no load between its nodes.
 ///
@@ -180,8 +168,13 @@ impl TaperedBeam {
     /// Displacement at `xi` (0 at node 1, 1 at node 2) along the beam for these displacements of
     /// its nodes, element frame: the exact elastic curve, shear deformation included.
     pub fn displacement(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> Vector6<f64> {
-        let d = self.deformation(u1, u2);
-        let part = self.flexibility(xi);
+        let bent = self.bent(&self.flexibility(xi), xi, &self.deformation(u1, u2));
+        transport(&(self.span() * xi)) * u1 + bent
+    }
+
+    /// Displacement at `xi` for the displacement `d` of node 2, node 1 held; `part` is the
+    /// flexibility up to `xi`.
+    fn bent(&self, part: &Flexibility, xi: f64, d: &Vector6<f64>) -> Vector6<f64> {
         let bend = |plane: usize, v: f64, theta: f64| {
             let (whole, part) = (self.whole.planes[plane], part.planes[plane]);
             let force = (v - (self.length - whole.centre) * theta) / whole.deflection;
@@ -195,8 +188,7 @@ impl TaperedBeam {
         let (z, minus_phi_y) = bend(1, d[2], -d[4]);
         let axial = d[0] * part.axial / self.whole.axial;
         let twist = d[3] * part.torsional / self.whole.torsional;
-        let bent = Vector6::new(axial, y, z, twist, -minus_phi_y, phi_z);
-        transport(&(self.span() * xi)) * u1 + bent
+        Vector6::new(axial, y, z, twist, -minus_phi_y, phi_z)
     }
 
     /// Wrenches on the beam at nodes 1 and 2 for these displacements of its nodes, element frame.
@@ -217,17 +209,7 @@ impl TaperedBeam {
     pub fn strain(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> SectionStrain {
         let [_, end] = self.end_wrenches(u1, u2);
         let wrench = self.section_wrench(xi, &end);
-        let section = self.taper.at(xi);
-        let (young, shear) = (self.material.young(), self.material.shear());
-        let sheared = |area: Option<f64>, force: f64| area.map_or(0.0, |a| force / (shear * a));
-        SectionStrain {
-            axial: wrench[0] / (young * section.area()),
-            shear_y: sheared(section.shear_y(), wrench[1]),
-            shear_z: sheared(section.shear_z(), wrench[2]),
-            twist: wrench[3] / (shear * section.torsion()),
-            curvature_y: wrench[4] / (young * section.iy()),
-            curvature_z: wrench[5] / (young * section.iz()),
-        }
+        SectionStrain::from(self.section_compliance_at(xi).component_mul(&wrench))
     }
 
     /// Flexibility of the part from node 1 to `end` (0 to 1).
@@ -247,28 +229,60 @@ impl TaperedBeam {
     /// Flexibility of one interval of the taper, by Gauss's rule.
     fn interval(&self, first: f64, last: f64) -> Flexibility {
         let (young, shear) = (self.material.young(), self.material.shear());
-        let (middle, half) = ((first + last) / 2.0, (last - first) / 2.0);
         let mut out = Flexibility::default();
-        for (node, weight) in GAUSS {
-            for xi in [middle - half * node, middle + half * node] {
-                let section = self.taper.at(xi);
-                let dx = weight * half * self.length;
-                out.axial += dx / (young * section.area());
-                out.torsional += dx / (shear * section.torsion());
-                let planes = [
-                    (section.iz(), section.shear_y()),
-                    (section.iy(), section.shear_z()),
-                ];
-                for (plane, (inertia, shear_area)) in out.planes.iter_mut().zip(planes) {
-                    let slice = Plane {
-                        turn: dx / (young * inertia),
-                        centre: xi * self.length,
-                        deflection: shear_area.map_or(0.0, |area| dx / (shear * area)),
-                    };
-                    *plane = plane.joined(slice);
-                }
+        gauss(first, last, |xi, weight| {
+            let section = self.taper.at(xi);
+            let dx = weight * self.length;
+            out.axial += dx / (young * section.area());
+            out.torsional += dx / (shear * section.torsion());
+            let planes = [
+                (section.iz(), section.shear_y()),
+                (section.iy(), section.shear_z()),
+            ];
+            for (plane, (inertia, shear_area)) in out.planes.iter_mut().zip(planes) {
+                let slice = Plane {
+                    turn: dx / (young * inertia),
+                    centre: xi * self.length,
+                    deflection: shear_area.map_or(0.0, |area| dx / (shear * area)),
+                };
+                *plane = plane.joined(slice);
             }
-        }
+        });
         out
+    }
+}
+
+impl StraightBeam for TaperedBeam {
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn cantilever_stiffness(&self) -> Matrix6<f64> {
+        self.cantilever_stiffness()
+    }
+
+    fn shape(&self, xi: f64) -> Matrix6<f64> {
+        let part = self.flexibility(xi);
+        let units = Matrix6::identity();
+        let column = |k: usize| self.bent(&part, xi, &units.column(k).into());
+        Matrix6::from_columns(&[0, 1, 2, 3, 4, 5].map(column))
+    }
+
+    fn section_compliance_at(&self, xi: f64) -> Vector6<f64> {
+        let section = self.taper.at(xi);
+        let (young, shear) = (self.material.young(), self.material.shear());
+        let sheared = |area: Option<f64>| area.map_or(0.0, |a| 1.0 / (shear * a));
+        Vector6::new(
+            1.0 / (young * section.area()),
+            sheared(section.shear_y()),
+            sheared(section.shear_z()),
+            1.0 / (shear * section.torsion()),
+            1.0 / (young * section.iy()),
+            1.0 / (young * section.iz()),
+        )
+    }
+
+    fn intervals(&self, end: f64, visit: &mut dyn FnMut(f64, f64)) {
+        self.taper.intervals(end, visit);
     }
 }

@@ -1,5 +1,7 @@
 //! Beams whose section changes along them: closed forms, prismatic limits, parts and curves.
 
+mod support;
+
 use std::f64::consts::PI;
 
 use hyperstat_elements::subassembly::{ChainSegment, chain_flexibility};
@@ -10,20 +12,13 @@ use hyperstat_elements::{
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use proptest::prelude::*;
 
+use support::random::{self, circle, rectangle};
+
 const YOUNG: f64 = 2.1e11;
 const SHEAR: f64 = 8e10;
 
 fn steel() -> Material {
     Material::new(YOUNG, Elasticity::Shear(SHEAR), None).unwrap()
-}
-
-fn circle(diameter: f64) -> Section {
-    Section::new(SectionShape::Circle { diameter }, None, None).unwrap()
-}
-
-fn rectangle(width: f64, height: f64, shear: Option<f64>) -> Section {
-    let area = shear.map(|ratio| ratio * width * height);
-    Section::new(SectionShape::Rectangle { width, height }, area, area).unwrap()
 }
 
 fn beam(from: Section, to: Section, length: f64) -> TaperedBeam {
@@ -105,44 +100,9 @@ fn a_wedge_follows_the_closed_form() {
     near(sheared.cantilever_compliance()[(1, 1)], in_y + shear);
 }
 
-fn shape() -> impl Strategy<Value = (Section, Section)> {
-    let size = || 0.003..0.1;
-    let shear = proptest::option::of(0.4..0.9);
-    prop_oneof![
-        (size(), size()).prop_map(|(a, b)| (circle(a), circle(b))),
-        (size(), size(), 0.0..0.99, 0.0..0.99).prop_map(|(a, b, p, q)| {
-            let tube = |outer: f64, part: f64| SectionShape::Tube {
-                outer,
-                inner: part * outer,
-            };
-            let section = |shape| Section::new(shape, None, None).unwrap();
-            (section(tube(a, p)), section(tube(b, q)))
-        }),
-        ([size(), size(), size(), size()], shear).prop_map(|([a, b, c, d], shear)| (
-            rectangle(a, b, shear),
-            rectangle(c, d, shear.map(|s| 0.7 * s))
-        )),
-        (size(), size(), 0.5..2.0).prop_map(|(a, b, p)| {
-            let section = |d: f64, p: f64| {
-                let shape = SectionShape::General {
-                    area: d * d,
-                    iy: d.powi(4) / 12.0,
-                    iz: p * d.powi(4) / 10.0,
-                    torsion: d.powi(4) / 7.0,
-                    y_max: None,
-                    z_max: None,
-                    torsion_modulus: None,
-                };
-                Section::new(shape, Some(0.8 * d * d), None).unwrap()
-            };
-            (section(a, 1.0), section(b, p))
-        }),
-    ]
-}
-
 proptest! {
     #[test]
-    fn no_change_of_section_is_a_prismatic_beam((section, _) in shape(), length in 0.01..5.0) {
+    fn no_change_of_section_is_a_prismatic_beam((section, _) in random::section_ends(), length in 0.01..5.0) {
         let prismatic = Beam::new(&steel(), &section, length).unwrap();
         let tapered = beam(section.clone(), section, length);
         let (c, k) = (tapered.cantilever_compliance(), tapered.cantilever_stiffness());
@@ -160,7 +120,7 @@ proptest! {
     /// The chain of its two parts is the beam, whatever the place where it is cut: two different
     /// sums of intervals.
     #[test]
-    fn two_parts_make_the_whole((from, to) in shape(), cut in 0.05..0.95, length in 0.05..3.0) {
+    fn two_parts_make_the_whole((from, to) in random::section_ends(), cut in 0.05..0.95, length in 0.05..3.0) {
         let whole = beam(from.clone(), to.clone(), length);
         let taper = Taper::new(from, to).unwrap();
         let part = |a: f64, b: f64| {
@@ -176,7 +136,7 @@ proptest! {
     }
 
     #[test]
-    fn stiffness_inverts_the_compliance((from, to) in shape(), length in 0.05..3.0) {
+    fn stiffness_inverts_the_compliance((from, to) in random::section_ends(), length in 0.05..3.0) {
         let beam = beam(from, to, length);
         let (c, k) = (beam.cantilever_compliance(), beam.cantilever_stiffness());
         let scale = c.diagonal().map(f64::sqrt);
@@ -191,7 +151,7 @@ proptest! {
 
     /// Turned about z, the beam from its other end has the compliance that equilibrium gives it.
     #[test]
-    fn reversed_beam_is_the_same_beam((from, to) in shape(), length in 0.05..3.0) {
+    fn reversed_beam_is_the_same_beam((from, to) in random::section_ends(), length in 0.05..3.0) {
         let there = beam(from.clone(), to.clone(), length);
         let back = there.reversed();
         let anew = beam(to, from, length);
@@ -210,7 +170,7 @@ proptest! {
 
     /// The elastic curve: its ends are the nodes, its slopes and strains those of the sections.
     #[test]
-    fn elastic_curve_and_strains_agree((from, to) in shape(), xi in 0.02..0.98) {
+    fn elastic_curve_and_strains_agree((from, to) in random::section_ends(), xi in 0.02..0.98) {
         let length = 0.4;
         let beam = beam(from, to, length);
         let wrench = Vector6::new(300.0, -20.0, 35.0, 4.0, 3.0, -7.0);

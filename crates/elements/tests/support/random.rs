@@ -2,7 +2,8 @@
 
 use hyperstat_elements::subassembly::ElasticJoint;
 use hyperstat_elements::{
-    Beam, Elasticity, Material, Section, SectionShape, element_frame, rotate_matrix6,
+    Beam, BeamLoad, Elasticity, Material, Section, SectionShape, Taper, TaperedBeam,
+    TemperatureChange, element_frame, rotate_matrix6,
 };
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 use proptest::prelude::*;
@@ -61,6 +62,73 @@ pub fn beam() -> impl Strategy<Value = Beam> {
     ];
     (shape, shear_area(), shear_area(), 0.05..1.0).prop_map(|(shape, y, z, length)| {
         Beam::new(&steel(), &Section::new(shape, y, z).unwrap(), length).unwrap()
+    })
+}
+
+/// The sections at the two ends of a tapered beam, of every kind.
+pub fn section_ends() -> impl Strategy<Value = (Section, Section)> {
+    let size = || 0.003..0.1;
+    let shear = proptest::option::of(0.4..0.9);
+    prop_oneof![
+        (size(), size()).prop_map(|(a, b)| (circle(a), circle(b))),
+        (size(), size(), 0.0..0.99, 0.0..0.99).prop_map(|(a, b, p, q)| {
+            let tube = |outer: f64, part: f64| SectionShape::Tube {
+                outer,
+                inner: part * outer,
+            };
+            let section = |shape| Section::new(shape, None, None).unwrap();
+            (section(tube(a, p)), section(tube(b, q)))
+        }),
+        ([size(), size(), size(), size()], shear).prop_map(|([a, b, c, d], shear)| (
+            rectangle(a, b, shear),
+            rectangle(c, d, shear.map(|s| 0.7 * s))
+        )),
+        (size(), size(), 0.5..2.0).prop_map(|(a, b, p)| {
+            let section = |d: f64, p: f64| {
+                let shape = SectionShape::General {
+                    area: d * d,
+                    iy: d.powi(4) / 12.0,
+                    iz: p * d.powi(4) / 10.0,
+                    torsion: d.powi(4) / 7.0,
+                    y_max: None,
+                    z_max: None,
+                    torsion_modulus: None,
+                };
+                Section::new(shape, Some(0.8 * d * d), None).unwrap()
+            };
+            (section(a, 1.0), section(b, p))
+        }),
+    ]
+}
+
+pub fn circle(diameter: f64) -> Section {
+    Section::new(SectionShape::Circle { diameter }, None, None).unwrap()
+}
+
+/// A rectangle with effective shear areas of this part of its area along both axes.
+pub fn rectangle(width: f64, height: f64, shear: Option<f64>) -> Section {
+    let area = shear.map(|ratio| ratio * width * height);
+    Section::new(SectionShape::Rectangle { width, height }, area, area).unwrap()
+}
+
+/// Tapered beams of steel.
+pub fn tapered_beam() -> impl Strategy<Value = TaperedBeam> {
+    (section_ends(), 0.05..1.0).prop_map(|((from, to), length)| {
+        TaperedBeam::new(&steel(), &Taper::new(from, to).unwrap(), length).unwrap()
+    })
+}
+
+/// A distributed load of quadratic forces and moments, and a free strain of temperature.
+pub fn load() -> impl Strategy<Value = BeamLoad> {
+    let change = [-50.0..50.0, -2e3..2e3, -2e3..2e3f64];
+    let controls = [displacement(), displacement(), displacement()];
+    (controls, change).prop_map(|(controls, [uniform, gradient_y, gradient_z])| {
+        let change = TemperatureChange {
+            uniform,
+            gradient_y,
+            gradient_z,
+        };
+        BeamLoad::quadratic(controls.map(|c| c * 1e3)) + BeamLoad::temperature(1.2e-5, &change)
     })
 }
 

@@ -11,20 +11,25 @@
 //! | rectangle | at a corner, exact | middle of a long side, Roark's series | bound from above: the two peak at different points |
 //! | general | bound from above, as if a corner lay at (y_max, z_max) | \|T\| / torsion modulus | bound from above |
 //!
+//! [`stress_parts`] has the parts of these stresses apart, and the shear stress of the shear
+//! forces too.
+//!
 //! Without loads between its nodes a beam's section wrench is linear along it, so the largest
 //! stresses of a prismatic beam are at its ends; where the section changes they may be anywhere,
-//! and [`largest_stress`] searches for them.
+//! and with distributed loads too: [`stress_along`] finds the largest and where they are.
 
-use nalgebra::{Vector3, Vector6};
+mod along;
+mod parts;
+mod search;
 
-use crate::frame::transport;
+pub use along::{BeamStress, Peak, stress_along};
+pub use parts::{StressParts, stress_parts};
+
+use nalgebra::Vector6;
+
+use crate::load::BeamLoad;
 use crate::section::{Section, SectionShape};
 use crate::taper::Taper;
-
-/// Places along a beam of changing section that are looked at first.
-const PLACES: usize = 256;
-/// Steps of the search about the best of them, each of which leaves 0.62 of the interval.
-const STEPS: usize = 40;
 
 /// Largest stresses over a section \[Pa\], all positive or zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,42 +76,12 @@ pub fn largest_stress(
     length: f64,
     end_wrench: &Vector6<f64>,
 ) -> Option<SectionStress> {
-    let at = |xi: f64| {
-        let arm = Vector3::new(length * (1.0 - xi), 0.0, 0.0);
-        section_stress(&taper.at(xi), &(transport(&arm).transpose() * end_wrench))
-    };
-    section_stress(taper.from(), end_wrench)?;
-    let largest = |stress: fn(&SectionStress) -> f64| {
-        maximum(|xi| at(xi).map_or(0.0, |found| stress(&found)))
-    };
+    let found = stress_along(taper, length, end_wrench, &BeamLoad::none())?;
     Some(SectionStress {
-        normal: largest(|s| s.normal),
-        shear: largest(|s| s.shear),
-        von_mises: largest(|s| s.von_mises),
+        normal: found.normal.value,
+        shear: found.torsional.value,
+        von_mises: found.von_mises.value,
     })
-}
-
-/// The largest value of a function on 0 to 1: the best of many places, refined by golden section.
-fn maximum(value: impl Fn(f64) -> f64) -> f64 {
-    let place = |k: usize| k as f64 / PLACES as f64;
-    let best = (0..=PLACES).max_by(|a, b| value(place(*a)).total_cmp(&value(place(*b))));
-    let best = best.unwrap_or(0);
-    let golden = (5f64.sqrt() - 1.0) / 2.0;
-    let mut low = place(best.saturating_sub(1));
-    let mut high = place((best + 1).min(PLACES));
-    let mut largest = value(place(best));
-    for _ in 0..STEPS {
-        let width = golden * (high - low);
-        let (left, right) = (high - width, low + width);
-        let (at_left, at_right) = (value(left), value(right));
-        largest = largest.max(at_left).max(at_right);
-        if at_left > at_right {
-            high = right;
-        } else {
-            low = left;
-        }
-    }
-    largest
 }
 
 #[cfg(test)]
