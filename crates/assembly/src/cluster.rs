@@ -93,6 +93,41 @@ pub(crate) fn absorbed_joint(
     }
 }
 
+/// The absorbed joints of a cluster with their nodes' places, in the cluster's axes.
+pub(crate) fn local_joints(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    cluster: &Cluster,
+    to_local: &Rotation3<f64>,
+) -> Vec<(usize, JointId, ElasticJoint)> {
+    let joints = cluster.joints.iter().enumerate();
+    let joints = joints.filter_map(|(node, joint)| Some((node, (*joint)?)));
+    joints
+        .map(|(node, joint)| {
+            let elastic = absorbed_joint(plan, model, geometry, joint);
+            (node, joint, seen_from(to_local, &elastic))
+        })
+        .collect()
+}
+
+/// A joint in the axes that `to_local` turns into.
+fn seen_from(to_local: &Rotation3<f64>, joint: &ElasticJoint) -> ElasticJoint {
+    ElasticJoint {
+        frame: to_local * joint.frame,
+        ..joint.clone()
+    }
+}
+
+/// The beam of a segment, by its rigidities, where it is prismatic; of any length.
+pub(crate) fn prismatic_beam(model: &Model, id: SegmentId) -> Option<Beam> {
+    let segment = &model.segments()[id.0];
+    match segment.change_of_section() {
+        Ok(None) => Beam::new(&segment.material, &segment.section, 1.0).ok(),
+        _ => None,
+    }
+}
+
 /// Forms the operator and the stiffness of a cluster's element, and its initial deformations.
 pub(crate) fn cluster_element(
     plan: &Plan,
@@ -108,6 +143,40 @@ pub(crate) fn cluster_element(
         *arm = geometry.positions[node.0] - base;
     }
     operator(plan, element, &to_local, workspace);
+    stiffness(
+        plan, element, cluster, &to_local, model, geometry, workspace,
+    )
+}
+
+/// Forms the stiffness of a cluster's element alone.
+pub(crate) fn cluster_stiffness(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let to_local = cluster_frame(cluster, geometry)?.inverse();
+    let base = geometry.positions[cluster.nodes[0].0];
+    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
+        *arm = geometry.positions[node.0] - base;
+    }
+    stiffness(
+        plan, element, cluster, &to_local, model, geometry, workspace,
+    )
+}
+
+/// The stiffness of a cluster's element and its initial deformations; the workspace has the arms.
+fn stiffness(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    to_local: &Rotation3<f64>,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
     let rows = element.rows;
     let start = element.stiffness_start;
     let stiffness = &mut workspace.stiffnesses[start..start + rows * rows];
@@ -116,14 +185,12 @@ pub(crate) fn cluster_element(
             let held = model.flexibles()[id.0].element.held_stiffness();
             stiffness.copy_from_slice(held.as_slice());
         }
-        None => run_stiffness(cluster, &to_local, model, geometry, stiffness)?,
+        None => run_stiffness(cluster, to_local, model, geometry, stiffness)?,
     }
     if cluster.joints.iter().all(Option::is_none) {
         return Ok(());
     }
-    absorb(
-        plan, element, cluster, &to_local, model, geometry, workspace,
-    )
+    absorb(plan, element, cluster, to_local, model, geometry, workspace)
 }
 
 /// D: displacements of the nodes after the first relative to it, in the cluster's axes.
@@ -220,10 +287,7 @@ fn absorb(
     for (r, joint) in cluster.joints.iter().enumerate() {
         let Some(joint) = joint else { continue };
         let elastic = absorbed_joint(plan, model, geometry, *joint);
-        let local = ElasticJoint {
-            frame: to_local * elastic.frame,
-            ..elastic.clone()
-        };
+        let local = seen_from(to_local, &elastic);
         workspace.factors[absorbed].node = r;
         workspace.factors[absorbed].factor = local.factor();
         absorbed += 1;

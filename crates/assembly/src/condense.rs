@@ -6,6 +6,8 @@
 //! `Hᵀ F − Dᵀ k (D U + δ₀)`: the first correction is the plain solution, the others are refinement
 //! (the book, "Refinement").
 
+use std::ops::Range;
+
 use nalgebra::{Matrix6, Vector6};
 
 use crate::coordinates::read;
@@ -19,6 +21,10 @@ const MOST_REFINEMENTS: usize = 6;
 const TRUSTED: f64 = 1e-6;
 /// Column of the model's loads.
 pub(crate) const LOADS: usize = COLUMNS - 1;
+/// That column alone.
+pub(crate) const LOADED: Range<usize> = LOADS..COLUMNS;
+/// All columns.
+const ALL: Range<usize> = 0..COLUMNS;
 
 impl Plan {
     /// Factors the inner stiffness with `pins` held and finds all columns of the solutions,
@@ -43,12 +49,12 @@ impl Plan {
                 workspace.solutions[k * self.unknowns + self.inner + k] = 1.0;
             }
         }
-        self.residuals(workspace);
-        self.correct(workspace, pins);
+        self.residuals(workspace, ALL);
+        self.correct(workspace, pins, ALL);
         let mut last = f64::INFINITY;
         for _ in 0..MOST_REFINEMENTS {
-            self.residuals(workspace);
-            let change = self.correct(workspace, pins);
+            self.residuals(workspace, ALL);
+            let change = self.correct(workspace, pins, ALL);
             let settled = change < enough || change > 0.5 * last;
             last = change;
             if settled {
@@ -62,8 +68,8 @@ impl Plan {
         }
     }
 
-    /// Residuals `Hᵀ F − Dᵀ k (D U + δ₀)` of all columns, and their energies.
-    pub(crate) fn residuals(&self, workspace: &mut Workspace) {
+    /// Residuals `Hᵀ F − Dᵀ k (D U + δ₀)` of some columns, and their energies.
+    pub(crate) fn residuals(&self, workspace: &mut Workspace, which: Range<usize>) {
         let n = self.unknowns;
         let Workspace {
             operators,
@@ -77,17 +83,20 @@ impl Plan {
             forces,
             ..
         } = workspace;
-        residuals.copy_from_slice(loads);
-        energies.fill(0.0);
+        let places = n * which.start..n * which.end;
+        residuals[places.clone()].copy_from_slice(&loads[places]);
+        energies[which.clone()].fill(0.0);
         for element in &self.elements {
             let (rows, count) = (element.rows, element.columns.len());
             let d = &operators[element.operator_start..element.operator_start + rows * count];
             let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
-            let deformations = &mut scratch[..rows * COLUMNS];
+            let deformations = &mut scratch[..rows * which.len()];
             deformations.fill(0.0);
-            deformations[rows * LOADS..]
-                .copy_from_slice(&initial[element.initial_start..element.initial_start + rows]);
-            for (c, deformation) in deformations.chunks_exact_mut(rows).enumerate() {
+            for (c, deformation) in which.clone().zip(deformations.chunks_exact_mut(rows)) {
+                if c == LOADS {
+                    let start = element.initial_start;
+                    deformation.copy_from_slice(&initial[start..start + rows]);
+                }
                 for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
                     let u = solutions[c * n + idc];
                     if u != 0.0 {
@@ -97,10 +106,13 @@ impl Plan {
                     }
                 }
             }
-            let forces = &mut forces[..rows * COLUMNS];
+            let forces = &mut forces[..rows * which.len()];
             multiply(k, deformations, rows, forces);
-            for (c, force) in forces.chunks_exact(rows).enumerate() {
-                energies[c] += dot(&deformations[rows * c..rows * (c + 1)], force);
+            let parts = deformations
+                .chunks_exact(rows)
+                .zip(forces.chunks_exact(rows));
+            for (c, (deformation, force)) in which.clone().zip(parts) {
+                energies[c] += dot(deformation, force);
                 for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
                     residuals[c * n + idc] -= dot(d_column, force);
                 }
@@ -108,28 +120,31 @@ impl Plan {
         }
     }
 
-    /// Corrects the inner part of all columns by their residuals; returns the largest relative
+    /// Corrects the inner part of some columns by their residuals; returns the largest relative
     /// change, coordinates weighted by their stiffness.
-    pub(crate) fn correct(&self, workspace: &mut Workspace, pins: &[usize]) -> f64 {
+    pub(crate) fn correct(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        which: Range<usize>,
+    ) -> f64 {
         let (n, inner) = (self.unknowns, self.inner);
         if inner == 0 {
             return 0.0;
         }
-        for c in 0..COLUMNS {
-            let target = &mut workspace.right_sides[c * inner..(c + 1) * inner];
+        let right_sides = &mut workspace.right_sides[..inner * which.len()];
+        for (c, target) in which.clone().zip(right_sides.chunks_exact_mut(inner)) {
             target.copy_from_slice(&workspace.residuals[c * n..c * n + inner]);
             for &pin in pins {
                 target[pin] = 0.0;
             }
         }
-        self.pattern
-            .solve(&mut workspace.factor, &mut workspace.right_sides);
+        self.pattern.solve(&mut workspace.factor, right_sides);
         let mut largest = 0.0_f64;
-        for c in 0..COLUMNS {
+        for (c, steps) in which.zip(right_sides.chunks_exact(inner)) {
             let mut moved = 0.0;
             let mut whole = 0.0;
-            for k in 0..inner {
-                let step = workspace.right_sides[c * inner + k];
+            for (k, step) in steps.iter().enumerate() {
                 let entry = &mut workspace.solutions[c * n + k];
                 *entry += step;
                 let weight = self.pattern.diagonal(k, &workspace.values);
@@ -188,7 +203,7 @@ impl Plan {
     /// The loads' force on the output: what holds it where it is, from the residual of the loads'
     /// column with the output clamped.
     pub(crate) fn output_force(&self, workspace: &mut Workspace) -> Vector6<f64> {
-        self.residuals(workspace);
+        self.residuals(workspace, LOADED);
         let n = self.unknowns;
         let residual = &workspace.residuals[LOADS * n..(LOADS + 1) * n];
         let on_output = read(residual, self.inner);
@@ -208,7 +223,7 @@ impl Plan {
         let (n, inner) = (self.unknowns, self.inner);
         let step = compliance.map(|c| c * self.output_force(workspace));
         if step.is_none() {
-            self.residuals(workspace);
+            self.residuals(workspace, LOADED);
         }
         let right_side = &mut workspace.right_sides[..inner];
         right_side.copy_from_slice(&workspace.residuals[LOADS * n..LOADS * n + inner]);

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::directions::to_directions;
 use crate::elimination::Elimination;
-use crate::kinematics::condition_rows;
+use crate::jacobian::condition_rows;
 use crate::model::{Geometry, Model, NodeId};
 use crate::topology::{Component, Topology};
 

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 /// Pivots up to this are zero: coordinates are typed to six digits or more.
 pub(crate) const RANK_TOLERANCE: f64 = 1e-6;
 /// Pivots in this range leave a doubt about the rank that the user should know of.
-const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
+pub(crate) const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
 /// While a pivot this large is left outside the spared coordinates, those are spared.
 const SPARING: f64 = 1e-3;
 

@@ -4,12 +4,13 @@
 //! mechanism's size and every condition is a unit row, so that zero and not zero are far apart
 //! (measured: zeros stay below 1e-15, non-zeros above 1e-4) and one tolerance serves all counts.
 
-use hyperstat_joints::{Dof, DofSet, rigid_motion};
-use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector3, Vector6};
+use hyperstat_joints::{Dof, rigid_motion};
+use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::directions::{Directions, to_directions};
-use crate::elimination::{Elimination, RANK_TOLERANCE};
-use crate::model::{BodyId, BodyKind, Connection, Geometry, JointId, Model, NodeId};
+use crate::elimination::RANK_TOLERANCE;
+use crate::jacobian::Jacobian;
+use crate::model::{BodyId, BodyKind, Geometry, JointId, Model, NodeId};
 use crate::solution::Motion;
 
 /// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.
@@ -38,25 +39,18 @@ pub fn analyse(model: &Model) -> Kinematics {
 
 /// [`analyse`] in another configuration.
 pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
-    let released = Jacobian::released(model, geometry);
-    let constraints = released.rows.len();
-    let released = released.eliminated();
+    let constraints = Jacobian::released(model, geometry);
+    let released = constraints.eliminated();
     let conditions = Jacobian::held(model, geometry);
     let held = conditions.eliminated();
     let size = characteristic_length(geometry);
-    let nearly_free = held.doubtful.and_then(|_| {
-        let column = conditions.nearly_free()?;
-        Some(motion(model, size, &column))
-    });
-    let motions = echelon(held.null_space())
-        .iter()
-        .map(|column| motion(model, size, column))
-        .collect();
+    let nearly_free = held.doubtful().and_then(|_| conditions.nearly_free(size));
+    let motions = conditions.motions(&held, size);
     Kinematics {
         mobility: 6 * model.bodies().len() - released.rank(),
-        overconstraint: constraints - released.rank(),
+        overconstraint: constraints.directions.len() - released.rank(),
         motions,
-        doubtful: held.doubtful.or(released.doubtful),
+        doubtful: held.doubtful().or(released.doubtful()),
         nearly_free,
     }
 }
@@ -74,128 +68,6 @@ pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
     }
     let diagonal = (high - low).norm();
     if diagonal > 0.0 { diagonal } else { 1.0 }
-}
-
-/// Unit rows of a joint's conditions on the relative twist at the joint, in global axes with
-/// translations over `size`.
-pub(crate) fn condition_rows(
-    to_directions: &Matrix6<f64>,
-    set: DofSet,
-    size: f64,
-) -> impl Iterator<Item = RowVector6<f64>> {
-    let local = *to_directions;
-    set.iter().map(move |dof| {
-        let mut row = local.row(dof.index()).into_owned();
-        for c in 0..3 {
-            row[c] *= size;
-        }
-        let norm = row.norm();
-        row / norm
-    })
-}
-
-/// Conditions on the scaled twists of all bodies, sparse by rows.
-pub(crate) struct Jacobian {
-    columns: usize,
-    rows: Vec<Vec<(usize, RowVector6<f64>)>>,
-    /// Joint and direction of every row.
-    pub directions: Vec<(JointId, Dof)>,
-}
-
-impl Jacobian {
-    /// Rows of the directions that every joint constrains by kind.
-    pub fn released(model: &Model, geometry: &Geometry) -> Self {
-        Self::new(model, geometry, |joint, local, size| {
-            let set = joint.joint.free().complement();
-            let rows = condition_rows(local, set, size);
-            set.iter().zip(rows).collect()
-        })
-    }
-
-    /// Rows of the rigid and elastic directions of every joint.
-    pub fn held(model: &Model, geometry: &Geometry) -> Self {
-        Self::new(model, geometry, |joint, local, size| {
-            let held = Directions::of(joint);
-            let rigid = held.rigid.iter();
-            let rigid = rigid.zip(condition_rows(local, held.rigid, size));
-            let elastic = held.elastic.iter().zip(elastic_rows(local, &held, size));
-            rigid.chain(elastic).collect()
-        })
-    }
-
-    /// Rows of every joint by `conditions`, which gets the joint, the map from a relative twist to
-    /// its directions, and the mechanism's size.
-    fn new(
-        model: &Model,
-        geometry: &Geometry,
-        conditions: impl Fn(&Connection, &Matrix6<f64>, f64) -> Vec<(Dof, RowVector6<f64>)>,
-    ) -> Self {
-        let size = characteristic_length(geometry);
-        let mut rows = Vec::new();
-        let mut directions = Vec::new();
-        for (k, joint) in model.joints().iter().enumerate() {
-            let local = to_directions(&joint.joint.basis(), &geometry.frames[k]);
-            for (dof, condition) in conditions(joint, &local, size) {
-                let mut row = Vec::with_capacity(2);
-                for (node, sign) in joint.between.iter().zip([1.0, -1.0]) {
-                    let Some(node) = node else { continue };
-                    let body = model.nodes()[node.0].body;
-                    let origin = model.bodies()[body.0].nodes[0];
-                    let arm = geometry.positions[node.0] - geometry.positions[origin.0];
-                    row.push((body.0, condition * rigid_motion(&(arm / size)) * sign));
-                }
-                rows.push(row);
-                directions.push((JointId(k), dof));
-            }
-        }
-        Self {
-            columns: 6 * model.bodies().len(),
-            rows,
-            directions,
-        }
-    }
-
-    /// The conditions as a matrix, six columns a body.
-    pub fn dense(&self) -> DMatrix<f64> {
-        let mut dense = DMatrix::zeros(self.rows.len(), self.columns);
-        for (r, row) in self.rows.iter().enumerate() {
-            for (body, entries) in row {
-                let mut view = dense.fixed_view_mut::<1, 6>(r, 6 * body);
-                view += entries;
-            }
-        }
-        dense
-    }
-
-    pub fn eliminated(&self) -> Elimination {
-        Elimination::new(self.dense(), 0)
-    }
-
-    /// With doubtful conditions left out, the motion that breaks them most.
-    fn nearly_free(&self) -> Option<DVector<f64>> {
-        let conditions = self.dense();
-        let basis = echelon(Elimination::without_doubtful(conditions.clone()).null_space());
-        basis
-            .into_iter()
-            .map(|motion| ((&conditions * &motion).amax(), motion))
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, motion)| motion)
-    }
-}
-
-/// Rows that a motion must satisfy for the elastic directions to take no energy.
-fn elastic_rows(local: &Matrix6<f64>, directions: &Directions, size: f64) -> Vec<RowVector6<f64>> {
-    if directions.compliance.is_some() {
-        return condition_rows(local, directions.elastic, size).collect();
-    }
-    // Rows of `k q`, each of unit length: its null space is that of k.
-    let k = &directions.stiffness;
-    let mut scaled = *local;
-    scaled.fixed_columns_mut::<3>(0).scale_mut(size);
-    let elastic = directions.elastic.iter();
-    elastic
-        .map(|dof| (k.row(dof.index()) * scaled).normalize())
-        .collect()
 }
 
 /// A basis of the same space in reduced echelon form by complete pivoting: motions of few bodies
@@ -233,20 +105,6 @@ pub(crate) fn echelon(mut basis: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     basis
 }
 
-/// The motion of a column of scaled twists: translations back in metres.
-fn motion(model: &Model, size: f64, column: &DVector<f64>) -> Motion {
-    let twists = (0..model.bodies().len()).filter_map(|b| {
-        let mut twist: Vector6<f64> = column.fixed_rows::<6>(6 * b).into_owned();
-        for k in 0..3 {
-            twist[k] *= size;
-        }
-        (twist.amax() > 0.0).then_some((BodyId(b), twist))
-    });
-    Motion {
-        twists: twists.collect(),
-    }
-}
-
 /// The displacement of a node under a motion.
 pub(crate) fn node_twist(
     motion: &Motion,
@@ -255,14 +113,20 @@ pub(crate) fn node_twist(
     node: usize,
 ) -> Vector6<f64> {
     let body = model.nodes()[node].body;
-    let Some((_, twist)) = motion.twists.iter().find(|(b, _)| *b == body) else {
+    let Ok(place) = motion.twists.binary_search_by_key(&body, |(b, _)| *b) else {
         return Vector6::zeros();
     };
+    let twist = motion.twists[place].1;
     let origin = model.bodies()[body.0].nodes[0];
     rigid_motion(&(geometry.positions[node] - geometry.positions[origin.0])) * twist
 }
 
 impl Motion {
+    /// The motion in words, such as "`rod3` turns about (0, 0.6, 0.8) through rod3.B".
+    pub fn describe(&self, model: &Model) -> String {
+        describe(self, model, characteristic_length(model.geometry()))
+    }
+
     /// The free directions of joints along which the motion goes, in the order of the joints. A
     /// drive that holds any one of them stops this motion.
     pub fn free_directions(&self, model: &Model) -> Vec<(JointId, Dof)> {
@@ -286,14 +150,21 @@ impl Motion {
     }
 }
 
-/// A motion in words.
-pub(crate) fn describe(motion: &Motion, model: &Model) -> String {
+/// Motions in words, as [`Motion::describe`] puts one.
+pub fn describe_motions(motions: &[Motion], model: &Model) -> Vec<String> {
+    let size = characteristic_length(model.geometry());
+    let in_words = |motion| describe(motion, model, size);
+    motions.iter().map(in_words).collect()
+}
+
+/// A motion of a mechanism of this size in words.
+fn describe(motion: &Motion, model: &Model, size: f64) -> String {
     const SHOWN: usize = 4;
     let mut parts: Vec<String> = motion
         .twists
         .iter()
         .take(SHOWN)
-        .map(|(body, twist)| describe_body(*body, twist, model))
+        .map(|(body, twist)| describe_body(*body, twist, model, size))
         .collect();
     if motion.twists.len() > SHOWN {
         parts.push(format!(
@@ -304,9 +175,8 @@ pub(crate) fn describe(motion: &Motion, model: &Model) -> String {
     parts.join("; ")
 }
 
-fn describe_body(body: BodyId, twist: &Vector6<f64>, model: &Model) -> String {
+fn describe_body(body: BodyId, twist: &Vector6<f64>, model: &Model, size: f64) -> String {
     let geometry = model.geometry();
-    let size = characteristic_length(geometry);
     let entry = &model.bodies()[body.0];
     let name = &entry.name;
     let (v, w) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));

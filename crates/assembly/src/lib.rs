@@ -16,7 +16,9 @@ mod coordinates;
 mod directions;
 mod elimination;
 mod error;
+mod jacobian;
 mod kinematics;
+mod lanes;
 mod model;
 mod numeric;
 mod parts;
@@ -27,10 +29,12 @@ mod restraint;
 mod solution;
 mod solve;
 mod sparse;
+mod sparse_elimination;
 mod topology;
 
 pub use error::{ModelError, SolveError};
-pub use kinematics::{Kinematics, analyse};
+pub use kinematics::{Kinematics, analyse, describe_motions};
+pub use lanes::{LANES, Lanes};
 pub use model::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
     Load, Member, Model, Node, NodeId, Segment, SegmentId,

@@ -1,5 +1,7 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
+use std::collections::{HashMap, HashSet};
+
 use hyperstat_elements::{FlexibleBody, Material, Section, element_frame};
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
@@ -23,6 +25,10 @@ pub struct Model {
     loads: Vec<Load>,
     output: Option<NodeId>,
     geometry: Geometry,
+    body_names: HashMap<String, BodyId>,
+    joint_names: HashSet<String>,
+    /// Nodes of every body by the name of their point, sorted.
+    by_point: Vec<Vec<NodeId>>,
 }
 
 impl Model {
@@ -43,6 +49,9 @@ impl Model {
                 frames: Vec::new(),
                 rotations: Vec::new(),
             },
+            body_names: HashMap::new(),
+            joint_names: HashSet::new(),
+            by_point: Vec::new(),
         }
     }
 
@@ -177,11 +186,12 @@ impl Model {
         if points.is_empty() {
             return Err(ModelError::NoPoints { body: name.into() });
         }
-        if self.bodies.iter().any(|b| b.name == name) {
+        if self.body_names.contains_key(name) {
             return Err(ModelError::RepeatedName { name: name.into() });
         }
-        for (k, (point, position)) in points.iter().enumerate() {
-            if points[..k].iter().any(|(other, _)| other == point) {
+        let mut seen = HashSet::with_capacity(points.len());
+        for (point, position) in points {
+            if !seen.insert(*point) {
                 return Err(ModelError::RepeatedPoint {
                     body: name.into(),
                     point: (*point).into(),
@@ -201,6 +211,10 @@ impl Model {
             });
             self.geometry.positions.push(*position);
         }
+        self.body_names.insert(name.into(), body);
+        let mut sorted = nodes.clone();
+        sorted.sort_unstable_by_key(|n: &NodeId| &self.nodes[n.0].point);
+        self.by_point.push(sorted);
         self.bodies.push(Body {
             name: name.into(),
             kind,
@@ -222,7 +236,7 @@ impl Model {
         frame: Rotation3<f64>,
     ) -> Result<JointId, ModelError> {
         let joint = || connection.name.clone();
-        if self.joints.iter().any(|j| j.name == connection.name) {
+        if self.joint_names.contains(&connection.name) {
             return Err(ModelError::RepeatedName { name: joint() });
         }
         let body = |n: Option<NodeId>| n.map(|n| self.nodes[n.0].body);
@@ -238,6 +252,7 @@ impl Model {
                 joint: joint(),
                 what,
             })?;
+        self.joint_names.insert(connection.name.clone());
         self.joints.push(connection);
         self.geometry.frames.push(frame);
         Ok(JointId(self.joints.len() - 1))
@@ -306,16 +321,21 @@ impl Model {
     }
     /// The body of this name.
     pub fn body(&self, name: &str) -> Option<BodyId> {
-        self.bodies.iter().position(|b| b.name == name).map(BodyId)
+        self.body_names.get(name).copied()
     }
     /// The node of `body` at `point`.
     pub fn node(&self, body: &str, point: &str) -> Option<NodeId> {
-        let body = self.body(body)?;
-        let nodes = &self.bodies[body.0].nodes;
-        nodes
-            .iter()
-            .copied()
-            .find(|n| self.nodes[n.0].point == point)
+        self.node_of(self.body(body)?, point)
+    }
+    /// The node of a body at `point`.
+    ///
+    /// # Panics
+    /// If the body is not one of this model.
+    pub fn node_of(&self, body: BodyId, point: &str) -> Option<NodeId> {
+        let nodes = &self.by_point[body.0];
+        let name = |n: &NodeId| self.nodes[n.0].point.as_str();
+        let place = nodes.binary_search_by(|n| name(n).cmp(point)).ok()?;
+        Some(nodes[place])
     }
     /// `body.point` of a node.
     pub fn node_name(&self, node: NodeId) -> String {
@@ -326,17 +346,17 @@ impl Model {
 
 /// A point that no chain of members connects with the first.
 fn loose_point(points: usize, members: &[Member]) -> Option<usize> {
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); points];
+    for member in members {
+        let [a, b] = member.ends;
+        neighbours[a].push(b);
+        neighbours[b].push(a);
+    }
     let mut connected = vec![false; points];
-    connected[0] = true;
-    let mut found = true;
-    while found {
-        found = false;
-        for member in members {
-            let [a, b] = member.ends;
-            if connected[a] != connected[b] {
-                (connected[a], connected[b]) = (true, true);
-                found = true;
-            }
+    let mut reached = vec![0];
+    while let Some(point) = reached.pop() {
+        if !std::mem::replace(&mut connected[point], true) {
+            reached.extend(&neighbours[point]);
         }
     }
     connected.iter().position(|connected| !connected)

@@ -10,7 +10,8 @@ use nalgebra::{Matrix6, Vector3};
 use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
-use crate::kinematics::{Jacobian, characteristic_length};
+use crate::jacobian::Jacobian;
+use crate::kinematics::characteristic_length;
 use crate::model::{BodyId, Geometry, JointId, Model, NodeId};
 use crate::sparse::{Factor, Pattern};
 use crate::topology::Topology;
@@ -246,10 +247,8 @@ impl Plan {
             columns,
             reduced_starts,
             reduced_len,
-            has_idle: !Jacobian::held(model, geometry)
-                .eliminated()
-                .independent
-                .is_empty(),
+            has_idle: Jacobian::held(model, geometry).eliminated().rank()
+                < 6 * model.bodies().len(),
             unknowns,
             inner,
             elements,
@@ -394,23 +393,24 @@ fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
 fn check_held(model: &Model, output: NodeId) -> Result<(), SolveError> {
     let body_of = |n: NodeId| model.nodes()[n.0].body.0;
     let count = model.bodies().len();
-    let mut held = vec![false; count];
-    held[body_of(output)] = true;
-    loop {
-        let before = held.iter().filter(|h| **h).count();
-        for joint in model.joints() {
-            if Directions::of(joint).free == DofSet::ALL {
-                continue;
-            }
-            let bodies = joint.between.map(|n| n.map(body_of));
-            if bodies.iter().any(|b| b.is_none_or(|b| held[b])) {
-                for body in bodies.into_iter().flatten() {
-                    held[body] = true;
-                }
-            }
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut reached = vec![body_of(output)];
+    for joint in model.joints() {
+        if Directions::of(joint).free == DofSet::ALL {
+            continue;
         }
-        if held.iter().filter(|h| **h).count() == before {
-            break;
+        match joint.between.map(|n| n.map(body_of)) {
+            [Some(a), Some(b)] => {
+                neighbours[a].push(b);
+                neighbours[b].push(a);
+            }
+            [a, b] => reached.extend(a.or(b)),
+        }
+    }
+    let mut held = vec![false; count];
+    while let Some(body) = reached.pop() {
+        if !std::mem::replace(&mut held[body], true) {
+            reached.extend(&neighbours[body]);
         }
     }
     let loose = (0..count).filter(|b| !held[*b]).map(BodyId);

@@ -10,8 +10,8 @@ use crate::directions::{rotation6, to_directions};
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
-use crate::model::{Geometry, Model, NodeId};
-use crate::numeric::{multiply, node_displacement, node_load};
+use crate::model::{Geometry, Model, NodeId, SegmentId};
+use crate::numeric::{multiply, node_displacement};
 use crate::plan::{Plan, Source, Workspace};
 use crate::solution::SegmentForces;
 
@@ -34,10 +34,12 @@ pub(crate) fn recover(
     let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
         .map(|n| node_displacement(plan, geometry, workspace, LOADS, NodeId(n)))
         .collect();
+    let loads = node_loads(model);
+    let all_forces = element_forces(plan, workspace);
     // What the elements take at their nodes: the sum of all other wrenches on the node.
     let mut demand = vec![Vector6::zeros(); model.nodes().len()];
     let mut segments: Vec<Option<SegmentForces>> = vec![None; model.segments().len()];
-    for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
+    for (element, forces) in plan.elements.iter().zip(&all_forces) {
         let Source::Cluster(k) = element.source else {
             continue;
         };
@@ -77,13 +79,16 @@ pub(crate) fn recover(
     for cluster in &plan.topology.clusters {
         for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
             if let Some(joint) = joint {
-                let wrench = demand[node.0] - node_load(model, *node);
+                let wrench = demand[node.0] - loads[node.0];
                 let elastic = absorbed_joint(plan, model, geometry, *joint);
                 displacements[node.0] -= elastic.turned_compliance() * wrench;
             }
         }
     }
-    let (joint_wrenches, doubtful) = joint_wrenches(plan, model, geometry, workspace, &demand);
+    for (wrench, load) in demand.iter_mut().zip(&loads) {
+        *wrench -= load;
+    }
+    let (joint_wrenches, doubtful) = joint_wrenches(plan, model, geometry, &all_forces, &demand);
     Ok(Recovered {
         displacements,
         joint_wrenches,
@@ -142,22 +147,32 @@ struct JointForces {
     known: Vector6<f64>,
 }
 
+/// Sums of the loads on all nodes.
+fn node_loads(model: &Model) -> Vec<Vector6<f64>> {
+    let mut loads = vec![Vector6::zeros(); model.nodes().len()];
+    for load in model.loads() {
+        loads[load.node.0] += load.wrench;
+    }
+    loads
+}
+
 /// Wrenches of all joints from the equilibrium of their carriers, group by group; `None` where
-/// redundant rigid constraints leave one undetermined.
+/// redundant rigid constraints leave one undetermined. `demand` is what joints must give each
+/// node.
 fn joint_wrenches(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
-    workspace: &Workspace,
+    element_forces: &[Vec<f64>],
     demand: &[Vector6<f64>],
 ) -> (Vec<Option<Vector6<f64>>>, Option<f64>) {
     let count = model.joints().len();
     let mut springs = vec![Vector6::zeros(); count];
-    for (element, forces) in plan.elements.iter().zip(element_forces(plan, workspace)) {
+    for (element, forces) in plan.elements.iter().zip(element_forces) {
         if let Source::Spring(joint) = element.source {
             let elastic = plan.topology.joints[joint.0].springs;
             for (dof, force) in elastic.iter().zip(forces) {
-                springs[joint.0][dof.index()] = force;
+                springs[joint.0][dof.index()] = *force;
             }
         }
     }
@@ -179,7 +194,7 @@ fn joint_wrenches(
     for (n, wrench) in demand.iter().enumerate() {
         let carrier = plan.topology.carrier_of[n];
         let arm = shift(geometry, carriers[carrier].reference, NodeId(n));
-        needed[carrier] += arm.transpose() * (wrench - node_load(model, NodeId(n)));
+        needed[carrier] += arm.transpose() * wrench;
     }
     let ends: Vec<Vec<(usize, f64, Matrix6<f64>)>> = model
         .joints()
@@ -205,7 +220,11 @@ fn joint_wrenches(
     let size = characteristic_length(geometry);
     let mut forces: Vec<Option<Vector6<f64>>> = joints.iter().map(|j| Some(j.known)).collect();
     let mut doubtful = None;
-    for group in groups(carriers.len(), &ends) {
+    // Only forces that equilibrium must find tie carriers together.
+    let unknown: Vec<usize> = (0..count)
+        .filter(|k| !joints[*k].unknown.is_empty())
+        .collect();
+    for group in groups(carriers.len(), &unknown, &ends) {
         let found = equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
         doubtful = doubtful.or(found);
     }
@@ -218,13 +237,17 @@ fn joint_wrenches(
     (wrenches, doubtful)
 }
 
-/// Carriers and joints that are connected, ground apart.
+/// Carriers and joints that are connected, the ground apart.
 struct Group {
     carriers: Vec<usize>,
     joints: Vec<usize>,
 }
 
-fn groups(carriers: usize, ends: &[Vec<(usize, f64, Matrix6<f64>)>]) -> Vec<Group> {
+fn groups(
+    carriers: usize,
+    joints: &[usize],
+    ends: &[Vec<(usize, f64, Matrix6<f64>)>],
+) -> Vec<Group> {
     let mut group_of: Vec<usize> = (0..carriers).collect();
     fn find(group_of: &mut [usize], mut k: usize) -> usize {
         while group_of[k] != k {
@@ -233,16 +256,16 @@ fn groups(carriers: usize, ends: &[Vec<(usize, f64, Matrix6<f64>)>]) -> Vec<Grou
         }
         k
     }
-    for ends in ends {
-        if let [(a, ..), (b, ..)] = ends.as_slice() {
+    for &joint in joints {
+        if let [(a, ..), (b, ..)] = ends[joint].as_slice() {
             let (a, b) = (find(&mut group_of, *a), find(&mut group_of, *b));
             group_of[b] = a;
         }
     }
     let mut groups: Vec<Group> = Vec::new();
     let mut place = vec![usize::MAX; carriers];
-    for (joint, ends) in ends.iter().enumerate() {
-        let Some((carrier, ..)) = ends.first() else {
+    for &joint in joints {
+        let Some((carrier, ..)) = ends[joint].first() else {
             continue;
         };
         let root = find(&mut group_of, *carrier);
@@ -333,16 +356,37 @@ pub fn segment_displacement(
     model: &Model,
     geometry: &Geometry,
     displacements: &[Vector6<f64>],
-    segment: crate::model::SegmentId,
+    segment: SegmentId,
     xi: f64,
 ) -> Result<Vector6<f64>, SolveError> {
+    let mut curve = curve(model, geometry, displacements, segment, [xi])?;
+    Ok(curve.pop().unwrap_or_default())
+}
+
+/// Displacements of the nodes inside a segment, between its elements, in their order along it.
+pub(crate) fn inner_displacements(
+    model: &Model,
+    geometry: &Geometry,
+    displacements: &[Vector6<f64>],
+    segment: SegmentId,
+) -> Result<Vec<Vector6<f64>>, SolveError> {
+    let elements = model.segments()[segment.0].elements;
+    let places = (1..elements).map(|k| k as f64 / elements as f64);
+    curve(model, geometry, displacements, segment, places)
+}
+
+/// Displacements at several places (0 to 1) along a segment, global axes.
+fn curve(
+    model: &Model,
+    geometry: &Geometry,
+    displacements: &[Vector6<f64>],
+    segment: SegmentId,
+    places: impl IntoIterator<Item = f64>,
+) -> Result<Vec<Vector6<f64>>, SolveError> {
     let (beam, frame, _) = segment_beam(model, geometry, segment)?;
     let to_local = frame.inverse();
-    let [a, b] = model.segments()[segment.0].ends;
-    let local = beam.displacement(
-        xi,
-        &turned(&to_local, &displacements[a.0]),
-        &turned(&to_local, &displacements[b.0]),
-    );
-    Ok(turned(&frame, &local))
+    let ends = model.segments()[segment.0].ends;
+    let [first, second] = ends.map(|node| turned(&to_local, &displacements[node.0]));
+    let at = |xi| turned(&frame, &beam.displacement(xi, &first, &second));
+    Ok(places.into_iter().map(at).collect())
 }

@@ -3,7 +3,8 @@
 use hyperstat_joints::Dof;
 
 use crate::elimination::{Elimination, RANK_TOLERANCE};
-use crate::kinematics::{Jacobian, echelon};
+use crate::jacobian::Jacobian;
+use crate::kinematics::echelon;
 use crate::model::{JointId, Model};
 
 /// Constraints of which one is too many: every body rigid, drives released.
@@ -29,25 +30,54 @@ impl Redundancy {
     }
 }
 
+/// Most redundancies of a large mechanism that are found one by one: more than are read.
+const MOST: usize = 1000;
+
 /// The redundant constraints of a model as it stands: as many as its degree of over-constraint
 /// ([`Kinematics::overconstraint`](crate::Kinematics::overconstraint)), each with as few
-/// directions as elimination finds.
+/// directions as elimination finds. Of a mechanism of more than 40 bodies or joints, the first
+/// 1000.
 pub fn redundant_constraints(model: &Model) -> Vec<Redundancy> {
     let constraints = Jacobian::released(model, model.geometry());
     // Forces that balance: λᵀ J = 0.
+    if constraints.is_large() {
+        return sparsely_redundant(&constraints, MOST);
+    }
     let balanced = Elimination::new(constraints.dense().transpose(), 0).null_space();
-    echelon(balanced)
-        .iter()
-        .map(|shares| Redundancy {
-            directions: constraints
-                .directions
-                .iter()
-                .zip(shares.iter())
-                .filter(|(_, share)| share.abs() > RANK_TOLERANCE)
-                .map(|(&(joint, dof), &share)| (joint, dof, share))
-                .collect(),
-        })
-        .collect()
+    let balanced = echelon(balanced);
+    let shares = balanced.iter().map(|v| v.iter().copied().enumerate());
+    shares.map(|v| redundancy(&constraints, v)).collect()
+}
+
+/// The first `most` redundancies by elimination of sparse rows.
+fn sparsely_redundant(constraints: &Jacobian, most: usize) -> Vec<Redundancy> {
+    let eliminated = constraints.sparsely_eliminated();
+    let rows = eliminated.redundant.iter().take(most);
+    rows.map(|row| {
+        let mut shares = eliminated.dependence(*row);
+        let largest = shares.iter().fold(0.0_f64, |l, (_, v)| l.max(v.abs()));
+        for (_, share) in &mut shares {
+            *share /= largest;
+        }
+        redundancy(constraints, shares)
+    })
+    .collect()
+}
+
+/// The redundancy of balanced forces, by rows of the constraints.
+fn redundancy(
+    constraints: &Jacobian,
+    shares: impl IntoIterator<Item = (usize, f64)>,
+) -> Redundancy {
+    let shares = shares.into_iter();
+    let shares = shares.filter(|(_, share)| share.abs() > RANK_TOLERANCE);
+    let named = shares.map(|(row, share)| {
+        let (joint, dof) = constraints.directions[row];
+        (joint, dof, share)
+    });
+    Redundancy {
+        directions: named.collect(),
+    }
 }
 
 #[cfg(test)]
@@ -62,6 +92,13 @@ mod tests {
     /// A parallelogram in the x-y plane: three rigid bars and the ground, four hinges about z.
     fn parallelogram() -> Model {
         let mut model = Model::new("parallelogram");
+        add_parallelogram(&mut model, "");
+        model
+    }
+
+    /// Adds one whose names end in `suffix`.
+    fn add_parallelogram(model: &mut Model, suffix: &str) {
+        let named = |name: &str| format!("{name}{suffix}");
         let at = |name| match name {
             "A" => Point3::new(0.0, 0.0, 0.0),
             "B" => Point3::new(0.0, 1.0, 0.0),
@@ -73,17 +110,19 @@ mod tests {
             ("top", ["B", "C"]),
             ("right", ["C", "D"]),
         ] {
-            model.add_rigid(body, &[(p, at(p)), (q, at(q))]).unwrap();
+            let points = [(p, at(p)), (q, at(q))];
+            model.add_rigid(&named(body), &points).unwrap();
         }
+        let node = |body, point| model.node(&named(body), point);
         let joints = [
-            ("a", None, model.node("left", "A")),
-            ("b", model.node("left", "B"), model.node("top", "B")),
-            ("c", model.node("top", "C"), model.node("right", "C")),
-            ("d", model.node("right", "D"), None),
+            ("a", None, node("left", "A")),
+            ("b", node("left", "B"), node("top", "B")),
+            ("c", node("top", "C"), node("right", "C")),
+            ("d", node("right", "D"), None),
         ];
         for (name, first, second) in joints {
             let connection = Connection {
-                name: name.into(),
+                name: named(name),
                 between: [first, second],
                 joint: Box::new(Revolute),
                 locked: DofSet::EMPTY,
@@ -92,7 +131,6 @@ mod tests {
             let frame = frame_from_axis(Some(&Vector3::z()), Some(&Vector3::x())).unwrap();
             model.add_joint(connection, frame).unwrap();
         }
-        model
     }
 
     #[test]
@@ -137,18 +175,27 @@ mod tests {
 
     #[test]
     fn the_shares_balance() {
-        let model = parallelogram();
-        let constraints = Jacobian::released(&model, model.geometry());
-        for redundancy in redundant_constraints(&model) {
-            let mut shares = DMatrix::zeros(1, constraints.directions.len());
-            for (joint, dof, share) in redundancy.directions {
-                let row = constraints
-                    .directions
-                    .iter()
-                    .position(|d| *d == (joint, dof));
-                shares[row.unwrap()] = share;
+        for count in [1, 20] {
+            let mut model = Model::new("parallelograms");
+            for k in 0..count {
+                add_parallelogram(&mut model, &format!("-{k}"));
             }
-            assert!((shares * constraints.dense()).amax() < 1e-14);
+            let constraints = Jacobian::released(&model, model.geometry());
+            assert_eq!(constraints.is_large(), count > 1);
+            let redundant = redundant_constraints(&model);
+            assert_eq!(redundant.len(), 3 * count);
+            for redundancy in redundant {
+                let mut shares = DMatrix::zeros(1, constraints.directions.len());
+                for (joint, dof, share) in redundancy.directions {
+                    let row = constraints
+                        .directions
+                        .iter()
+                        .position(|d| *d == (joint, dof));
+                    shares[row.unwrap()] = share;
+                }
+                assert_eq!(shares.amax(), 1.0);
+                assert!((shares * constraints.dense()).amax() < 1e-14);
+            }
         }
     }
 }

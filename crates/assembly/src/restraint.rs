@@ -1,17 +1,23 @@
 //! Motions that need no energy, sorted into idle ones and motions of the output.
 
+use std::collections::{BTreeMap, HashMap};
+
 use nalgebra::{DMatrix, DVector, Vector6};
 
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
 use crate::kinematics::{Kinematics, analyse_at, characteristic_length, echelon, node_twist};
-use crate::model::{Geometry, Model, NodeId};
+use crate::model::{BodyId, Geometry, Model, NodeId};
 use crate::plan::{Plan, Workspace};
 use crate::solution::Motion;
+use crate::sparse_elimination::SparseElimination;
 
 /// Loads work on a motion where their work is above this share of Σ |wrench| |motion| over the
 /// bodies that move.
 const WORKING: f64 = 1e-6;
+
+/// More motions than this are held by the pivots of a sparse elimination.
+const MANY: usize = 32;
 
 /// What the drives, constraints and springs of a configuration leave without resistance.
 #[derive(Debug, Clone)]
@@ -48,11 +54,18 @@ impl Restraint {
 
     /// Refuses loads that work on a motion that nothing resists.
     pub fn check_loads(&self, model: &Model, geometry: &Geometry) -> Result<(), SolveError> {
+        let mut loads_on: HashMap<BodyId, Vec<usize>> = HashMap::new();
+        for (k, load) in model.loads().iter().enumerate() {
+            let body = model.nodes()[load.node.0].body;
+            loads_on.entry(body).or_default().push(k);
+        }
         for motion in self.idle.iter().chain(&self.moving) {
             let mut work = 0.0;
             let mut scale = 0.0;
             let mut largest = (0, 0.0);
-            for (k, load) in model.loads().iter().enumerate() {
+            let moved = motion.twists.iter().filter_map(|(b, _)| loads_on.get(b));
+            for &k in moved.flatten() {
+                let load = &model.loads()[k];
                 let twist = node_twist(motion, model, geometry, load.node.0);
                 let share = load.wrench.dot(&twist);
                 work += share;
@@ -91,37 +104,75 @@ impl Restraint {
         } else {
             &self.moving[..]
         };
+        let motions = self.idle.iter().chain(moving);
+        if motions.clone().count() > MANY {
+            return self.sparse_pins(motions, plan, model, geometry, workspace);
+        }
         let mut columns: Vec<DVector<f64>> = Vec::new();
-        for motion in self.idle.iter().chain(moving) {
+        for motion in motions {
             let entry = |idc: usize, _: usize| {
                 let (node, dof) = workspace.identities[idc];
                 scaled(&node_twist(motion, model, geometry, node.0), self.size)[dof.index()]
             };
             columns.push(DVector::from_fn(plan.inner, entry));
         }
-        let mut pins = Vec::new();
-        for k in 0..columns.len() {
-            let mut best = (k, 0, 0.0);
-            for (c, column) in columns.iter().enumerate().skip(k) {
-                let row = column.iamax();
-                if column[row].abs() > best.2 {
-                    best = (c, row, column[row].abs());
-                }
-            }
-            if best.2 <= RANK_TOLERANCE {
-                break;
-            }
-            columns.swap(k, best.0);
-            let row = best.1;
-            let pivot = &columns[k] / columns[k][row];
-            for column in &mut columns[k + 1..] {
-                let factor = column[row];
-                *column -= &pivot * factor;
-            }
-            pins.push(row);
-        }
-        pins
+        largest_minor(columns, RANK_TOLERANCE)
     }
+
+    /// [`Self::pins`] of many motions, each of few bodies: the pivots of an elimination.
+    fn sparse_pins<'m>(
+        &self,
+        motions: impl Iterator<Item = &'m Motion>,
+        plan: &Plan,
+        model: &Model,
+        geometry: &Geometry,
+        workspace: &Workspace,
+    ) -> Vec<usize> {
+        let mut idcs_of: Vec<Vec<usize>> = vec![Vec::new(); model.bodies().len()];
+        for (idc, (node, _)) in workspace.identities[..plan.inner].iter().enumerate() {
+            idcs_of[model.nodes()[node.0].body.0].push(idc);
+        }
+        let rows = motions.map(|motion| {
+            let idcs = motion.twists.iter().flat_map(|(body, _)| &idcs_of[body.0]);
+            let entries = idcs.map(|&idc| {
+                let (node, dof) = workspace.identities[idc];
+                let twist = scaled(&node_twist(motion, model, geometry, node.0), self.size);
+                (idc, twist[dof.index()])
+            });
+            let mut row: Vec<_> = entries.filter(|(_, value)| *value != 0.0).collect();
+            row.sort_unstable_by_key(|(idc, _)| *idc);
+            row
+        });
+        let solved = SparseElimination::new(rows.collect(), plan.inner);
+        solved.pivot_columns().collect()
+    }
+}
+
+/// Rows of the largest minor of some columns, one a column, by complete pivoting; fewer where no
+/// more is left than `least`.
+pub(crate) fn largest_minor(mut columns: Vec<DVector<f64>>, least: f64) -> Vec<usize> {
+    let mut pins = Vec::new();
+    for k in 0..columns.len() {
+        let mut best = (k, 0, 0.0);
+        for (c, column) in columns.iter().enumerate().skip(k) {
+            let row = column.iamax();
+            if column[row].abs() > best.2 {
+                best = (c, row, column[row].abs());
+            }
+        }
+        if best.2 <= least {
+            break;
+        }
+        columns.swap(k, best.0);
+        let row = best.1;
+        let pivot = &columns[k] / columns[k][row];
+        for column in &mut columns[k + 1..] {
+            let factor = column[row];
+            *column -= &pivot * factor;
+        }
+        pins.push(row);
+    }
+    pins
 }
 
 /// A twist with its translations over `size`.
@@ -139,8 +190,18 @@ fn split(
     twist: impl Fn(&Motion) -> Vector6<f64>,
 ) -> (Vec<Motion>, Vec<Motion>) {
     let twists: Vec<Vector6<f64>> = motions.iter().map(&twist).collect();
-    if twists.iter().all(|t| t.amax() <= RANK_TOLERANCE) {
+    let still = |t: &Vector6<f64>| t.amax() <= RANK_TOLERANCE;
+    if twists.iter().all(still) {
         return (motions.to_vec(), Vec::new());
+    }
+    if motions.len() > MANY && twists.iter().any(still) {
+        // Those that leave the output where it is need not be combined.
+        let (at_rest, others): (Vec<_>, Vec<_>) =
+            (motions.iter().cloned().zip(&twists)).partition(|(_, t)| still(t));
+        let others: Vec<Motion> = others.into_iter().map(|(motion, _)| motion).collect();
+        let (mut idle, moving) = split(&others, twist);
+        idle.extend(at_rest.into_iter().map(|(motion, _)| motion));
+        return (idle, moving);
     }
     let count = motions.len();
     let matrix = DMatrix::from_fn(6, count, |r, c| twists[c][r]);
@@ -158,18 +219,16 @@ fn split(
 }
 
 fn combine(motions: &[Motion], weights: &DVector<f64>) -> Motion {
-    let mut twists: Vec<(crate::model::BodyId, Vector6<f64>)> = Vec::new();
+    let mut twists: BTreeMap<BodyId, Vector6<f64>> = BTreeMap::new();
     for (motion, weight) in motions.iter().zip(weights.iter()) {
         for (body, twist) in &motion.twists {
-            match twists.iter_mut().find(|(b, _)| b == body) {
-                Some((_, sum)) => *sum += twist * *weight,
-                None => twists.push((*body, twist * *weight)),
-            }
+            *twists.entry(*body).or_default() += twist * *weight;
         }
     }
-    twists.retain(|(_, t)| t.amax() > 1e-9);
-    twists.sort_by_key(|(b, _)| *b);
-    Motion { twists }
+    let moved = twists.into_iter().filter(|(_, t)| t.amax() > 1e-9);
+    Motion {
+        twists: moved.collect(),
+    }
 }
 
 /// Orthonormal basis of the span of `vectors`.

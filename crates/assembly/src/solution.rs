@@ -4,7 +4,9 @@ use std::fmt;
 
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
-use crate::model::{BodyId, JointId, Model};
+use crate::error::SolveError;
+use crate::model::{BodyId, JointId, Model, SegmentId};
+use crate::recover::inner_displacements;
 
 /// Everything about one configuration under the model's loads.
 #[derive(Debug, Clone)]
@@ -41,6 +43,23 @@ impl Solution {
             .filter_map(none)
             .collect()
     }
+
+    /// Displacements of the inner nodes of a segment divided into n elements: node k of 1 to
+    /// n − 1 lies at k/n of the way from its first node to its second. Six components each, global
+    /// axes (m, rad). They are exact, since no load acts between two nodes of a segment; time
+    /// grows with n alone.
+    ///
+    /// `model` is the one that was solved.
+    ///
+    /// # Errors
+    /// A segment that cannot be formed, which no segment of a solved model is.
+    pub fn inner_displacements(
+        &self,
+        model: &Model,
+        segment: SegmentId,
+    ) -> Result<Vec<Vector6<f64>>, SolveError> {
+        inner_displacements(model, model.geometry(), &self.displacements, segment)
+    }
 }
 
 /// The output node: 6×6 matrices and vectors in global axes, at the node, linear part first.
@@ -66,13 +85,6 @@ pub struct Motion {
     /// scaled so that the motion's largest entry is 1 (rotations in rad, translations over
     /// the mechanism's size).
     pub twists: Vec<(BodyId, Vector6<f64>)>,
-}
-
-impl Motion {
-    /// The motion in words, such as "`rod3` turns about (0, 0.6, 0.8) through rod3.B".
-    pub fn describe(&self, model: &Model) -> String {
-        crate::kinematics::describe(self, model)
-    }
 }
 
 /// Forces at the ends of a segment.

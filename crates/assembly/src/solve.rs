@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
-use crate::condense::LOADS;
+use crate::condense::{LOADED, LOADS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
@@ -279,8 +279,8 @@ impl Plan {
                     *entry += motion * step;
                 }
             }
-            self.residuals(workspace);
-            self.correct(workspace, pins);
+            self.residuals(workspace, LOADED);
+            self.correct(workspace, pins, LOADED);
         }
         if first > 0.0 {
             (last / first).sqrt()

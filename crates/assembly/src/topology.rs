@@ -5,6 +5,8 @@
 //! rigid body. Joints tie carriers into trees; a joint that would close a loop gives conditions
 //! instead (the book, "Overall model").
 
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashSet};
 use std::ops::Range;
 
 use hyperstat_joints::DofSet;
@@ -413,32 +415,41 @@ fn components(
             *coordinates += 6;
             reached[root] = true;
         }
+        // Ties in the order of the fewest moving directions, then of the joints, among those that
+        // lead on from what is reached.
         let inside = |end: &Option<usize>, reached: &[bool]| match end {
             Some(c) => reached[*c],
             None => root.is_none(),
         };
+        let key = |e: usize| Reverse((roles[edges[e].joint].moving.len(), edges[e].joint, e));
         let mut own: Vec<usize> = group.iter().flat_map(|c| edges_at[*c].clone()).collect();
-        own.sort_by_key(|&e| (roles[edges[e].joint].moving.len(), edges[e].joint));
+        own.sort_unstable_by_key(|&e| Reverse(key(e)));
         own.dedup();
+        let mut leading: BinaryHeap<_> = match root {
+            Some(root) => edges_at[root].iter().map(|&e| key(e)).collect(),
+            None => {
+                let grounded = own.iter().filter(|e| edges[**e].ends.contains(&None));
+                grounded.map(|&e| key(e)).collect()
+            }
+        };
         let mut ties = Vec::new();
-        let mut used = vec![false; own.len()];
-        loop {
-            let next = own.iter().enumerate().position(|(k, &e)| {
-                let [a, b] = &edges[e].ends;
-                !used[k]
-                    && inside(a, &reached) != inside(b, &reached)
-                    && (a.is_some() || root.is_none())
-                    && (b.is_some() || root.is_none())
-            });
-            let Some(k) = next else { break };
-            used[k] = true;
-            let edge = &edges[own[k]];
+        let mut used = HashSet::new();
+        while let Some(Reverse((_, _, e))) = leading.pop() {
+            let edge = &edges[e];
+            let [a, b] = &edge.ends;
+            let leads_on = inside(a, &reached) != inside(b, &reached)
+                && (a.is_some() || root.is_none())
+                && (b.is_some() || root.is_none());
+            if !leads_on {
+                continue;
+            }
             let between = model.joints()[edge.joint].between;
             let child_side = usize::from(inside(&edge.ends[0], &reached));
             let (Some(child), Some(child_node)) = (edge.ends[child_side], between[child_side])
             else {
                 continue;
             };
+            used.insert(e);
             let parent = edge.ends[1 - child_side];
             let count = roles[edge.joint].moving.len();
             let range = *coordinates..*coordinates + count;
@@ -448,6 +459,7 @@ fn components(
             carriers[child].coordinates = columns;
             carriers[child].reference = child_node;
             reached[child] = true;
+            leading.extend(edges_at[child].iter().map(|&e| key(e)));
             ties.push(Tie {
                 joint: JointId(edge.joint),
                 parent,
@@ -457,12 +469,8 @@ fn components(
                 coordinates: range,
             });
         }
-        let closings = own
-            .iter()
-            .zip(&used)
-            .filter(|(_, used)| !**used)
-            .map(|(&e, _)| JointId(edges[e].joint))
-            .collect();
+        let closings = own.iter().filter(|e| !used.contains(*e));
+        let closings = closings.map(|&e| JointId(edges[e].joint)).collect();
         components.push(Component {
             root,
             ties,

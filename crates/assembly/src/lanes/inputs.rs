@@ -1,0 +1,117 @@
+//! What the lanes read of a geometry, three numbers at a time.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::kinematics::characteristic_length;
+use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
+
+/// Place of a point among the inputs.
+pub(super) type Point = usize;
+
+/// Where three numbers of a geometry come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Position(NodeId),
+    FrameColumn(JointId, usize),
+    YAxis(SegmentId),
+    RotationColumn(FlexibleId, usize),
+}
+
+/// The vectors that a program reads, each by its place.
+#[derive(Debug)]
+pub(super) struct Inputs {
+    sources: Vec<Source>,
+    /// One node for all nodes at the same point.
+    same: Vec<NodeId>,
+}
+
+impl Inputs {
+    /// None yet. `None` where the nodes of a joint are apart by more than `apart` of the
+    /// mechanism's size: such a joint is no point.
+    pub fn new(model: &Model, geometry: &Geometry, apart: f64) -> Option<Self> {
+        let count = geometry.positions.len();
+        let mut same: Vec<usize> = (0..count).collect();
+        fn find(same: &mut [usize], mut k: usize) -> usize {
+            while same[k] != k {
+                same[k] = same[same[k]];
+                k = same[k];
+            }
+            k
+        }
+        let bound = apart * characteristic_length(geometry);
+        for joint in model.joints() {
+            if let [Some(a), Some(b)] = joint.between {
+                if (geometry.positions[a.0] - geometry.positions[b.0]).norm() > bound {
+                    return None;
+                }
+                let (a, b) = (find(&mut same, a.0), find(&mut same, b.0));
+                same[a.max(b)] = a.min(b);
+            }
+        }
+        let same = (0..count).map(|k| NodeId(find(&mut same, k))).collect();
+        Some(Self {
+            sources: Vec::new(),
+            same,
+        })
+    }
+
+    /// Number of vectors.
+    pub fn len(&self) -> usize {
+        self.sources.len()
+    }
+
+    fn place(&mut self, source: Source) -> usize {
+        match self.sources.iter().position(|s| *s == source) {
+            Some(place) => place,
+            None => {
+                self.sources.push(source);
+                self.sources.len() - 1
+            }
+        }
+    }
+
+    /// Place of a node's position.
+    pub fn point(&mut self, node: NodeId) -> Point {
+        self.place(Source::Position(self.same[node.0]))
+    }
+
+    /// Places of two points, from and to; `None` where they are one.
+    pub fn arm(&mut self, from: NodeId, to: NodeId) -> Option<[Point; 2]> {
+        let apart = self.same[from.0] != self.same[to.0];
+        apart.then(|| [self.point(from), self.point(to)])
+    }
+
+    /// Place of a column of a joint's frame.
+    pub fn frame_column(&mut self, joint: JointId, column: usize) -> usize {
+        self.place(Source::FrameColumn(joint, column))
+    }
+
+    /// Place of the direction of a segment's local y.
+    pub fn y_axis(&mut self, segment: SegmentId) -> usize {
+        self.place(Source::YAxis(segment))
+    }
+
+    /// Place of a column of a flexible body's rotation.
+    pub fn rotation(&mut self, body: FlexibleId, column: usize) -> usize {
+        self.place(Source::RotationColumn(body, column))
+    }
+
+    /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
+    /// `(3 v + k) · width + lane`.
+    pub fn read(&self, geometry: &Geometry, out: &mut [f64], width: usize, lane: usize) {
+        let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
+            rotation.matrix().column(c).into_owned()
+        };
+        for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
+            let vector = match *source {
+                Source::Position(node) => geometry.positions[node.0].coords,
+                Source::FrameColumn(joint, c) => column(&geometry.frames[joint.0], c),
+                Source::YAxis(segment) => geometry.y_axes[segment.0].unwrap_or(Vector3::zeros()),
+                Source::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
+            };
+            out[lane] = vector.x;
+            out[width + lane] = vector.y;
+            out[2 * width + lane] = vector.z;
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Poses side by side: the sweep's fast way through.
+//!
+//! What a topology asks for is worked out once ([`program`], [`fronts`]); the arithmetic of a pose
+//! is then the same for every pose, so as many poses as a SIMD register holds go through it
+//! together ([`pass`]): AVX-512, AVX2 or NEON where the machine has it, one by one elsewhere. A
+//! pose that the lanes cannot vouch for (an estimate of its error too large, a pivot that is none)
+//! goes through [`Plan::sweep`], which refines; so does every pose of a mechanism that the lanes do
+//! not take. No pose's result depends on its neighbours.
+
+// Loops over registers are written by index: an iterator's closure, or a call of memcpy, would not
+// be compiled with the instruction set chosen at run time.
+#![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
+
+mod assemble;
+mod blocks;
+mod buffers;
+mod factor;
+mod fronts;
+mod hang;
+mod inputs;
+mod lane;
+mod pass;
+mod program;
+mod scatter;
+
+use nalgebra::{Matrix6, Vector6};
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::cluster::cluster_stiffness;
+use crate::error::SolveError;
+use crate::model::{Geometry, Model};
+use crate::plan::{Plan, Source, Workspace};
+use crate::solve::PoseResult;
+use buffers::Buffers;
+use pass::{Changes, DISPLACEMENT, ERROR, PIVOT, Pass};
+use program::Program;
+
+/// Poses that are handed to [`Plan::sweep_lanes`] together.
+pub const LANES: usize = 8;
+
+/// Relative error that a pose of the lanes may have, by its estimate: that may be a few times too
+/// low, and 1e-11 is promised.
+const TRUSTED: f64 = 2e-12;
+/// A held element farther than this, relative to its size, from the plan's configuration gets a
+/// stiffness of its own.
+const CHANGED: f64 = 1e-12;
+
+/// One thread's poses and buffers; made by [`Plan::lanes`].
+#[derive(Debug)]
+pub struct Lanes {
+    geometries: Vec<Geometry>,
+    workspace: Workspace,
+    arch: Arch,
+    engine: Option<Engine>,
+    /// Poses that went one by one.
+    one_by_one: u64,
+}
+
+#[derive(Debug)]
+struct Engine {
+    program: Program,
+    buffers: Buffers,
+    /// By poses and held elements: whether the stiffness in the buffers is the pose's own.
+    own: Vec<bool>,
+}
+
+/// Numbers in a register of the machine.
+struct Width;
+
+impl WithSimd for Width {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> usize {
+        S::F64_LANES
+    }
+}
+
+impl Plan {
+    /// Poses and buffers for one thread, for a model of the topology that the plan was made for.
+    /// The poses are in the model's configuration.
+    pub fn lanes(&self, model: &Model) -> Lanes {
+        let arch = Arch::new();
+        let width = arch.dispatch(Width).min(LANES);
+        let engine = Program::new(self, model, model.geometry()).map(|program| {
+            let buffers = Buffers::new(&program, width);
+            Engine {
+                own: vec![false; buffers.changes.len()],
+                buffers,
+                program,
+            }
+        });
+        Lanes {
+            geometries: vec![model.geometry().clone(); LANES],
+            workspace: self.workspace(),
+            arch,
+            engine,
+            one_by_one: 0,
+        }
+    }
+
+    /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
+    /// where `filled` says so: what [`Plan::sweep`] finds, to 1e-11 of the stiffness's scale
+    /// (`√(K_ii K_jj)`) and of the displacement's largest component. `model` and `lanes` belong to
+    /// this plan. In a sweep the nodes of a joint stay at one point.
+    pub fn sweep_lanes(
+        &self,
+        model: &Model,
+        lanes: &mut Lanes,
+        filled: [bool; LANES],
+    ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
+        let mut results = [const { None }; LANES];
+        if let Some(engine) = &mut lanes.engine {
+            let width = engine.buffers.width;
+            for first in (0..LANES).step_by(width) {
+                let range = first..(first + width).min(LANES);
+                if !filled[range.clone()].contains(&true) {
+                    continue;
+                }
+                for (lane, pose) in range.clone().enumerate() {
+                    let geometry = &lanes.geometries[pose];
+                    let inputs = &mut engine.buffers.inputs;
+                    engine.program.inputs.read(geometry, inputs, width, lane);
+                }
+                let poses = &lanes.geometries[range.clone()];
+                engine.find_changes(self, model, poses, lanes.arch, &mut lanes.workspace);
+                lanes.arch.dispatch(Pass {
+                    program: &engine.program,
+                    buffers: &mut engine.buffers,
+                });
+                for (lane, pose) in range.enumerate() {
+                    if filled[pose] {
+                        results[pose] = engine.result(lane).map(Ok);
+                    }
+                }
+            }
+        }
+        for (pose, result) in results.iter_mut().enumerate() {
+            if filled[pose] && result.is_none() {
+                lanes.one_by_one += 1;
+                let geometry = &lanes.geometries[pose];
+                *result = Some(self.sweep(model, geometry, &mut lanes.workspace));
+            }
+        }
+        results
+    }
+}
+
+impl Lanes {
+    /// The configuration of a pose, to be changed.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`LANES`].
+    pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
+        &mut self.geometries[pose]
+    }
+
+    /// Whether the mechanism goes through the lanes at all.
+    pub fn is_parallel(&self) -> bool {
+        self.engine.is_some()
+    }
+
+    /// Poses so far that went one by one.
+    pub fn one_by_one(&self) -> u64 {
+        self.one_by_one
+    }
+
+    /// Multiplications, each with an addition, that a pose's factorization takes; zero where the
+    /// mechanism goes one by one.
+    pub fn factor_operations(&self) -> usize {
+        let engine = self.engine.as_ref();
+        engine.map_or(0, |engine| engine.program.fronts.operations())
+    }
+}
+
+impl Engine {
+    /// Gives every held element that is not as in the plan's configuration a stiffness of its own.
+    fn find_changes(
+        &mut self,
+        plan: &Plan,
+        model: &Model,
+        poses: &[Geometry],
+        arch: Arch,
+        workspace: &mut Workspace,
+    ) {
+        if self.own.is_empty() {
+            return;
+        }
+        arch.dispatch(Changes {
+            program: &self.program,
+            buffers: &mut self.buffers,
+        });
+        let width = self.buffers.width;
+        let held = self.program.elements.iter().filter_map(|e| e.held());
+        for (k, held) in held.enumerate() {
+            for (lane, geometry) in poses.iter().enumerate() {
+                let change = self.buffers.changes[k * width + lane];
+                let own = &mut self.own[k * width + lane];
+                if change <= CHANGED {
+                    if std::mem::take(own) {
+                        let start = held.stiffness_start;
+                        self.buffers.set_stiffness(start, &held.stiffness, lane);
+                    }
+                    continue;
+                }
+                *own = true;
+                let element = &plan.elements[held.element];
+                let Source::Cluster(cluster) = element.source else {
+                    continue;
+                };
+                let cluster = &plan.topology.clusters[cluster];
+                let formed = cluster_stiffness(plan, element, cluster, model, geometry, workspace);
+                let size = element.rows * element.rows;
+                let stiffness = &mut workspace.stiffnesses[element.stiffness_start..][..size];
+                if formed.is_err() {
+                    stiffness.fill(f64::NAN);
+                }
+                self.buffers
+                    .set_stiffness(held.stiffness_start, stiffness, lane);
+            }
+        }
+    }
+
+    /// The result of a pose; `None` where the lanes cannot vouch for it.
+    fn result(&self, lane: usize) -> Option<PoseResult> {
+        let at = |k: usize| self.buffers.result(k, lane);
+        let mut stiffness = Matrix6::zeros();
+        let mut next = 0;
+        for row in 0..6 {
+            for column in row..6 {
+                stiffness[(row, column)] = at(next);
+                stiffness[(column, row)] = at(next);
+                next += 1;
+            }
+        }
+        let displacement = Vector6::from_fn(|k, _| at(DISPLACEMENT + k));
+        let numbers = stiffness.iter().chain(displacement.iter());
+        let sound = numbers.clone().all(|v| v.is_finite())
+            && stiffness.diagonal().iter().all(|k| *k > 0.0)
+            && at(ERROR) <= TRUSTED * at(PIVOT);
+        sound.then_some(PoseResult {
+            stiffness: Some(stiffness),
+            displacement: Some(displacement),
+        })
+    }
+}

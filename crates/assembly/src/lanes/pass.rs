@@ -1,0 +1,366 @@
+//! One pass through the lanes: as many poses as a register holds, from points and frames to the
+//! output stiffness and displacement.
+
+use pulp::{Simd, WithSimd};
+
+use super::assemble::{Assembly, parts};
+use super::blocks::{arm, beam, bushing, held, held_axes, held_change, turned, vector};
+use super::buffers::Buffers;
+use super::factor::{Matrix, ROUNDING, eliminate};
+use super::fronts::{Front, Part};
+use super::hang::{Motion, make_relative};
+use super::lane::{Lane, Vec3, add, apply, cross, scaled, three, transposed};
+use super::program::{Element, HeldElement, Kind, Program, Screw};
+use super::scatter::Moves;
+
+/// Lower triangle of a 6×6 matrix.
+const TRIANGLE: usize = 21;
+/// Entries of a result for each pose: upper triangle of the stiffness by rows, displacement, the
+/// stiffness's relative error and the smallest pivot of its scaled form.
+pub(super) const RESULTS: usize = TRIANGLE + 6 + 2;
+pub(super) const DISPLACEMENT: usize = TRIANGLE;
+pub(super) const ERROR: usize = TRIANGLE + 6;
+pub(super) const PIVOT: usize = TRIANGLE + 7;
+
+/// The first pass: how far every held element is from the plan's configuration.
+pub(super) struct Changes<'a> {
+    pub program: &'a Program,
+    pub buffers: &'a mut Buffers,
+}
+
+impl WithSimd for Changes<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let (inputs, _) = S::as_simd_f64s(&self.buffers.inputs);
+        let (changes, _) = S::as_mut_simd_f64s(&mut self.buffers.changes);
+        let held = self.program.elements.iter().filter_map(Element::held);
+        for (held, change) in held.zip(changes) {
+            let axes = held_axes(simd, held, inputs);
+            *change = held_change(simd, held, &axes, inputs).value;
+        }
+    }
+}
+
+/// The whole pass.
+pub(super) struct Pass<'a> {
+    pub program: &'a Program,
+    pub buffers: &'a mut Buffers,
+}
+
+/// The buffers as registers.
+struct Registers<'a, S: Simd> {
+    inputs: &'a [S::f64s],
+    stiffness: &'a [S::f64s],
+    screws: &'a mut [S::f64s],
+    errors: &'a mut [S::f64s],
+    local_errors: &'a mut [S::f64s],
+    gains: &'a mut [S::f64s],
+    front: &'a mut [S::f64s],
+    panel: &'a mut [S::f64s],
+    rests: &'a mut [S::f64s],
+    blocks: &'a mut [S::f64s],
+    results: &'a mut [S::f64s],
+}
+
+impl WithSimd for Pass<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Buffers {
+            inputs,
+            stiffness,
+            screws,
+            errors,
+            local_errors,
+            gains,
+            front,
+            panel,
+            rests,
+            blocks,
+            results,
+            ..
+        } = self.buffers;
+        let mut registers = Registers::<S> {
+            inputs: S::as_simd_f64s(inputs).0,
+            stiffness: S::as_simd_f64s(stiffness).0,
+            screws: S::as_mut_simd_f64s(screws).0,
+            errors: S::as_mut_simd_f64s(errors).0,
+            local_errors: S::as_mut_simd_f64s(local_errors).0,
+            gains: S::as_mut_simd_f64s(gains).0,
+            front: S::as_mut_simd_f64s(front).0,
+            panel: S::as_mut_simd_f64s(panel).0,
+            rests: S::as_mut_simd_f64s(rests).0,
+            blocks: S::as_mut_simd_f64s(blocks).0,
+            results: S::as_mut_simd_f64s(results).0,
+        };
+        for screw in &self.program.screws {
+            registers.place_screw(simd, screw);
+        }
+        registers.errors.fill(simd.splat_f64s(0.0));
+        for front in &self.program.fronts.list {
+            registers.solve_front(simd, self.program, front);
+        }
+        registers.finish(simd, self.program);
+    }
+}
+
+impl<S: Simd> Registers<'_, S> {
+    /// The twist of a joint's coordinate at the reference point.
+    #[inline(always)]
+    fn place_screw(&mut self, simd: S, screw: &Screw) {
+        let zero = Lane::splat(simd, 0.0);
+        let (mut linear, mut angular): (Vec3<S>, Vec3<S>) = ([zero; 3], [zero; 3]);
+        for (column, along, about) in &screw.axes {
+            let axis = vector(simd, self.inputs, *column);
+            if *along != 0.0 {
+                linear = add(&linear, &scaled(&axis, Lane::splat(simd, *along)));
+            }
+            if *about != 0.0 {
+                angular = add(&angular, &scaled(&axis, Lane::splat(simd, *about)));
+            }
+        }
+        if let Some(points) = screw.arm {
+            linear = add(&linear, &cross(&angular, &arm(simd, self.inputs, points)));
+        }
+        let out = &mut self.screws[6 * screw.coordinate..6 * screw.coordinate + 6];
+        for k in 0..3 {
+            out[k] = linear[k].value;
+            out[3 + k] = angular[k].value;
+        }
+    }
+
+    /// Assembles a front, eliminates its pivots, and keeps what is left.
+    #[inline(always)]
+    fn solve_front(&mut self, simd: S, program: &Program, front: &Front) {
+        let size = front.variables.len();
+        let scatter = &front.scatter;
+        let zero = simd.splat_f64s(0.0);
+        for place in &scatter.zeros {
+            self.front[*place as usize] = zero;
+        }
+        for moves in &scatter.children {
+            for [from, to] in &moves.stored {
+                self.front[*to as usize] = self.rests[*from as usize];
+            }
+            for [from, to] in &moves.added {
+                let entry = &mut self.front[*to as usize];
+                *entry = simd.add_f64s(*entry, self.rests[*from as usize]);
+            }
+        }
+        for (local, variable) in self.local_errors.iter_mut().zip(&front.variables) {
+            *local = self.errors[*variable];
+        }
+        for ((part, places), moves) in front.parts.iter().zip(&scatter.parts) {
+            self.add_part(simd, program, size, *part, places, moves);
+        }
+        for (k, hang) in front.hangs.iter().enumerate() {
+            let motion = Motion::<S> {
+                inputs: self.inputs,
+                screws: self.screws,
+            };
+            let mut matrix = Matrix::<S> {
+                entries: self.front,
+                size,
+                errors: self.local_errors,
+            };
+            let places = &scatter.hangs[k];
+            make_relative(simd, &mut matrix, hang, places, &motion, self.gains);
+            let moves = &scatter.hung_parts[k];
+            self.add_part(simd, program, size, hang.part, &hang.part_places, moves);
+        }
+        let mut matrix = Matrix::<S> {
+            entries: self.front,
+            size,
+            errors: self.local_errors,
+        };
+        let left = size - front.pivots;
+        let rest = &mut self.rests[front.rest_start..][..left * left];
+        eliminate(
+            simd,
+            &mut matrix,
+            front.pivots,
+            front.idle,
+            self.panel,
+            rest,
+        );
+        let boundary = self.local_errors[front.pivots..].iter();
+        for (local, variable) in boundary.zip(&front.variables[front.pivots..]) {
+            self.errors[*variable] = *local;
+        }
+    }
+
+    #[inline(always)]
+    fn add_part(
+        &mut self,
+        simd: S,
+        program: &Program,
+        size: usize,
+        part: Part,
+        places: &[usize],
+        moves: &Moves,
+    ) {
+        let mut assembly = Assembly::<S> {
+            simd,
+            entries: self.front,
+            size,
+            errors: self.local_errors,
+            screws: self.screws,
+            inputs: self.inputs,
+        };
+        // The loads' row is the last coordinate of those that have it.
+        let row = places[places.len() - 1];
+        match part {
+            Part::Spring(k) => assembly.add_spring(places, program.springs[k].stiffness),
+            Part::Load(k) => {
+                if program.fronts.loaded {
+                    let load = &program.loads[k];
+                    let (force, moment) = parts(simd, &load.wrench);
+                    assembly.add_load(&load.node, places, row, &force, &moment);
+                }
+            }
+            Part::Element(k) => {
+                let element = &program.elements[k];
+                let nodes = &element.nodes;
+                match &element.kind {
+                    Kind::Beam(b) => beam(simd, b, self.inputs, self.blocks),
+                    Kind::Bushing { columns, stiffness } => {
+                        let count = nodes.len();
+                        bushing(simd, columns, stiffness, count, self.inputs, self.blocks);
+                    }
+                    Kind::Held(h) => {
+                        let axes = held_axes(simd, h, self.inputs);
+                        held(simd, h, &axes, self.stiffness, self.inputs, self.blocks);
+                        for joint in &h.joints {
+                            if joint.load.iter().all(|v| *v == 0.0) {
+                                continue;
+                            }
+                            let give = joint_give(simd, joint, self.inputs);
+                            let give = (&give.0, &give.1);
+                            let node = joint.node;
+                            assembly.add_inner_load(nodes, places, row, self.blocks, node, give);
+                        }
+                    }
+                }
+                assembly.add_element(nodes, places, self.blocks, moves);
+            }
+        }
+    }
+
+    /// Stiffness and displacement from what the last front left.
+    #[inline(always)]
+    fn finish(&mut self, simd: S, program: &Program) {
+        let Some(last) = program.fronts.list.last() else {
+            return;
+        };
+        let zero = Lane::splat(simd, 0.0);
+        let height = 6 + usize::from(program.fronts.loaded);
+        let mut k = [[zero; 6]; 6];
+        let mut force: [Lane<S>; 6] = [zero; 6];
+        for column in 0..6 {
+            for row in column..height {
+                let entry = Lane::new(simd, self.rests[last.rest_start + column * height + row]);
+                if row < 6 {
+                    k[row][column] = entry;
+                } else {
+                    force[column] = entry;
+                }
+            }
+        }
+        if !program.fronts.loaded {
+            for load in &program.loads {
+                let (linear, mut angular) = parts(simd, &load.wrench);
+                if let Some(points) = load.node.arm {
+                    angular = add(&angular, &cross(&arm(simd, self.inputs, points), &linear));
+                }
+                for c in 0..3 {
+                    force[c] += linear[c];
+                    force[3 + c] += angular[c];
+                }
+            }
+        }
+        let mut error = zero;
+        for c in 0..6 {
+            let variable = last.variables[last.pivots + c];
+            error = error.max(Lane::new(simd, self.errors[variable]) / k[c][c]);
+        }
+        let error = error * Lane::splat(simd, ROUNDING);
+        let (displacement, pivot) = solve_six(&k, force);
+        let mut place = 0;
+        for row in 0..6 {
+            for column in row..6 {
+                self.results[place] = k[column][row].value;
+                place += 1;
+            }
+        }
+        for c in 0..6 {
+            self.results[DISPLACEMENT + c] = displacement[c].value;
+        }
+        self.results[ERROR] = error.value;
+        self.results[PIVOT] = pivot.value;
+    }
+}
+
+/// Solves `K u = f` by L D Lᵀ (lower triangle); also the smallest pivot relative to its diagonal
+/// entry.
+#[inline(always)]
+fn solve_six<S: Simd>(k: &[[Lane<S>; 6]; 6], f: [Lane<S>; 6]) -> ([Lane<S>; 6], Lane<S>) {
+    let mut l = *k;
+    let mut u = f;
+    let mut inverses = [k[0][0]; 6];
+    let mut loss = k[0][0].constant(1.0);
+    for c in 0..6 {
+        inverses[c] = l[c][c].recip();
+        loss = loss.max((k[c][c] * inverses[c]).abs());
+        for r in c + 1..6 {
+            let minus = -(l[r][c] * inverses[c]);
+            for i in r..6 {
+                l[i][r] = l[i][c].mul_add(minus, l[i][r]);
+            }
+            u[r] = u[c].mul_add(minus, u[r]);
+        }
+    }
+    for c in (0..6).rev() {
+        let mut sum = u[c];
+        for r in c + 1..6 {
+            sum = (-l[r][c]).mul_add(u[r], sum);
+        }
+        u[c] = sum * inverses[c];
+    }
+    (u, loss.recip())
+}
+
+/// What a load inside an absorbed joint displaces its node by: the joint's compliance, turned,
+/// times the load.
+#[inline(always)]
+fn joint_give<S: Simd>(
+    simd: S,
+    joint: &super::program::HeldJoint,
+    inputs: &[S::f64s],
+) -> (Vec3<S>, Vec3<S>) {
+    let frame = transposed(&three!(k => vector(simd, inputs, joint.columns[k])));
+    let (force, moment) = parts(simd, &joint.load);
+    let own = &joint.own;
+    (
+        add(
+            &apply(&turned(simd, own, (0, 0), &frame), &force),
+            &apply(&turned(simd, own, (0, 3), &frame), &moment),
+        ),
+        add(
+            &apply(&turned(simd, own, (3, 0), &frame), &force),
+            &apply(&turned(simd, own, (3, 3), &frame), &moment),
+        ),
+    )
+}
+
+impl Element {
+    /// The element, where it is a held one.
+    pub fn held(&self) -> Option<&HeldElement> {
+        match &self.kind {
+            Kind::Held(held) => Some(held),
+            _ => None,
+        }
+    }
+}

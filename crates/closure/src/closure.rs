@@ -1,0 +1,316 @@
+//! The loop closure of a model.
+
+use hyperstat_assembly::{Geometry, JointId, Model};
+use hyperstat_joints::Dof;
+use nalgebra::{DMatrix, Point3, Vector3};
+
+use crate::equations::{Goal, System};
+use crate::error::ClosureError;
+use crate::linkage::{Configuration, Linkage};
+use crate::newton::{RANK_TOLERANCE, null_space};
+use crate::path::{NAMES, shown};
+use crate::place::Parts;
+use crate::target::{Drive, Target};
+
+/// How much more a position counts than a rotation where more is asked of the output than it can
+/// follow, and some of it is only compared.
+const POSITION_FIRST: f64 = 10.0;
+/// How far a coordinate that is only compared may be off (sizes of the mechanism, or rad).
+const SAME: f64 = 1e-6;
+
+/// A rigid mechanism that can be moved: its home is the configuration of the model it is made
+/// from.
+///
+/// Every body is rigid. The directions of a joint that are free by its kind are released, whether
+/// locked, elastic or not, and so are those that a stiffness of zero frees; all others are held
+/// where they are at home.
+#[derive(Debug, Clone)]
+pub struct LoopClosure {
+    parts: Parts,
+    system: System,
+    /// What the output can do at home: six rows, translations over the size.
+    freedom: DMatrix<f64>,
+}
+
+impl LoopClosure {
+    /// The rigid mechanism of a model, at home in the model's configuration.
+    ///
+    /// # Errors
+    /// No output, a segment without a frame, a kind of joint whose basis does not say how it
+    /// moves.
+    pub fn new(model: &Model) -> Result<Self, ClosureError> {
+        let node = model.output().ok_or(ClosureError::NoOutput)?;
+        let (centre, size) = middle_and_size(model.geometry());
+        let place = model.geometry().positions[node.0].coords - centre;
+        let system = System {
+            linkage: Linkage::new(model, &centre, size)?,
+            size,
+            centre,
+            output: (model.nodes()[node.0].body.0, Point3::from(place)),
+        };
+        let home = system.linkage.home();
+        let loops = system.equations(&home, &Goal::default()).jacobian;
+        let freedom = system.output_rates(&home) * null_space(&loops);
+        Ok(Self {
+            parts: Parts::new(model, centre, size)?,
+            system,
+            freedom,
+        })
+    }
+
+    /// The configuration of the model it is made from.
+    pub fn home(&self) -> Configuration {
+        self.system.linkage.home()
+    }
+
+    /// Freedoms of the output at home, all bodies rigid and the drives released.
+    pub fn output_mobility(&self) -> usize {
+        self.prescribed(&[false; 6]).iter().filter(|p| **p).count()
+    }
+
+    /// The configuration at `target` that a straight way leads to from the configuration `from`:
+    /// Newton's method in steps that are halved where it does not converge, or could change to
+    /// another assembly mode.
+    ///
+    /// More coordinates of the output than it has freedoms may be asked, if they agree to 1e-6 of
+    /// the mechanism's size (or rad): as many as there are freedoms are followed, the others
+    /// compared.
+    ///
+    /// # Errors
+    /// A target that is not finite or is no drive's, that is out of reach, singular, reached only
+    /// in another assembly mode, or that the output cannot follow.
+    pub fn reach(
+        &self,
+        from: &Configuration,
+        target: &Target<'_>,
+    ) -> Result<Configuration, ClosureError> {
+        match target {
+            Target::Output(asked) => {
+                finite(asked.iter().flatten())?;
+                let reached = self.system.follow(from, &self.output_goal(asked))?;
+                self.compare(&reached, asked)?;
+                Ok(reached)
+            }
+            Target::Drives(drives) => {
+                finite(drives.iter().map(|drive| &drive.value))?;
+                self.system.follow(from, &self.drive_goal(drives)?)
+            }
+        }
+    }
+
+    /// The output's position x y z (m) and rotation vector rx ry rz (rad) from home, in global
+    /// axes.
+    pub fn pose(&self, configuration: &Configuration) -> [f64; 6] {
+        let mut pose = self.system.coordinates(configuration);
+        for (k, coordinate) in pose.iter_mut().enumerate() {
+            *coordinate += self.system.shift(k);
+        }
+        pose
+    }
+
+    /// The value of a joint's free direction relative to home (m or rad, whole turns included):
+    /// of the second body relative to the first. `None` where the direction does not move, or
+    /// has no value of its own: a ball joint's rotation.
+    pub fn value(
+        &self,
+        configuration: &Configuration,
+        joint: JointId,
+        direction: Dof,
+    ) -> Option<f64> {
+        let column = self.system.linkage.column(joint.0, direction)?;
+        Some(configuration.values[column])
+    }
+
+    /// The drives: directions that are free by their joint's kind, and locked or elastic.
+    pub fn drives(&self) -> impl Iterator<Item = (JointId, Dof)> {
+        let joints = self.system.linkage.joints.iter().enumerate();
+        joints.flat_map(|(k, joint)| joint.drives.iter().map(move |dof| (JointId(k), dof)))
+    }
+
+    /// Whether a direction of a joint can be given a value.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn check_drive(&self, joint: JointId, direction: Dof) -> Result<(), ClosureError> {
+        let connection = &self.parts.model.joints()[joint.0];
+        if self.system.linkage.joints[joint.0]
+            .drives
+            .contains(direction)
+        {
+            return Ok(());
+        }
+        Err(ClosureError::NotADrive {
+            joint: connection.name.clone(),
+            direction,
+            why: if connection.joint.free().contains(direction) {
+                "it is free; a drive is locked or has a stiffness"
+            } else {
+                "the joint does not move in it"
+            },
+        })
+    }
+
+    /// By how much the loops of a configuration stay open, over the mechanism's size (and in rad):
+    /// rounding, or as much as redundant conditions in the file contradict each other.
+    pub fn misfit(&self, configuration: &Configuration) -> f64 {
+        let misfit = self.system.misfit(configuration, &Goal::default());
+        if misfit.is_empty() {
+            0.0
+        } else {
+            misfit.amax()
+        }
+    }
+
+    /// Writes a configuration into a geometry of the model (m, global axes).
+    ///
+    /// Points, directions of sections and flexible bodies turn with their bodies, a section
+    /// without a given `y_axis` too: from the direction that it has at home. A joint's frame turns
+    /// with its first body; that of a universal joint keeps x in the first body and y in the
+    /// second. Where a joint slides, its two nodes part; the joint then stands on the first
+    /// body's, and the second's slides along its beam, or moves on its rigid body. A beam that
+    /// runs on straight on both sides of the joint is a rail: the joint stays with the other
+    /// body, whichever is first. A joint with the ground stands on the body, if that is no rail.
+    ///
+    /// # Errors
+    /// A geometry of another model; a sliding joint between two bodies of which neither can give
+    /// way. The geometry is then as it was.
+    pub fn write(
+        &self,
+        configuration: &Configuration,
+        geometry: &mut Geometry,
+    ) -> Result<(), ClosureError> {
+        self.parts
+            .write(&self.system.linkage, configuration, geometry)
+    }
+
+    /// Which coordinates are followed where those of `asked` are: of these as many as are
+    /// independent, of the others those that the mechanism leaves open.
+    fn prescribed(&self, asked: &[bool; 6]) -> [bool; 6] {
+        let mut left: Vec<_> = (0..6)
+            .map(|k| {
+                let weight = if k < 3 { POSITION_FIRST } else { 1.0 };
+                self.freedom.row(k).transpose() * weight
+            })
+            .collect();
+        let mut prescribed = [false; 6];
+        for wanted in [true, false] {
+            loop {
+                let candidates = (0..6).filter(|k| asked[*k] == wanted && !prescribed[*k]);
+                let largest = candidates.max_by(|a, b| {
+                    // Of equals the first.
+                    let order = left[*a].norm().total_cmp(&left[*b].norm());
+                    order.then(b.cmp(a))
+                });
+                let Some(k) = largest.filter(|k| left[*k].norm() > 10.0 * RANK_TOLERANCE) else {
+                    break;
+                };
+                prescribed[k] = true;
+                let direction = left[k].normalize();
+                for row in &mut left {
+                    let part = row.dot(&direction);
+                    *row -= &direction * part;
+                }
+            }
+        }
+        prescribed
+    }
+
+    /// What is followed for these coordinates.
+    fn output_goal(&self, asked: &[Option<f64>; 6]) -> Goal {
+        let prescribed = self.prescribed(&asked.map(|value| value.is_some()));
+        let home = self.system.coordinates(&self.home());
+        let mut goal = Goal::default();
+        for k in 0..6 {
+            if prescribed[k] {
+                let asked = asked[k].map(|value| value - self.system.shift(k));
+                goal.output[k] = Some(asked.unwrap_or(home[k]));
+            }
+        }
+        goal
+    }
+
+    /// Refuses a configuration that does not have the asked coordinates.
+    fn compare(
+        &self,
+        reached: &Configuration,
+        asked: &[Option<f64>; 6],
+    ) -> Result<(), ClosureError> {
+        let found = self.pose(reached);
+        let whole = asked[3..].iter().all(Option::is_some);
+        let mut wrong = Vec::new();
+        for (k, wanted) in asked.iter().enumerate() {
+            let Some(wanted) = wanted else { continue };
+            let unit = if k < 3 { self.system.size } else { 1.0 };
+            if (found[k] - wanted).abs() > SAME * unit && !(whole && k >= 3) {
+                let [found, wanted] = [found[k], *wanted].map(shown);
+                wrong.push(format!("{} is {found}, not {wanted}", NAMES[k]));
+            }
+        }
+        if whole {
+            let turn = |r: &[f64]| {
+                nalgebra::UnitQuaternion::from_scaled_axis(Vector3::from_column_slice(r))
+            };
+            let wanted = asked.map(Option::unwrap_or_default);
+            if turn(&found[3..]).angle_to(&turn(&wanted[3..])) > SAME {
+                let vector = |pose: &[f64; 6]| {
+                    let [.., x, y, z] = pose.map(shown);
+                    format!("({x}, {y}, {z})")
+                };
+                wrong.push(format!(
+                    "the orientation is {}, not {}",
+                    vector(&found),
+                    vector(&wanted)
+                ));
+            }
+        }
+        if wrong.is_empty() {
+            return Ok(());
+        }
+        Err(ClosureError::CannotFollow {
+            what: format!(
+                "it has {} freedoms, and {}",
+                self.output_mobility(),
+                wrong.join("; ")
+            ),
+        })
+    }
+
+    /// The named drives at their values, the other locked directions at home.
+    fn drive_goal(&self, drives: &[Drive]) -> Result<Goal, ClosureError> {
+        let mut goal = Goal::default();
+        for drive in drives {
+            self.check_drive(drive.joint, drive.direction)?;
+            if let Some(column) = self.system.linkage.column(drive.joint.0, drive.direction) {
+                goal.drives.push((column, drive.value));
+            }
+        }
+        for (k, connection) in self.parts.model.joints().iter().enumerate() {
+            for dof in connection.locked.iter() {
+                let Some(column) = self.system.linkage.column(k, dof) else {
+                    continue;
+                };
+                if goal.drives.iter().all(|(named, _)| *named != column) {
+                    goal.drives.push((column, 0.0));
+                }
+            }
+        }
+        Ok(goal)
+    }
+}
+
+fn finite<'v>(mut values: impl Iterator<Item = &'v f64>) -> Result<(), ClosureError> {
+    match values.find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(ClosureError::NotFinite { value: *value }),
+    }
+}
+
+/// Middle and diagonal of the box around all nodes (m); 1 where they coincide.
+fn middle_and_size(geometry: &Geometry) -> (Vector3<f64>, f64) {
+    let mut positions = geometry.positions.iter().map(|p| p.coords);
+    let first = positions.next().unwrap_or_default();
+    let (low, high) = positions.fold((first, first), |(low, high), p| (low.inf(&p), high.sup(&p)));
+    let diagonal = (high - low).norm();
+    let size = if diagonal > 0.0 { diagonal } else { 1.0 };
+    ((low + high) * 0.5, size)
+}

@@ -1,0 +1,25 @@
+//! Loop closure of rigid mechanisms.
+//!
+#![doc = include_str!("../README.md")]
+//!
+//! # The way through
+//!
+//! [`LoopClosure::new`] takes a model at home → [`LoopClosure::reach`] follows a [`Target`] from a
+//! [`Configuration`] to the next → [`LoopClosure::write`] makes a geometry of it, with which
+//! `hyperstat_assembly` solves the model in that pose.
+
+mod closure;
+mod equations;
+mod error;
+mod linkage;
+mod motion;
+mod newton;
+mod path;
+mod place;
+mod target;
+mod twist;
+
+pub use closure::LoopClosure;
+pub use error::ClosureError;
+pub use linkage::Configuration;
+pub use target::{Drive, Target};
