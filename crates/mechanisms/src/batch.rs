@@ -1,19 +1,24 @@
 //! A batch: jobs, each a mechanism in one or many poses.
 
+use std::cell::RefCell;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, Model};
 
+use crate::design::{Design, Designs, Varied};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
 use crate::figures::{self, Figure};
 use crate::fragment::{Fragment, first_at};
 use crate::mechanism::Mechanism;
-use crate::poses::{Given, Poses};
-use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
+use crate::overlay::Overlay;
+use crate::poses::Poses;
+use crate::prebuilt::PoseError;
 use crate::registry::Registry;
 use crate::source::Place;
-use crate::{load, loads, names, parameters};
+use crate::subject::{Recipe, Subject};
+use crate::vary::Variation;
 
 /// The jobs of a batch file, in its order, all of them checked.
 #[derive(Debug)]
@@ -23,28 +28,22 @@ pub struct Batch {
     pub jobs: Vec<Job>,
 }
 
-/// One job: a mechanism, its poses and the figures to draw.
+/// One job: a mechanism, or many designs of one, its poses and the figures to draw.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Job {
     /// Name, the stem of its output files: ASCII letters, digits, `_`, `-` and `.`, not starting
     /// with `.`.
     pub name: String,
-    /// Figures to draw, in the order of the file.
+    /// Figures to draw, of the first design, in the order of the file.
     pub figures: Vec<Figure>,
-    subject: Subject,
-    poses: Poses,
+    recipe: Recipe,
+    poses: Arc<Poses>,
+    /// Where `vary` is given.
+    designs: Option<Designs>,
+    /// Of the first design.
+    first: Arc<Subject>,
     place: Place,
-}
-
-#[derive(Debug)]
-enum Subject {
-    File(Mechanism),
-    Prebuilt {
-        mechanism: Box<dyn Prebuilt>,
-        /// The model with its loads in a pose that can be reached.
-        template: Result<Model, PoseError>,
-    },
 }
 
 impl Batch {
@@ -55,7 +54,15 @@ impl Batch {
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
         for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
-            let known = ["name", "mechanism", "poses", "loads", "figures"];
+            let known = [
+                "name",
+                "mechanism",
+                "poses",
+                "loads",
+                "figures",
+                "vary",
+                "zip",
+            ];
             let fields = Fields::read(fragment, "a job", &known, &[])?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
@@ -108,200 +115,109 @@ impl Job {
         place: Place,
         registry: &Registry,
     ) -> Result<Self, LoadError> {
-        let (subject, poses) = subject(fields, registry)?;
+        let recipe = Recipe::find(fields, registry)?;
+        let known = RefCell::default();
+        let learning = Overlay::learning(&known);
+        let written = match fields.get("vary") {
+            Some(_) => recipe.read(recipe.root().under(&learning))?,
+            None => recipe.read(recipe.root())?,
+        };
+        let poses = written.poses(fields)?;
+        let mut first = recipe.load(written, &poses, None)?;
         let figures = match fields.get("figures") {
             Some(list) => figures::read(list, poses.len())?,
             None => Vec::new(),
         };
+        let designs = match Variation::read(fields, recipe.root(), poses.len())? {
+            Some(variation) => {
+                let designs = Designs::check(variation, known.into_inner(), &recipe)?;
+                first = designs.load(0, &recipe, &poses, &first)?;
+                Some(designs)
+            }
+            None => None,
+        };
         Ok(Self {
             name,
             figures,
-            subject,
-            poses,
+            recipe,
+            poses: Arc::new(poses),
+            designs,
+            first: Arc::new(first),
             place,
         })
     }
 
-    /// Number of poses, at least 1.
+    /// Number of poses, at least 1; the same in every design.
     #[allow(clippy::len_without_is_empty)]
     pub fn len(&self) -> usize {
         self.poses.len()
     }
 
-    /// The model with the job's loads, in pose 0 or, where that cannot be reached, in another pose
-    /// that can, which need not be one of the job's.
+    /// Number of designs, at least 1.
+    pub fn designs(&self) -> usize {
+        self.designs.as_ref().map_or(1, Designs::len)
+    }
+
+    /// What varies from design to design, in the order of the file; nothing where `vary` is not
+    /// given.
+    pub fn varied(&self) -> &[Varied] {
+        self.designs.as_ref().map_or(&[], Designs::varied)
+    }
+
+    /// One of the designs, from 0.
     ///
     /// # Errors
-    /// Why pose 0 cannot be reached, where no other pose was found.
-    pub fn model(&self) -> Result<Model, PoseError> {
-        match &self.subject {
-            Subject::File(mechanism) => Ok(mechanism.model.clone()),
-            Subject::Prebuilt { template, .. } => template.clone(),
-        }
-    }
-
-    /// Brings `geometry`, which belongs to a model of [`Job::model`], to `pose` (from 0);
-    /// returns the output's whole pose x y z \[m\] and rotation vector rx ry rz \[rad\] from its
-    /// home orientation.
-    ///
-    /// # Errors
-    /// The pose cannot be reached; `geometry` is then as it was.
+    /// The mistake in a mechanism that the varied values make, at the value that is to blame: only
+    /// in a job of so many designs that they were not all checked when it was read.
     ///
     /// # Panics
-    /// If `pose` is not below [`Job::len`].
-    pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        match &self.subject {
-            Subject::File(Mechanism { model, .. }) => {
-                let own = model.geometry();
-                geometry.positions.clone_from(&own.positions);
-                geometry.y_axes.clone_from(&own.y_axes);
-                geometry.frames.clone_from(&own.frames);
-                geometry.rotations.clone_from(&own.rotations);
-                let output = model.output().map(|node| own.positions[node.0]);
-                let [x, y, z] = output.unwrap_or_default().into();
-                Ok([x, y, z, 0.0, 0.0, 0.0])
+    /// If `number` is not below [`Job::designs`].
+    pub fn design(&self, number: usize) -> Result<Design, LoadError> {
+        assert!(number < self.designs(), "there is no design {number}");
+        let (values, subject) = match &self.designs {
+            None => (Vec::new(), Arc::clone(&self.first)),
+            Some(designs) if number == 0 => (designs.values(0), Arc::clone(&self.first)),
+            Some(designs) => {
+                let subject = designs.load(number, &self.recipe, &self.poses, &self.first)?;
+                (designs.values(number), Arc::new(subject))
             }
-            Subject::Prebuilt { mechanism, .. } => {
-                let (target, count) = given(mechanism.as_ref(), &self.poses.get(pose));
-                mechanism.place(&target[..count], geometry)
-            }
-        }
-    }
-
-    /// The numbers given for a pose (from 0), x y z \[m\] and rotation vector \[rad\]; zero where
-    /// none is given.
-    ///
-    /// # Panics
-    /// If `pose` is not below [`Job::len`].
-    pub fn target(&self, pose: usize) -> [f64; 6] {
-        self.poses.get(pose)
-    }
-
-    /// The mechanism, where it comes from a file; its loads are the job's.
-    pub fn mechanism(&self) -> Option<&Mechanism> {
-        match &self.subject {
-            Subject::File(mechanism) => Some(mechanism),
-            Subject::Prebuilt { .. } => None,
-        }
+        };
+        Ok(Design {
+            number,
+            values,
+            subject,
+            poses: Arc::clone(&self.poses),
+        })
     }
 
     /// Place of the job's name in the batch file.
     pub fn location(&self) -> Location {
         self.place.location()
     }
-}
 
-/// Reads the mechanism of a job with its loads, and its poses.
-fn subject(fields: &Fields<'_>, registry: &Registry) -> Result<(Subject, Poses), LoadError> {
-    let whole = fields.required("mechanism")?;
-    let poses = fields.get("poses");
-    let expected = "a mechanism, `File(\"file.ron\")` or a prebuilt one";
-    let (kind, arguments) = whole.variant(expected)?;
-    match kind.text() {
-        "File" => {
-            let expected = "one path, `File(\"file.ron\")`";
-            let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
-            let [path] = arguments.array(expected)?;
-            if let Some(poses) = poses {
-                return Err(poses
-                    .error("a mechanism of a file takes no poses")
-                    .with_help("leave `poses` out: the job has the configuration in the file"));
-            }
-            let mut mechanism = load::mechanism_of(path, registry)?;
-            if let Some(list) = fields.get("loads") {
-                mechanism.replace_loads(list)?;
-            }
-            Ok((Subject::File(mechanism), Poses::Own))
-        }
-        name => {
-            let Some(prebuilt) = parameters::find(name) else {
-                let known = parameters::KINDS.iter().map(|kind| kind.name);
-                let known = std::iter::once("File").chain(known);
-                return Err(kind
-                    .error(format!("unknown mechanism `{name}`"))
-                    .with_help(names::help(name, "mechanisms", known)));
-            };
-            let mechanism = parameters::read(prebuilt, whole, arguments)?;
-            let poses = prebuilt_poses(poses, mechanism.as_ref(), whole)?;
-            let template = template(mechanism.as_ref(), &poses, fields.get("loads"))?;
-            let subject = Subject::Prebuilt {
-                mechanism,
-                template,
-            };
-            Ok((subject, poses))
-        }
+    /// [`Design::model`] of the first design.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn model(&self) -> Result<Model, PoseError> {
+        self.first.model()
     }
-}
 
-fn prebuilt_poses(
-    poses: Option<Fragment<'_>>,
-    mechanism: &dyn Prebuilt,
-    whole: Fragment<'_>,
-) -> Result<Poses, LoadError> {
-    let given = Given {
-        kind: mechanism.kind(),
-        coordinates: mechanism.coordinates(),
-    };
-    match (poses, given.coordinates.len()) {
-        (None, 0) => Ok(Poses::Own),
-        (Some(poses), 0) => Err(poses
-            .error(format!("`{}` takes no poses", given.kind))
-            .with_help("leave `poses` out")),
-        (Some(poses), _) => Poses::read(poses, &given),
-        (None, _) => Err(whole
-            .error(format!("`{}` needs `poses`", given.kind))
-            .with_help("add `poses: List([(x, y, z)])`, `Csv(\"file.csv\")` or `Grid(…)`")),
+    /// [`Design::place`] of the first design.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        self.first.place(&self.poses, pose, geometry)
     }
-}
 
-/// Of a whole pose the coordinates that `mechanism` is given, first, and their number.
-fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
-    let coordinates = mechanism.coordinates();
-    let mut target = [0.0; 6];
-    for (value, coordinate) in target.iter_mut().zip(coordinates) {
-        *value = pose[coordinate.index()];
+    /// [`Design::target`] of any design.
+    pub fn target(&self, pose: usize) -> [f64; 6] {
+        self.poses.get(pose)
     }
-    (target, coordinates.len())
-}
 
-/// The model with its loads in the first of these poses that can be reached: the job's first
-/// [`TRIED`] poses, the poses of [`probes`], the rest of the job's; the first pose's error where
-/// none can. The loads are checked in a pose that the job does not have, too: the names of a
-/// mechanism are the same in every pose.
-fn template(
-    mechanism: &dyn Prebuilt,
-    poses: &Poses,
-    loads: Option<Fragment<'_>>,
-) -> Result<Result<Model, PoseError>, LoadError> {
-    let build = |pose: [f64; 6]| {
-        let (target, count) = given(mechanism, &pose);
-        mechanism.model(&target[..count])
-    };
-    let first = poses.len().min(TRIED);
-    let tried = (1..first).map(|pose| poses.get(pose));
-    let rest = (first..poses.len()).map(|pose| poses.get(pose));
-    let mut others = tried.chain(probes(mechanism.coordinates())).chain(rest);
-    let mut template =
-        build(poses.get(0)).or_else(|error| others.find_map(|pose| build(pose).ok()).ok_or(error));
-    if let (Ok(model), Some(list)) = (&mut template, loads) {
-        loads::read(list, model)?;
+    /// [`Design::mechanism`] of the first design.
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        self.first.mechanism()
     }
-    Ok(template)
-}
-
-/// Number of poses of a job that are tried before any other: a large grid may be out of reach.
-const TRIED: usize = 1000;
-
-/// Poses of which a mechanism of any size between a millimetre and a kilometre is likely to reach
-/// one: home, and one coordinate at a time on either side of it, by steps of 3 %.
-fn probes(coordinates: &[PoseCoordinate]) -> impl Iterator<Item = [f64; 6]> {
-    let values = || (0..=468).flat_map(|k| [1.0, -1.0].map(|sign| sign * 1e-3 * 1.03_f64.powi(k)));
-    let moved = coordinates.iter().flat_map(move |coordinate| {
-        values().map(|value| {
-            let mut pose = [0.0; 6];
-            pose[coordinate.index()] = value;
-            pose
-        })
-    });
-    std::iter::once([0.0; 6]).chain(moved)
 }

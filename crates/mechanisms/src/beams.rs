@@ -1,6 +1,6 @@
 //! Bodies made of beams: one beam, or a frame of several.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use hyperstat_assembly::{BodyId, Member, Model, ModelError};
 use hyperstat_elements::{Beam, ElementError, Material, Taper, TaperedBeam, element_frame};
@@ -43,6 +43,7 @@ pub(crate) fn frame(
 ) -> Result<BodyId, LoadError> {
     let list = fields.required("members")?;
     let mut points = Vec::<Through>::new();
+    let mut place_of = HashMap::new();
     let mut members = Vec::new();
     let mut taken = HashSet::new();
     let expected = "a list of members, each a list of points or `(through: […], …)`";
@@ -60,9 +61,10 @@ pub(crate) fn frame(
         };
         let mut places = Vec::new();
         for point in listed(through, tables)? {
-            let known = points.iter().position(|other| other.name == point.name);
-            places.push(known.unwrap_or(points.len()));
-            if known.is_none() {
+            let next = points.len();
+            let place = *place_of.entry(point.name.clone()).or_insert(next);
+            places.push(place);
+            if place == next {
                 points.push(point.clone());
             }
             if let [.., a, b] = places[..]

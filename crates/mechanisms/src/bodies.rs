@@ -1,5 +1,7 @@
 //! Bodies through named points.
 
+use std::collections::HashMap;
+
 use hyperstat_assembly::{BodyId, Model};
 use hyperstat_elements::Material;
 use nalgebra::Point3;
@@ -114,18 +116,17 @@ pub(crate) fn through<'a>(
     list: Fragment<'a>,
     tables: &Tables,
 ) -> Result<Vec<Through<'a>>, LoadError> {
-    let mut points = Vec::<Through>::new();
-    for point in listed(list, tables)? {
-        let Through { name, at, .. } = &point;
-        if let Some(first) = points.iter().find(|other| other.name == *name) {
+    let points = listed(list, tables)?;
+    let mut seen = HashMap::with_capacity(points.len());
+    for Through { name, at, .. } in &points {
+        if let Some(first) = seen.insert(name, *at) {
             return Err(at
                 .error(format!(
                     "{} runs through point `{name}` twice",
                     fields.owner()
                 ))
-                .with_help(first_at(first.at)));
+                .with_help(first_at(first)));
         }
-        points.push(point);
     }
     if points.is_empty() {
         return Err(list.error(format!("{} has no point", fields.owner())));

@@ -55,6 +55,61 @@ pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6
     Ok(poses)
 }
 
+/// Reads a table whose first line names its columns; `column` says what a name means, and refuses
+/// others. Empty lines are passed over.
+pub(crate) fn named<C: PartialEq>(
+    table: &Arc<Source>,
+    column: impl Fn(&str, &Place) -> Result<C, LoadError>,
+) -> Result<(Vec<C>, Vec<Vec<f64>>), LoadError> {
+    let place = |span| Place {
+        source: Arc::clone(table),
+        span,
+    };
+    let text = table.text();
+    let mut lines = lines(text);
+    let Some(header) = lines.next() else {
+        return Err(place(0..0)
+            .error("the table is empty")
+            .with_help("its first line names the columns"));
+    };
+    let mut columns = Vec::new();
+    for cell in cells(text, &header) {
+        let name = unquoted(&text[cell.clone()]);
+        let place = place(cell.clone());
+        let meant = column(name, &place)?;
+        if columns.contains(&meant) {
+            return Err(place
+                .error(format!("the column `{name}` is given twice"))
+                .with_help("leave one of them out"));
+        }
+        columns.push(meant);
+    }
+    let mut rows = Vec::new();
+    for line in lines {
+        let row: Vec<f64> = cells(text, &line)
+            .map(|cell| number(&place(cell)))
+            .collect::<Result<_, _>>()?;
+        if row.len() != columns.len() {
+            let (wanted, found) = (columns.len(), row.len());
+            return Err(place(line)
+                .error(format!(
+                    "expected {wanted} numbers, one a column, found {found}"
+                ))
+                .with_help(format!(
+                    "give a number for each of the columns {}",
+                    &text[header.clone()]
+                )));
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return Err(place(text.len()..text.len())
+            .error("the table names its columns and holds no pose")
+            .with_help("add a line of numbers for every pose"));
+    }
+    Ok((columns, rows))
+}
+
 /// Reads a table of numbers without names of columns, each with its place; empty lines are passed
 /// over.
 pub(crate) fn numbers(table: &Arc<Source>) -> Result<Vec<Vec<(f64, Place)>>, LoadError> {

@@ -4,7 +4,9 @@
 //! once; after that every value is a [`Fragment`], a piece of the file's own text (ron's
 //! `RawValue` borrows it), so that its place is known to every error about it.
 
+use std::collections::HashMap;
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
@@ -13,6 +15,7 @@ use ron::value::RawValue;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
 use crate::error::LoadError;
+use crate::overlay::{Form, Overlay};
 use crate::source::{Place, Source};
 use crate::syntax;
 
@@ -21,6 +24,8 @@ use crate::syntax;
 pub(crate) struct Fragment<'a> {
     source: &'a Arc<Source>,
     text: &'a str,
+    /// What stands in for parts of the text.
+    overlay: Option<&'a Overlay<'a>>,
 }
 
 /// An entry `"name": value` of a map.
@@ -50,13 +55,40 @@ impl<'a> Fragment<'a> {
     }
 
     fn of_raw(source: &'a Arc<Source>, raw: &'a RawValue) -> Self {
-        let text = raw.trim().get_ron();
-        Self { source, text }
+        Self {
+            source,
+            text: text_of(raw),
+            overlay: None,
+        }
+    }
+
+    /// The value that stands at a place.
+    pub(crate) fn at(place: &'a Place) -> Self {
+        Self {
+            source: &place.source,
+            text: place.source.text().get(place.span.clone()).unwrap_or(""),
+            overlay: None,
+        }
+    }
+
+    /// The same value, with what `overlay` says of its parts.
+    pub(crate) fn under(self, overlay: &'a Overlay<'a>) -> Self {
+        Self {
+            overlay: Some(overlay),
+            ..self
+        }
     }
 
     /// A part of this fragment's text.
     pub(crate) fn part(self, text: &'a str) -> Self {
         Self { text, ..self }
+    }
+
+    /// A value inside this one, or what stands in for it.
+    fn inner(self, text: &'a str) -> Self {
+        let inner = self.part(text);
+        let replacement = self.overlay.and_then(|overlay| overlay.replacement(inner));
+        replacement.unwrap_or(inner)
     }
 
     pub(crate) fn text(self) -> &'a str {
@@ -67,13 +99,18 @@ impl<'a> Fragment<'a> {
         self.source
     }
 
-    pub(crate) fn place(self) -> Place {
+    /// The bytes of the source that it is.
+    pub(crate) fn span(self) -> Range<usize> {
         // The text is a piece of the source's, so the distance of the two is its offset.
         let start = self.text.as_ptr() as usize;
         let start = start.saturating_sub(self.source.text().as_ptr() as usize);
+        start..start + self.text.len()
+    }
+
+    pub(crate) fn place(self) -> Place {
         Place {
             source: Arc::clone(self.source),
-            span: start..start + self.text.len(),
+            span: self.span(),
         }
     }
 
@@ -100,23 +137,60 @@ impl<'a> Fragment<'a> {
 
     /// A finite number.
     pub(crate) fn number(self) -> Result<f64, LoadError> {
-        let number: f64 = self.parse("a number")?;
-        if number.is_finite() {
+        if let Some(number) = self.overlay.and_then(|overlay| overlay.number(self)) {
             return Ok(number);
         }
-        Err(self
-            .error(format!("`{}` is not a finite number", self.text))
-            .with_help("give a number such as 0.25 or 2.1e11"))
+        let number: f64 = self.parse("a number")?;
+        if !number.is_finite() {
+            return Err(self
+                .error(format!("`{}` is not a finite number", self.text))
+                .with_help("give a number such as 0.25 or 2.1e11"));
+        }
+        if let Some(overlay) = self.overlay {
+            overlay.learn_number(self, number);
+        }
+        Ok(number)
     }
 
     pub(crate) fn string(self) -> Result<String, LoadError> {
-        self.parse("a text in quotes")
+        self.unquoted("a text in quotes")
+    }
+
+    fn unquoted(self, expected: &str) -> Result<String, LoadError> {
+        if let Some(string) = self.overlay.and_then(|overlay| overlay.string(self)) {
+            return Ok(string);
+        }
+        let string: String = self.parse(expected)?;
+        if let Some(overlay) = self.overlay {
+            overlay.learn_string(self, &string);
+        }
+        Ok(string)
+    }
+
+    /// The parts that `read` takes this fragment apart into, or that are known.
+    fn parts(
+        self,
+        form: Form,
+        read: impl FnOnce() -> Result<Vec<&'a str>, LoadError>,
+    ) -> Result<Vec<&'a str>, LoadError> {
+        if let Some(parts) = self.overlay.and_then(|overlay| overlay.parts(self, form)) {
+            return Ok(parts);
+        }
+        let parts = read()?;
+        if let Some(overlay) = self.overlay {
+            let parts = parts.iter().map(|text| self.part(text).span());
+            overlay.learn_parts(self, form, parts.collect());
+        }
+        Ok(parts)
     }
 
     /// A tuple `(…, …)` of any length; `expected` says in words what it is.
     pub(crate) fn tuple(self, expected: &str) -> Result<Vec<Self>, LoadError> {
-        let Tuple(items) = self.parse(expected)?;
-        Ok(self.fragments(items))
+        let parts = self.parts(Form::Tuple, || {
+            let Tuple(items) = self.parse(expected)?;
+            Ok(items.into_iter().map(text_of).collect())
+        })?;
+        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
     }
 
     /// A tuple of `N` values.
@@ -127,13 +201,11 @@ impl<'a> Fragment<'a> {
 
     /// A list `[…, …]`.
     pub(crate) fn list(self, expected: &str) -> Result<Vec<Self>, LoadError> {
-        let items = self.parse(expected)?;
-        Ok(self.fragments(items))
-    }
-
-    fn fragments(self, items: Vec<&'a RawValue>) -> Vec<Self> {
-        let fragment = |raw| Self::of_raw(self.source, raw);
-        items.into_iter().map(fragment).collect()
+        let parts = self.parts(Form::List, || {
+            let items: Vec<&RawValue> = self.parse(expected)?;
+            Ok(items.into_iter().map(text_of).collect())
+        })?;
+        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
     }
 
     /// Three finite numbers.
@@ -155,40 +227,67 @@ impl<'a> Fragment<'a> {
 
     /// A map `{ "name": value, … }` in the order of the file; a name given twice is an error.
     pub(crate) fn map(self) -> Result<Vec<Entry<'a>>, LoadError> {
-        let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
-        let mut seen = std::collections::HashMap::new();
-        let mut entries = Vec::with_capacity(pairs.len());
-        for (key, value) in pairs {
-            let key = Self::of_raw(self.source, key);
-            let name = key.parse::<String>("a name in quotes")?;
-            if let Some(first) = seen.insert(name.clone(), key) {
-                return Err(key
-                    .error(format!("the name \"{name}\" is given twice"))
-                    .with_help(first_at(first)));
+        let parts = self.parts(Form::Map, || {
+            let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
+            let mut seen = HashMap::new();
+            let mut parts = Vec::with_capacity(2 * pairs.len());
+            for (key, value) in pairs {
+                let key = self.part(text_of(key));
+                let name = key.unquoted(NAME)?;
+                if let Some(first) = seen.insert(name.clone(), key) {
+                    return Err(key
+                        .error(format!("the name \"{name}\" is given twice"))
+                        .with_help(first_at(first)));
+                }
+                parts.extend([key.text, text_of(value)]);
             }
-            let value = Self::of_raw(self.source, value);
-            entries.push(Entry { name, key, value });
-        }
-        Ok(entries)
+            Ok(parts)
+        })?;
+        let entry = |pair: &[&'a str]| {
+            let key = self.part(pair[0]);
+            Ok(Entry {
+                name: key.unquoted(NAME)?,
+                key,
+                value: self.inner(pair[1]),
+            })
+        };
+        parts.chunks_exact(2).map(entry).collect()
     }
 
     /// The fields of a struct `(name: value, …)` in the order of the file: names and values.
     pub(crate) fn named(self, expected: &str) -> Result<Vec<(Self, Self)>, LoadError> {
-        let Named(fields) = self.parse(expected)?;
-        let pair = |(name, raw)| (self.part(name), Self::of_raw(self.source, raw));
-        Ok(fields.into_iter().map(pair).collect())
+        let parts = self.parts(Form::Named, || {
+            let Named(fields) = self.parse(expected)?;
+            let pair = |(name, raw)| [name, text_of(raw)];
+            Ok(fields.into_iter().flat_map(pair).collect())
+        })?;
+        let pair = |pair: &[&'a str]| (self.part(pair[0]), self.inner(pair[1]));
+        Ok(parts.chunks_exact(2).map(pair).collect())
     }
 
     /// A kind and its arguments: `Kind(…)` or `Kind`, whose arguments are `None`.
     pub(crate) fn variant(self, expected: &str) -> Result<(Self, Option<Self>), LoadError> {
-        let wrong = |_| self.expected(expected);
-        let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
-        let Identifier(kind) =
-            Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
-        let rest = deserializer.remainder().trim();
-        let arguments = (!rest.is_empty()).then(|| self.part(rest));
-        Ok((self.part(kind), arguments))
+        let parts = self.parts(Form::Variant, || {
+            let wrong = |_| self.expected(expected);
+            let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
+            let Identifier(kind) =
+                Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
+            let rest = deserializer.remainder().trim();
+            Ok([kind, rest][..if rest.is_empty() { 1 } else { 2 }].to_vec())
+        })?;
+        Ok((
+            self.part(parts[0]),
+            parts.get(1).map(|rest| self.part(rest)),
+        ))
     }
+}
+
+/// What a key of a map is.
+const NAME: &str = "a name in quotes";
+
+/// The text of a value without the white space and comments around it.
+fn text_of(raw: &RawValue) -> &str {
+    raw.trim().get_ron()
 }
 
 /// Where something stood first that is given twice.

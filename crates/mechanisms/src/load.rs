@@ -9,7 +9,7 @@ use crate::fragment::Fragment;
 use crate::mechanism::Mechanism;
 use crate::parameters;
 use crate::registry::Registry;
-use crate::source::Source;
+use crate::source::{Place, Source};
 
 /// What a file holds.
 #[derive(Debug)]
@@ -75,13 +75,10 @@ pub fn batch_from_str(text: &str, path: &Path, registry: &Registry) -> Result<Ba
     read_batch(&Source::new(path, text), registry)
 }
 
-/// Reads the mechanism file whose path stands at `path` in another file.
-pub(crate) fn mechanism_of(
-    path: Fragment<'_>,
-    registry: &Registry,
-) -> Result<Mechanism, LoadError> {
+/// Where the mechanism stands in the file whose path stands at `path` in another file.
+pub(crate) fn mechanism_at(path: Fragment<'_>) -> Result<Place, LoadError> {
     let source = read_named(path)?;
-    read_mechanism(&source, registry)
+    mechanism_in(&source).map(Fragment::place)
 }
 
 /// Reads the file whose path stands at `path` in another file, relative to that file.
@@ -112,13 +109,18 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
 }
 
 fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism, LoadError> {
+    Mechanism::read(mechanism_in(source)?, registry)
+}
+
+/// The value of a file, unless it is a batch.
+fn mechanism_in(source: &Arc<Source>) -> Result<Fragment<'_>, LoadError> {
     let value = Fragment::of_file(source)?;
     if is_batch(value) {
         return Err(value
             .error("expected a mechanism, found a batch of jobs")
             .with_help("name one of the mechanism files that the batch uses"));
     }
-    Mechanism::read(value, registry)
+    Ok(value)
 }
 
 fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {

@@ -24,10 +24,9 @@ pub(crate) fn node(
     at: Fragment<'_>,
     name: &str,
 ) -> Result<NodeId, LoadError> {
-    let body = &model.bodies()[body.0];
-    let point = |node: &NodeId| model.nodes()[node.0].point.as_str();
-    let found = body.nodes.iter().find(|node| point(node) == name);
-    found.copied().ok_or_else(|| {
+    model.node_of(body, name).ok_or_else(|| {
+        let body = &model.bodies()[body.0];
+        let point = |node: &NodeId| model.nodes()[node.0].point.as_str();
         let points: Vec<&str> = body.nodes.iter().map(point).collect();
         at.error(format!(
             "body `{}` does not run through point `{name}`",

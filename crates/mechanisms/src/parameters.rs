@@ -24,6 +24,7 @@ use crate::prebuilt::{
 use crate::{bodies, joints, materials};
 
 /// A kind of prebuilt mechanism in a batch file.
+#[derive(Debug)]
 pub(crate) struct Kind {
     /// Its name.
     pub(crate) name: &'static str,

@@ -5,6 +5,8 @@ use crate::fields::Fields;
 use crate::fragment::Fragment;
 use crate::prebuilt::PoseCoordinate;
 use crate::source::Place;
+use crate::targets::{Asked, Targets};
+use crate::values::Values;
 use crate::{csv, load, names};
 
 /// Poses x y z \[m\] and rotation vector \[rad\] of the output; zero where not given.
@@ -16,6 +18,8 @@ pub(crate) enum Poses {
     List(Vec<[f64; 6]>),
     /// All combinations of values of the six coordinates, x fastest.
     Grid([Values; 6]),
+    /// Those of a mechanism of a file.
+    Asked(Targets),
 }
 
 /// What poses a mechanism can be given.
@@ -43,38 +47,14 @@ impl Given<'_> {
     }
 }
 
-/// Evenly spaced numbers.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Values {
-    first: f64,
-    last: f64,
-    count: usize,
-}
-
-impl Values {
-    /// Zero alone.
-    const ZERO: Self = Self {
-        first: 0.0,
-        last: 0.0,
-        count: 1,
-    };
-
-    fn get(&self, k: usize) -> f64 {
-        if k == 0 {
-            return self.first;
-        }
-        let t = k as f64 / (self.count - 1) as f64;
-        self.first * (1.0 - t) + self.last * t
-    }
-}
-
 impl Poses {
     /// Number of poses.
     pub(crate) fn len(&self) -> usize {
         match self {
             Self::Own => 1,
             Self::List(poses) => poses.len(),
-            Self::Grid(axes) => axes.iter().map(|axis| axis.count).product(),
+            Self::Grid(axes) => axes.iter().map(|axis| axis.len()).product(),
+            Self::Asked(targets) => targets.len(),
         }
     }
 
@@ -86,11 +66,15 @@ impl Poses {
             Self::Grid(axes) => {
                 let mut rest = k;
                 axes.map(|axis| {
-                    let value = axis.get(rest % axis.count);
-                    rest /= axis.count;
+                    let value = axis.get(rest % axis.len());
+                    rest /= axis.len();
                     value
                 })
             }
+            Self::Asked(targets) => match targets.get(k) {
+                Asked::Output(asked) => asked.map(Option::unwrap_or_default),
+                Asked::Drives(_) => [0.0; 6],
+            },
         }
     }
 
@@ -159,14 +143,14 @@ fn grid(
             None if given.coordinates.iter().any(position) => fields.required(name)?,
             None => continue,
         };
-        *axis = values(field)?;
-        for value in [axis.first, axis.last] {
+        *axis = Values::read(field, "three values, `(first, last, count)`")?;
+        for value in axis.ends() {
             given.check(index, value, &field.place())?;
         }
     }
     let total = axes
         .iter()
-        .try_fold(1_usize, |n, axis| n.checked_mul(axis.count));
+        .try_fold(1_usize, |n, axis| n.checked_mul(axis.len()));
     if total.is_none() {
         return Err(whole
             .error("the grid has more poses than can be counted")
@@ -175,32 +159,13 @@ fn grid(
     Ok(Poses::Grid(axes))
 }
 
-fn values(fragment: Fragment<'_>) -> Result<Values, LoadError> {
-    let [first, last, count] = fragment.array("three values, `(first, last, count)`")?;
-    let expected = "a whole number of values, 1 or more";
-    let values = Values {
-        first: first.number()?,
-        last: last.number()?,
-        count: count.parse(expected)?,
-    };
-    if values.count == 0 {
-        return Err(count.expected(expected));
-    }
-    if values.count == 1 && values.first != values.last {
-        return Err(count
-            .error("one value cannot be both the first and the last, which differ")
-            .with_help("raise the count to 2, or give the same number twice"));
-    }
-    Ok(values)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_grid_runs_through_x_first_and_ends_exactly() {
-        let axis = |first, last, count| Values { first, last, count };
+        let axis = Values::new;
         let alone = Values::ZERO;
         let (x, y, z) = (axis(-0.2, 0.2, 5), axis(0.1, 0.3, 3), axis(0.5, 0.5, 1));
         let grid = Poses::Grid([x, y, z, alone, alone, alone]);
@@ -215,11 +180,7 @@ mod tests {
     #[test]
     fn a_grid_of_rotations() {
         let alone = Values::ZERO;
-        let turn = Values {
-            first: -0.1,
-            last: 0.1,
-            count: 3,
-        };
+        let turn = Values::new(-0.1, 0.1, 3);
         let grid = Poses::Grid([alone, alone, alone, alone, turn, turn]);
         assert_eq!(grid.len(), 9);
         assert_eq!(grid.get(5), [0.0, 0.0, 0.0, 0.0, 0.1, 0.0]);
@@ -227,11 +188,7 @@ mod tests {
 
     #[test]
     fn a_large_grid_takes_no_memory() {
-        let axis = Values {
-            first: -1.0,
-            last: 1.0,
-            count: 1 << 20,
-        };
+        let axis = Values::new(-1.0, 1.0, 1 << 20);
         let alone = Values::ZERO;
         let grid = Poses::Grid([axis, axis, axis, alone, alone, alone]);
         assert_eq!(grid.len(), 1 << 60);

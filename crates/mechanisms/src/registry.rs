@@ -1,6 +1,7 @@
 //! The joint kinds that a file may name.
 
 use std::fmt;
+use std::sync::Arc;
 
 use hyperstat_joints::Joint;
 use nalgebra::{Rotation3, Vector3};
@@ -12,6 +13,7 @@ use crate::fragment::Fragment;
 use crate::{kinds, names};
 
 /// The joint kinds that a file may name, each with its reader.
+#[derive(Clone)]
 pub struct Registry {
     kinds: Vec<Kind>,
 }
@@ -19,11 +21,12 @@ pub struct Registry {
 type Reader = dyn Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync;
 type Writer = dyn Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)> + Send + Sync;
 
+#[derive(Clone)]
 struct Kind {
     name: String,
     arguments: &'static [&'static str],
-    reader: Box<Reader>,
-    writer: Option<Box<Writer>>,
+    reader: Arc<Reader>,
+    writer: Option<Arc<Writer>>,
 }
 
 impl Registry {
@@ -47,7 +50,7 @@ impl Registry {
         self.kinds.push(Kind {
             name: name.into(),
             arguments,
-            reader: Box::new(reader),
+            reader: Arc::new(reader),
             writer: None,
         });
     }
@@ -66,7 +69,7 @@ impl Registry {
         + 'static,
     ) {
         if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.name == name) {
-            kind.writer = Some(Box::new(writer));
+            kind.writer = Some(Arc::new(writer));
         }
     }
 

@@ -11,6 +11,8 @@ use crate::error::{LoadError, Location};
 pub(crate) struct Source {
     path: PathBuf,
     text: String,
+    /// Where the whole text is asked for, if it stands in no file as it is.
+    origin: Option<Place>,
 }
 
 impl Source {
@@ -19,6 +21,17 @@ impl Source {
         Arc::new(Self {
             path: path.into(),
             text: text.strip_prefix('\u{feff}').unwrap_or(text).into(),
+            origin: None,
+        })
+    }
+
+    /// A value that is asked for at `origin` without standing there, such as one of a range:
+    /// messages about it point there.
+    pub(crate) fn made(text: String, origin: Place) -> Arc<Self> {
+        Arc::new(Self {
+            path: origin.source.path.clone(),
+            text,
+            origin: Some(origin),
         })
     }
 
@@ -42,6 +55,10 @@ impl Source {
                     .with_help("save it with the encoding UTF-8"))
             }
         }
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
     }
 
     pub(crate) fn text(&self) -> &str {
@@ -108,7 +125,10 @@ pub(crate) struct Place {
 
 impl Place {
     pub(crate) fn location(&self) -> Location {
-        self.source.locate(&self.span)
+        match &self.source.origin {
+            Some(origin) => origin.location(),
+            None => self.source.locate(&self.span),
+        }
     }
 
     pub(crate) fn error(&self, message: impl Into<String>) -> LoadError {

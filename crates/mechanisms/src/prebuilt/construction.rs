@@ -1,10 +1,9 @@
 //! One walk over a mechanism's parts, which both builds its model and brings a geometry to a
 //! pose: a mechanism names its parts once, so the two cannot differ.
 
-use std::fmt;
+use std::{fmt, slice};
 
 use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
-use hyperstat_elements::element_frame;
 use hyperstat_joints::{Dof, DofSet, Joint};
 use nalgebra::{Point3, Rotation3, Vector3};
 
@@ -16,11 +15,13 @@ pub(super) struct Name(pub(super) &'static str, pub(super) Option<usize>);
 
 impl Name {
     /// A name of limb `index`, counted from 0; the name's number counts from 1.
+    #[inline]
     pub(super) const fn limb(word: &'static str, index: usize) -> Self {
         Self(word, Some(index + 1))
     }
 
     /// A name that belongs to no limb.
+    #[inline]
     pub(super) const fn alone(word: &'static str) -> Self {
         Self(word, None)
     }
@@ -33,15 +34,21 @@ impl fmt::Display for Name {
     }
 }
 
+/// The body whose first point is the output.
+pub(super) const PLATFORM: Name = Name::alone("platform");
+
+/// Stiffness of a joint that is rigid in all directions in which it holds.
+pub(super) const RIGID: [Option<f64>; 6] = [None; 6];
+
 /// A named point (m).
 pub(super) type NamedPoint = (Name, Point3<f64>);
 
 /// A beam through points, of one section and material.
-pub(super) struct BeamPart<'a> {
+pub(super) struct BeamPart<'a, const N: usize> {
     pub(super) name: Name,
-    pub(super) points: &'a [NamedPoint],
+    pub(super) points: [NamedPoint; N],
     pub(super) link: &'a Link,
-    /// Direction of local y.
+    /// Direction of local y, not along any of its segments.
     pub(super) y_axis: Vector3<f64>,
     /// Elements a segment is divided into.
     pub(super) elements: usize,
@@ -53,94 +60,170 @@ pub(super) struct JointPart<'a> {
     pub(super) at: Name,
     /// First and second body; `None` is the ground.
     pub(super) between: [Option<Name>; 2],
-    pub(super) joint: &'a dyn Joint,
+    pub(super) joint: &'static dyn Joint,
     /// Columns are the frame's x, y and z.
     pub(super) frame: Rotation3<f64>,
-    /// A drive: its free directions are held.
-    pub(super) locked: bool,
-    /// As in [`JointStiffness::Directions`].
-    pub(super) stiffness: [Option<f64>; 6],
+    /// What the joint does in its free directions.
+    free: Free,
+    /// In the directions that the joint constrains, as in [`JointStiffness::Directions`]; what is
+    /// given for the others is left out.
+    pub(super) stiffness: &'a [Option<f64>; 6],
+}
+
+impl<'a> JointPart<'a> {
+    /// A passive joint, named as its point.
+    #[inline]
+    pub(super) fn passive(
+        joint: &'static dyn Joint,
+        name: Name,
+        between: [Option<Name>; 2],
+        frame: Rotation3<f64>,
+        stiffness: &'a [Option<f64>; 6],
+    ) -> Self {
+        Self {
+            name,
+            at: name,
+            between,
+            joint,
+            frame,
+            free: Free::Passive,
+            stiffness,
+        }
+    }
+
+    /// The joint as a drive of this stiffness (N/m, N·m/rad).
+    #[inline]
+    pub(super) fn driven(self, stiffness: Option<f64>) -> Self {
+        Self {
+            free: Free::Drive(stiffness),
+            ..self
+        }
+    }
+
+    /// The joint at a point of another name.
+    #[inline]
+    pub(super) fn at(self, at: Name) -> Self {
+        Self { at, ..self }
+    }
+}
+
+/// What a joint does in its free directions.
+#[derive(Debug, Clone, Copy)]
+enum Free {
+    /// It moves freely.
+    Passive,
+    /// A drive: it is locked, rigidly or elastically (N/m, N·m/rad).
+    Drive(Option<f64>),
 }
 
 /// Where the parts of a mechanism go, in the order of its model.
 pub(super) trait Parts {
     /// An elastic body.
-    fn beam(&mut self, beam: &BeamPart<'_>) -> Result<(), PoseError>;
+    fn beam<const N: usize>(&mut self, beam: BeamPart<'_, N>);
     /// A rigid body.
-    fn rigid(&mut self, name: Name, points: &[NamedPoint]) -> Result<(), PoseError>;
+    fn rigid<const N: usize>(&mut self, name: Name, points: [NamedPoint; N]);
     /// A joint.
-    fn joint(&mut self, joint: &JointPart<'_>) -> Result<(), PoseError>;
+    fn joint(&mut self, joint: JointPart<'_>);
 }
 
-/// The model made by `walk`; its output is the first point of the body `output`.
-pub(super) fn model(
-    name: &str,
-    output: Name,
-    walk: impl Fn(&mut dyn Parts) -> Result<(), PoseError>,
-) -> Result<Model, PoseError> {
-    let mut model = Model::new(name);
-    walk(&mut model)?;
-    if let Some(body) = model.body(&output.to_string()) {
+/// A mechanism at a pose that it can take.
+pub(super) trait Configuration {
+    /// Hands over all parts; which they are does not depend on the pose.
+    fn walk(&self, parts: &mut impl Parts);
+
+    /// The whole pose x y z (m) rx ry rz (rad) of the output.
+    fn pose(&self) -> [f64; 6];
+}
+
+/// The model of a configuration; its output is the first point of [`PLATFORM`].
+pub(super) fn model(name: &str, configuration: &impl Configuration) -> Result<Model, PoseError> {
+    let mut builder = Builder(Ok(Model::new(name)));
+    configuration.walk(&mut builder);
+    let mut model = builder.0?;
+    if let Some(body) = model.body(PLATFORM.0) {
         let node = model.bodies()[body.0].nodes[0];
         model.set_output(node);
     }
     Ok(model)
 }
 
-/// Writes what `walk` gives into `geometry`; changes nothing where it fails.
+/// Writes a configuration into `geometry` and returns its whole pose; changes nothing where it
+/// fails.
+#[inline]
 pub(super) fn place(
     geometry: &mut Geometry,
-    walk: impl Fn(&mut dyn Parts) -> Result<(), PoseError>,
-) -> Result<(), PoseError> {
+    configuration: &impl Configuration,
+) -> Result<[f64; 6], PoseError> {
     let mut counts = Counts::default();
-    walk(&mut counts)?;
+    configuration.walk(&mut counts);
     check_numbering(geometry, [counts.nodes, counts.segments, counts.joints])?;
-    walk(&mut Writer {
-        geometry,
-        next: Counts::default(),
-    })
+    configuration.walk(&mut Writer {
+        positions: geometry.positions.iter_mut(),
+        y_axes: geometry.y_axes.iter_mut(),
+        frames: geometry.frames.iter_mut(),
+    });
+    Ok(configuration.pose())
 }
 
-impl Parts for Model {
-    fn beam(&mut self, beam: &BeamPart<'_>) -> Result<(), PoseError> {
-        let points = named(beam.points);
-        self.add_beam(
-            &beam.name.to_string(),
-            &borrowed(&points),
-            &beam.link.material,
-            &beam.link.section,
-            Some(beam.y_axis),
-            beam.elements,
-        )?;
-        Ok(())
+/// The model so far, or why a part could not be added.
+struct Builder(Result<Model, ModelError>);
+
+impl Builder {
+    fn add<T>(&mut self, add: impl FnOnce(&mut Model) -> Result<T, ModelError>) {
+        if let Ok(model) = &mut self.0
+            && let Err(error) = add(model)
+        {
+            self.0 = Err(error);
+        }
+    }
+}
+
+impl Parts for Builder {
+    fn beam<const N: usize>(&mut self, beam: BeamPart<'_, N>) {
+        let points = named(&beam.points);
+        self.add(|model| {
+            model.add_beam(
+                &beam.name.to_string(),
+                &borrowed(&points),
+                &beam.link.material,
+                &beam.link.section,
+                Some(beam.y_axis),
+                beam.elements,
+            )
+        });
     }
 
-    fn rigid(&mut self, name: Name, points: &[NamedPoint]) -> Result<(), PoseError> {
-        let points = named(points);
-        self.add_rigid(&name.to_string(), &borrowed(&points))?;
-        Ok(())
+    fn rigid<const N: usize>(&mut self, name: Name, points: [NamedPoint; N]) {
+        let points = named(&points);
+        self.add(|model| model.add_rigid(&name.to_string(), &borrowed(&points)));
     }
 
-    fn joint(&mut self, part: &JointPart<'_>) -> Result<(), PoseError> {
+    fn joint(&mut self, part: JointPart<'_>) {
+        let free = part.joint.free();
+        let (locked, drive) = match part.free {
+            Free::Passive => (DofSet::EMPTY, None),
+            Free::Drive(stiffness) => (free, stiffness),
+        };
+        let stiffness = Dof::ALL.map(|d| match free.contains(d) {
+            true => drive,
+            false => part.stiffness[d.index()],
+        });
         let point = part.at.to_string();
-        let node = |body: Option<Name>| -> Option<NodeId> {
-            let node = self.node(&body?.to_string(), &point);
-            debug_assert!(node.is_some(), "{} has no point {point}", part.name);
-            node
-        };
-        let connection = Connection {
-            name: part.name.to_string(),
-            between: part.between.map(node),
-            joint: part.joint.clone_box(),
-            locked: if part.locked {
-                part.joint.free()
-            } else {
-                DofSet::EMPTY
-            },
-            stiffness: JointStiffness::Directions(part.stiffness),
-        };
-        self.add_joint(connection, part.frame)?;
-        Ok(())
+        self.add(|model| {
+            let node = |body: Option<Name>| -> Option<NodeId> {
+                let node = model.node(&body?.to_string(), &point);
+                debug_assert!(node.is_some(), "{} has no point {point}", part.name);
+                node
+            };
+            let connection = Connection {
+                name: part.name.to_string(),
+                between: part.between.map(node),
+                joint: part.joint.clone_box(),
+                locked,
+                stiffness: JointStiffness::Directions(stiffness),
+            };
+            model.add_joint(connection, part.frame)
+        });
     }
 }
 
@@ -156,7 +239,7 @@ fn borrowed(points: &[(String, Point3<f64>)]) -> Vec<(&str, Point3<f64>)> {
         .collect()
 }
 
-/// Counts the parts, and refuses those that a model would refuse.
+/// Counts the parts.
 #[derive(Debug, Default)]
 struct Counts {
     nodes: usize,
@@ -165,90 +248,50 @@ struct Counts {
 }
 
 impl Parts for Counts {
-    fn beam(&mut self, beam: &BeamPart<'_>) -> Result<(), PoseError> {
-        for (segment, ends) in beam.points.windows(2).enumerate() {
-            element_frame(&(ends[1].1 - ends[0].1), Some(&beam.y_axis)).map_err(|source| {
-                ModelError::Segment {
-                    body: beam.name.to_string(),
-                    segment,
-                    source,
-                }
-            })?;
-            self.segments += 1;
-        }
-        self.nodes += beam.points.len();
-        Ok(())
+    #[inline]
+    fn beam<const N: usize>(&mut self, _: BeamPart<'_, N>) {
+        self.nodes += N;
+        self.segments += N - 1;
     }
 
-    fn rigid(&mut self, _: Name, points: &[NamedPoint]) -> Result<(), PoseError> {
-        self.nodes += points.len();
-        Ok(())
+    #[inline]
+    fn rigid<const N: usize>(&mut self, _: Name, _: [NamedPoint; N]) {
+        self.nodes += N;
     }
 
-    fn joint(&mut self, _: &JointPart<'_>) -> Result<(), PoseError> {
+    #[inline]
+    fn joint(&mut self, _: JointPart<'_>) {
         self.joints += 1;
-        Ok(())
     }
 }
 
-/// Writes the parts into a geometry whose numbers of parts were checked.
+/// Writes the parts into the places of a geometry that has as many.
 struct Writer<'g> {
-    geometry: &'g mut Geometry,
-    next: Counts,
-}
-
-impl Writer<'_> {
-    fn positions(&mut self, points: &[NamedPoint]) {
-        for (_, at) in points {
-            self.geometry.positions[self.next.nodes] = *at;
-            self.next.nodes += 1;
-        }
-    }
+    positions: slice::IterMut<'g, Point3<f64>>,
+    y_axes: slice::IterMut<'g, Option<Vector3<f64>>>,
+    frames: slice::IterMut<'g, Rotation3<f64>>,
 }
 
 impl Parts for Writer<'_> {
-    fn beam(&mut self, beam: &BeamPart<'_>) -> Result<(), PoseError> {
-        self.positions(beam.points);
-        for _ in 1..beam.points.len() {
-            self.geometry.y_axes[self.next.segments] = Some(beam.y_axis);
-            self.next.segments += 1;
+    #[inline]
+    fn beam<const N: usize>(&mut self, beam: BeamPart<'_, N>) {
+        for place in self.y_axes.by_ref().take(N - 1) {
+            *place = Some(beam.y_axis);
         }
-        Ok(())
+        self.rigid(beam.name, beam.points);
     }
 
-    fn rigid(&mut self, _: Name, points: &[NamedPoint]) -> Result<(), PoseError> {
-        self.positions(points);
-        Ok(())
+    #[inline]
+    fn rigid<const N: usize>(&mut self, _: Name, points: [NamedPoint; N]) {
+        for ((_, at), place) in points.into_iter().zip(&mut self.positions) {
+            *place = at;
+        }
     }
 
-    fn joint(&mut self, joint: &JointPart<'_>) -> Result<(), PoseError> {
-        self.geometry.frames[self.next.joints] = joint.frame;
-        self.next.joints += 1;
-        Ok(())
+    #[inline]
+    fn joint(&mut self, joint: JointPart<'_>) {
+        if let Some(place) = self.frames.next() {
+            *place = joint.frame;
+        }
     }
-}
-
-/// Stiffness of a joint from that of all: only the directions that the joint constrains.
-pub(super) fn constrained_stiffness(
-    joint: &dyn Joint,
-    stiffness: [Option<f64>; 6],
-) -> [Option<f64>; 6] {
-    let free = joint.free();
-    Dof::ALL.map(|d| stiffness[d.index()].filter(|_| !free.contains(d)))
-}
-
-/// Stiffness of a revolute joint from that of all, with `axis` about its axis (N·m/rad).
-pub(super) fn revolute_stiffness(
-    mut stiffness: [Option<f64>; 6],
-    axis: Option<f64>,
-) -> [Option<f64>; 6] {
-    stiffness[Dof::V.index()] = axis;
-    stiffness
-}
-
-/// Stiffness of a rigid guide, with `axis` along it (N/m).
-pub(super) fn prismatic_stiffness(axis: Option<f64>) -> [Option<f64>; 6] {
-    let mut stiffness = [None; 6];
-    stiffness[Dof::Y.index()] = axis;
-    stiffness
 }

@@ -1,6 +1,7 @@
 //! What can be wrong with a prebuilt mechanism's parameters or with a pose asked of it.
 
 use hyperstat_assembly::ModelError;
+use hyperstat_closure::ClosureError;
 use hyperstat_joints::JointError;
 use thiserror::Error;
 
@@ -21,6 +22,15 @@ pub enum PoseError {
         /// Which part, and why.
         what: String,
     },
+    /// There are configurations with the pose, but in another assembly mode.
+    #[error("another assembly mode: {what}")]
+    Branch {
+        /// Where the way to them ends.
+        what: String,
+    },
+    /// A mechanism of a file that cannot be moved, or not there.
+    #[error(transparent)]
+    Closure(ClosureError),
     /// A pose of the wrong number of coordinates.
     #[error("`{kind}` takes {expected} pose coordinates, {found} are given")]
     Coordinates {
@@ -61,6 +71,20 @@ pub enum PoseError {
     Model(#[from] ModelError),
 }
 
+impl From<ClosureError> for PoseError {
+    fn from(error: ClosureError) -> Self {
+        match error {
+            ClosureError::Unreachable { what } => Self::Unreachable { what },
+            ClosureError::CannotFollow { what } => Self::Unreachable {
+                what: format!("the output cannot follow: {what}"),
+            },
+            ClosureError::Singular { what } => Self::Singular { what },
+            ClosureError::Branch { what } => Self::Branch { what },
+            other => Self::Closure(other),
+        }
+    }
+}
+
 /// A parameter of a prebuilt mechanism out of its physical range.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("`{field}`: {message}")]
@@ -71,6 +95,18 @@ pub struct ParameterError {
     pub message: String,
     /// What would be right, where that can be said.
     pub help: Option<String>,
+}
+
+impl PoseError {
+    #[cold]
+    pub(super) fn unreachable(what: String) -> Self {
+        Self::Unreachable { what }
+    }
+
+    #[cold]
+    pub(super) fn singular(what: String) -> Self {
+        Self::Singular { what }
+    }
 }
 
 /// A length (m) or an angle (rad) in a message: six decimals, or an exponent where they say

@@ -1,13 +1,15 @@
 //! The Exechon tripod (2-UPR + SPR): parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{
-    Joint, Prismatic, Revolute, Spherical, Universal, frame_from_axes, frame_from_axis,
-};
-use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3, center};
+use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical, Universal};
+use nalgebra::{Point3, Rotation3, Vector3, center};
 
-use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
-use super::limbs::LIMBS;
+use super::construction::{
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+};
+use super::frames::frame;
+use super::limbs::{LIMBS, per_limb};
+use super::tilt::Tilt;
 use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
 
 /// How near, relative to the base's size, a place may come to one where a direction is not
@@ -106,31 +108,35 @@ impl Exechon {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The legs with the platform's centre at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let [x, y, z] = coordinates::<3>(self.kind(), pose)?;
         let edge = EDGE * (self.base_width + self.base_depth);
         if z.abs() <= edge {
-            return Err(PoseError::Singular {
-                what: "P lies in the plane of the base, into which the plane of legs 1 and 2 \
-                       cannot turn"
+            return Err(PoseError::singular(
+                "P lies in the plane of the base, into which the plane of legs 1 and 2 cannot \
+                 turn"
                     .into(),
-            });
+            ));
         }
-        let tilt = (-y / z).atan();
         let height = y.hypot(z).copysign(z);
-        let lever = height + self.base_depth * tilt.sin();
+        let about_x = [-y / height, z / height];
+        let lever = height + self.base_depth * about_x[0];
         if lever.abs() <= edge {
-            return Err(PoseError::Singular {
-                what: "A3 lies abreast of P, so leg 3 does not say how the platform is turned in \
-                       the plane of legs 1 and 2"
+            return Err(PoseError::singular(
+                "A3 lies abreast of P, so leg 3 does not say how the platform is turned in the \
+                 plane of legs 1 and 2"
                     .into(),
-            });
+            ));
         }
-        let swing = (x / lever).atan();
-        let about = |axis, angle| UnitQuaternion::from_axis_angle(&axis, angle);
-        let turn = about(Vector3::x_axis(), tilt) * about(Vector3::y_axis(), swing);
-        let rotation = turn.to_rotation_matrix();
+        let length = x.hypot(lever).copysign(lever);
+        let tilt = Tilt {
+            about_x,
+            about_y: [x / length, lever / length],
+        };
+        let rotation = tilt.rotation();
 
         let centre = Point3::new(x, y, z);
         let (base, platform) = (0.5 * self.base_width, 0.5 * self.platform_width);
@@ -145,86 +151,20 @@ impl Exechon {
             Vector3::new(0.0, self.platform_depth, 0.0),
         ];
         let axes = [Vector3::y(), Vector3::y(), Vector3::x()];
-        Ok(Configuration {
+        let legs = per_limb(|index| {
+            let head = centre + rotation * heads[index];
+            Leg::new(index, feet[index], head, rotation * axes[index])
+        })?;
+        Ok(Posed {
+            exechon: self,
             centre,
-            turn: turn.scaled_axis(),
-            legs: [0, 1, 2].map(|index| Leg {
-                index,
-                foot: feet[index],
-                head: centre + rotation * heads[index],
-                axis: rotation * axes[index],
-            }),
+            turn: tilt.rotation_vector(),
+            legs,
         })
     }
-
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        for leg in &configuration.legs {
-            let [foot, middle, head] = leg.points();
-            for (word, points, link) in [
-                ("housing", [foot, middle], &self.housing),
-                ("ram", [middle, head], &self.ram),
-            ] {
-                parts.beam(&BeamPart {
-                    name: leg.name(word),
-                    points: &points,
-                    link,
-                    y_axis: leg.axis,
-                    elements: self.elements,
-                })?;
-            }
-        }
-        let [first, second, third] = configuration.legs.each_ref().map(|leg| leg.points()[2]);
-        let centre = (Name::alone("P"), configuration.centre);
-        parts.rigid(PLATFORM, &[centre, first, second, third])?;
-        for leg in &configuration.legs {
-            self.joints(leg, parts)?;
-        }
-        Ok(())
-    }
-
-    fn joints(&self, leg: &Leg, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let along = leg.head - leg.foot;
-        let [housing, ram] = ["housing", "ram"].map(|word| Some(leg.name(word)));
-        let base: (_, &dyn Joint, _) = match leg.index {
-            2 => ("S", &Spherical, Rotation3::identity()),
-            _ => ("U", &Universal, frame_from_axes(&Vector3::x(), &leg.axis)?),
-        };
-        let slide = frame_from_axis(Some(&along), Some(&leg.axis))?;
-        let turn = frame_from_axis(Some(&leg.axis), Some(&along))?;
-        let joints: [(_, _, _, &dyn Joint, _); 3] = [
-            (base.0, "A", [None, housing], base.1, base.2),
-            ("D", "M", [housing, ram], &Prismatic, slide),
-            ("R", "B", [ram, Some(PLATFORM)], &Revolute, turn),
-        ];
-        for (word, at, between, joint, frame) in joints {
-            let drive = word == "D";
-            parts.joint(&JointPart {
-                name: leg.name(word),
-                at: leg.name(at),
-                between,
-                joint,
-                frame,
-                locked: drive,
-                stiffness: if drive {
-                    construction::prismatic_stiffness(self.drive_stiffness)
-                } else {
-                    construction::constrained_stiffness(joint, self.joint_stiffness)
-                },
-            })?;
-        }
-        Ok(())
-    }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-struct Configuration {
-    centre: Point3<f64>,
-    /// The platform's rotation vector (rad).
-    turn: Vector3<f64>,
-    legs: [Leg; LIMBS],
-}
-
+/// A leg at a pose.
 struct Leg {
     /// Number of the leg, from 0.
     index: usize,
@@ -232,20 +172,111 @@ struct Leg {
     head: Point3<f64>,
     /// Along the revolute joint R.
     axis: Vector3<f64>,
+    foot_joint: (&'static str, &'static dyn Joint, Rotation3<f64>),
+    drive_frame: Rotation3<f64>,
+    head_frame: Rotation3<f64>,
 }
 
 impl Leg {
+    #[inline]
+    fn new(
+        index: usize,
+        foot: Point3<f64>,
+        head: Point3<f64>,
+        axis: Vector3<f64>,
+    ) -> Result<Self, PoseError> {
+        let span = head - foot;
+        let length = span.norm();
+        if length == 0.0 {
+            let number = index + 1;
+            return Err(PoseError::singular(format!(
+                "B{number} lies on A{number}, so leg {number} has no direction"
+            )));
+        }
+        let along = span / length;
+        Ok(Self {
+            index,
+            foot,
+            head,
+            axis,
+            foot_joint: match index {
+                2 => ("S", &Spherical, Rotation3::identity()),
+                _ => ("U", &Universal, frame(&Vector3::x(), &axis)),
+            },
+            drive_frame: frame(&axis, &along),
+            head_frame: frame(&along, &axis),
+        })
+    }
+
     fn name(&self, word: &'static str) -> Name {
         Name::limb(word, self.index)
     }
 
     /// A, M and B.
+    #[inline]
     fn points(&self) -> [NamedPoint; 3] {
         [
             (self.name("A"), self.foot),
             (self.name("M"), center(&self.foot, &self.head)),
             (self.name("B"), self.head),
         ]
+    }
+}
+
+/// An Exechon at a pose.
+struct Posed<'a> {
+    exechon: &'a Exechon,
+    centre: Point3<f64>,
+    /// The platform's rotation vector (rad).
+    turn: Vector3<f64>,
+    legs: [Leg; LIMBS],
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let exechon = self.exechon;
+        for leg in &self.legs {
+            let [foot, middle, head] = leg.points();
+            let half = |word, points, link| BeamPart {
+                name: leg.name(word),
+                points,
+                link,
+                y_axis: leg.axis,
+                elements: exechon.elements,
+            };
+            parts.beam(half("housing", [foot, middle], &exechon.housing));
+            parts.beam(half("ram", [middle, head], &exechon.ram));
+        }
+        let b = |index: usize| self.legs[index].points()[2];
+        let centre = (Name::alone("P"), self.centre);
+        parts.rigid(PLATFORM, [centre, b(0), b(1), b(2)]);
+        for leg in &self.legs {
+            self.joints(leg, parts);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        let (at, turn) = (self.centre, self.turn);
+        [at.x, at.y, at.z, turn.x, turn.y, turn.z]
+    }
+}
+
+impl Posed<'_> {
+    #[inline]
+    fn joints(&self, leg: &Leg, parts: &mut impl Parts) {
+        let (housing, ram) = (Some(leg.name("housing")), Some(leg.name("ram")));
+        let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
+            JointPart::passive(joint, leg.name(word), between, frame, stiffness)
+        };
+        let given = &self.exechon.joint_stiffness;
+        let (word, kind, frame) = leg.foot_joint;
+        parts.joint(joint(kind, word, [None, housing], frame, given).at(leg.name("A")));
+        let slide = joint(&Prismatic, "D", [housing, ram], leg.drive_frame, &RIGID);
+        let slide = slide.at(leg.name("M"));
+        parts.joint(slide.driven(self.exechon.drive_stiffness));
+        let turn = joint(&Revolute, "R", [ram, Some(PLATFORM)], leg.head_frame, given);
+        parts.joint(turn.at(leg.name("B")));
     }
 }
 
@@ -259,16 +290,10 @@ impl Prebuilt for Exechon {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("exechon", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("exechon", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let (at, turn) = (configuration.centre, configuration.turn);
-        Ok([at.x, at.y, at.z, turn.x, turn.y, turn.z])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_3;
 use hyperstat_assembly::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, Name, Parts};
-use super::limbs::outward;
+use super::construction::{self, Configuration, Name, PLATFORM, Parts};
+use super::limbs::turned_outward;
 use super::telescope::{Foot, FootJoint, Leg, TelescopicLeg};
 use super::{ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
 
@@ -119,62 +119,62 @@ impl Hexapod {
         parameter::elements("elements", self.elements)
     }
 
-    /// Leg `index` (from 0) with the platform's centre at `centre`.
-    fn leg(
-        &self,
-        index: usize,
-        centre: &Point3<f64>,
-        rotation: &Rotation3<f64>,
-    ) -> Result<Leg<'_>, PoseError> {
-        let side = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let out = |angle: f64| outward(index / 2, side * angle);
-        let base = Point3::from(out(self.base_angle) * self.base_radius);
-        let platform = centre + rotation * out(self.platform_angle) * self.platform_radius;
-        let tangent = Vector3::z().cross(&out(self.base_angle));
-        let foot = Foot::new(self.base_joints, tangent);
-        Leg::new(&self.leg, index, foot, base, platform)
-    }
-
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration<'_>, PoseError> {
+    /// The legs with the platform at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
-        let [x, y, z, rx, ry, rz] = coordinates::<6>(self.kind(), pose)?;
+        let pose = coordinates::<6>(self.kind(), pose)?;
+        let [x, y, z, rx, ry, rz] = pose;
         let centre = Point3::new(x, y, z);
         let rotation = Rotation3::new(Vector3::new(rx, ry, rz));
-        let leg = |index| self.leg(index, &centre, &rotation);
-        Ok(Configuration {
+        let (base, platform) = (self.base_angle.sin_cos(), self.platform_angle.sin_cos());
+        let leg = |index: usize| {
+            // The first of a pair stands the angle on about z, the second as far the other way.
+            let pair = index / 2;
+            let side = if index.is_multiple_of(2) { 1.0 } else { -1.0 };
+            let out = |(sin, cos)| turned_outward(pair, (side * sin, cos));
+            let foot = Foot::new(self.base_joints, Vector3::z().cross(&out(base)));
+            let b = Point3::from(out(base) * self.base_radius);
+            let s = centre + rotation * out(platform) * self.platform_radius;
+            Leg::new(&self.leg, index, foot, b, s)
+        };
+        Ok(Posed {
+            hexapod: self,
+            pose,
             legs: [leg(0)?, leg(1)?, leg(2)?, leg(3)?, leg(4)?, leg(5)?],
-            centre,
         })
-    }
-
-    fn walk(
-        &self,
-        configuration: &Configuration<'_>,
-        parts: &mut dyn Parts,
-    ) -> Result<(), PoseError> {
-        let Configuration { legs, centre } = configuration;
-        let mut points = [(Name::alone("P"), *centre); 1 + LEGS];
-        for (leg, point) in legs.iter().zip(&mut points[1..]) {
-            leg.bodies(parts, self.elements)?;
-            *point = leg.platform_point();
-        }
-        parts.rigid(PLATFORM, &points)?;
-        for leg in legs {
-            leg.joints(parts, PLATFORM, self.joint_stiffness, self.drive_stiffness)?;
-        }
-        Ok(())
     }
 }
 
 /// Number of legs.
 const LEGS: usize = 6;
 
-const PLATFORM: Name = Name::alone("platform");
+/// A hexapod at a pose.
+struct Posed<'a> {
+    hexapod: &'a Hexapod,
+    pose: [f64; 6],
+    legs: [Leg; LEGS],
+}
 
-/// The legs and the platform's centre at a pose.
-struct Configuration<'a> {
-    legs: [Leg<'a>; LEGS],
-    centre: Point3<f64>,
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let hexapod = self.hexapod;
+        for leg in &self.legs {
+            leg.bodies(parts, &hexapod.leg, hexapod.elements);
+        }
+        let s = |index: usize| self.legs[index].platform_point();
+        let [x, y, z, ..] = self.pose;
+        let centre = (Name::alone("P"), Point3::new(x, y, z));
+        parts.rigid(PLATFORM, [centre, s(0), s(1), s(2), s(3), s(4), s(5)]);
+        for leg in &self.legs {
+            leg.joints(parts, &hexapod.joint_stiffness, hexapod.drive_stiffness);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        self.pose
+    }
 }
 
 impl Prebuilt for Hexapod {
@@ -188,15 +188,10 @@ impl Prebuilt for Hexapod {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("hexapod", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("hexapod", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        coordinates::<6>(self.kind(), pose)
+        construction::place(geometry, &self.at(pose)?)
     }
 }

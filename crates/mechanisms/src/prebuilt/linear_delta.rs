@@ -1,13 +1,14 @@
 //! The linear delta: parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Prismatic, Spherical, frame_from_axis};
+use hyperstat_joints::{Joint, Prismatic, Spherical};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
-    self, BeamPart, JointPart, Name, NamedPoint, Parts, constrained_stiffness, prismatic_stiffness,
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
-use super::limbs::{LIMBS, outward, per_limb};
+use super::frames::frame;
+use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::rail::Rails;
 use super::telescope::{Foot, FootJoint};
 use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
@@ -89,102 +90,42 @@ impl LinearDelta {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The limbs with the platform's centre at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let centre = Point3::from(coordinates::<3>(self.kind(), pose)?);
+        let rails = self.rails.directions();
         let limbs = per_limb(|index| {
-            let out = outward(index, 0.0);
-            let axis = Vector3::z().cross(&out);
-            let wrist = centre + out * self.platform_radius;
-            let carriage = self.rails.carriage(index, self.rod_length, &wrist, "C")?;
+            let (rail, axis) = (&rails[index], tangent(index));
+            let wrist = centre + outward(index) * self.platform_radius;
+            let carriage = self
+                .rails
+                .carriage(index, rail, self.rod_length, &wrist, "C")?;
             let foot = Foot::new(self.carriage_joints, axis);
+            let along = (wrist - carriage).normalize();
             let rods = Name::limb("the rods of limb ", index);
-            let (frame, y_axis) = foot.orient(&(wrist - carriage), rods)?;
+            let (foot_frame, y_axis) = foot.orient(&along, rods)?;
             Ok(Limb {
-                index,
                 carriage,
                 wrist,
                 half_spacing: axis * (0.5 * self.rod_spacing),
-                rail_frame: frame_from_axis(Some(&self.rails.direction(index)), Some(&axis))?,
-                foot,
-                foot_frame: frame,
+                rail_frame: frame(&axis, rail),
+                foot: foot.joint(),
+                foot_frame,
                 y_axis,
             })
         })?;
-        Ok(Configuration { centre, limbs })
-    }
-
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let mut platform = [(Name::alone("P"), configuration.centre); 1 + 2 * LIMBS];
-        for (limb, ends) in configuration
-            .limbs
-            .iter()
-            .zip(platform[1..].chunks_exact_mut(2))
-        {
-            let name = |word| Name::limb(word, limb.index);
-            let [aa, ab, ca, cb] = limb.ends();
-            parts.rigid(name("carriage"), &[(name("A"), limb.carriage), aa, ab])?;
-            for (word, points) in [("roda", [aa, ca]), ("rodb", [ab, cb])] {
-                parts.beam(&BeamPart {
-                    name: name(word),
-                    points: &points,
-                    link: &self.rod,
-                    y_axis: limb.y_axis,
-                    elements: self.elements,
-                })?;
-            }
-            ends.copy_from_slice(&[ca, cb]);
-        }
-        parts.rigid(PLATFORM, &platform)?;
-        for limb in &configuration.limbs {
-            self.joints(limb, parts)?;
-        }
-        Ok(())
-    }
-
-    fn joints(&self, limb: &Limb, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let name = |word| Name::limb(word, limb.index);
-        let carriage = name("carriage");
-        parts.joint(&JointPart {
-            name: name("D"),
-            at: name("A"),
-            between: [None, Some(carriage)],
-            joint: &Prismatic,
-            frame: limb.rail_frame,
-            locked: true,
-            stiffness: prismatic_stiffness(self.drive_stiffness),
-        })?;
-        for (rod, lower, upper) in [("roda", "Aa", "Ca"), ("rodb", "Ab", "Cb")] {
-            let rod = name(rod);
-            let foot = limb.foot.joint();
-            parts.joint(&JointPart {
-                name: name(lower),
-                at: name(lower),
-                between: [Some(carriage), Some(rod)],
-                joint: foot,
-                frame: limb.foot_frame,
-                locked: false,
-                stiffness: constrained_stiffness(foot, self.joint_stiffness),
-            })?;
-            parts.joint(&JointPart {
-                name: name(upper),
-                at: name(upper),
-                between: [Some(rod), Some(PLATFORM)],
-                joint: &Spherical,
-                frame: Rotation3::identity(),
-                locked: false,
-                stiffness: constrained_stiffness(&Spherical, self.joint_stiffness),
-            })?;
-        }
-        Ok(())
+        Ok(Posed {
+            linear_delta: self,
+            centre,
+            limbs,
+        })
     }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
 /// A limb at a pose.
 struct Limb {
-    index: usize,
     /// A.
     carriage: Point3<f64>,
     /// C.
@@ -192,29 +133,85 @@ struct Limb {
     /// From the middle to side a.
     half_spacing: Vector3<f64>,
     rail_frame: Rotation3<f64>,
-    foot: Foot,
+    foot: &'static dyn Joint,
     foot_frame: Rotation3<f64>,
     y_axis: Vector3<f64>,
 }
 
 impl Limb {
-    /// Aa, Ab, Ca and Cb.
-    fn ends(&self) -> [NamedPoint; 4] {
+    /// Aa, Ab, Ca and Cb of limb `index`.
+    #[inline]
+    fn ends(&self, index: usize) -> [NamedPoint; 4] {
         let half = self.half_spacing;
         [
-            ("Aa", self.carriage + half),
-            ("Ab", self.carriage - half),
-            ("Ca", self.wrist + half),
-            ("Cb", self.wrist - half),
+            (Name::limb("Aa", index), self.carriage + half),
+            (Name::limb("Ab", index), self.carriage - half),
+            (Name::limb("Ca", index), self.wrist + half),
+            (Name::limb("Cb", index), self.wrist - half),
         ]
-        .map(|(word, at)| (Name::limb(word, self.index), at))
     }
 }
 
-/// The platform's centre and the limbs at a pose.
-struct Configuration {
+/// A linear delta at a pose.
+struct Posed<'a> {
+    linear_delta: &'a LinearDelta,
     centre: Point3<f64>,
     limbs: [Limb; LIMBS],
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        for (index, limb) in self.limbs.iter().enumerate() {
+            let name = |word| Name::limb(word, index);
+            let [aa, ab, ca, cb] = limb.ends(index);
+            parts.rigid(name("carriage"), [(name("A"), limb.carriage), aa, ab]);
+            let rod = |word, points| BeamPart {
+                name: name(word),
+                points,
+                link: &self.linear_delta.rod,
+                y_axis: limb.y_axis,
+                elements: self.linear_delta.elements,
+            };
+            parts.beam(rod("roda", [aa, ca]));
+            parts.beam(rod("rodb", [ab, cb]));
+        }
+        let centre = (Name::alone("P"), self.centre);
+        let ends = |index: usize| self.limbs[index].ends(index);
+        let [_, _, ca1, cb1] = ends(0);
+        let [_, _, ca2, cb2] = ends(1);
+        let [_, _, ca3, cb3] = ends(2);
+        parts.rigid(PLATFORM, [centre, ca1, cb1, ca2, cb2, ca3, cb3]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.joints(index, limb, parts);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        let [x, y, z] = self.centre.into();
+        [x, y, z, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Posed<'_> {
+    #[inline]
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let name = |word| Name::limb(word, index);
+        let carriage = Some(name("carriage"));
+        let (roda, rodb, platform) = (Some(name("roda")), Some(name("rodb")), Some(PLATFORM));
+        let given = &self.linear_delta.joint_stiffness;
+        let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
+            JointPart::passive(joint, name(word), between, frame, stiffness)
+        };
+        let slide = joint(&Prismatic, "D", [None, carriage], limb.rail_frame, &RIGID);
+        let slide = slide.at(name("A"));
+        parts.joint(slide.driven(self.linear_delta.drive_stiffness));
+        let (foot, foot_frame, ball) = (limb.foot, limb.foot_frame, Rotation3::identity());
+        parts.joint(joint(foot, "Aa", [carriage, roda], foot_frame, given));
+        parts.joint(joint(&Spherical, "Ca", [roda, platform], ball, given));
+        parts.joint(joint(foot, "Ab", [carriage, rodb], foot_frame, given));
+        parts.joint(joint(&Spherical, "Cb", [rodb, platform], ball, given));
+    }
 }
 
 impl Prebuilt for LinearDelta {
@@ -227,16 +224,10 @@ impl Prebuilt for LinearDelta {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("linear delta", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("linear delta", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let [x, y, z] = configuration.centre.into();
-        Ok([x, y, z, 0.0, 0.0, 0.0])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

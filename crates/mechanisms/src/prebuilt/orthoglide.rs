@@ -1,10 +1,14 @@
 //! The Orthoglide (3-PRPaR): parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Joint, Prismatic, Revolute, frame_from_axis};
-use nalgebra::{Point3, Vector3};
+use hyperstat_joints::{Prismatic, Revolute};
+use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::construction::{
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+};
+use super::error::shown;
+use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
 use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
 
@@ -96,17 +100,24 @@ impl Orthoglide {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The limbs with the platform's centre at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let centre = Vector3::from(coordinates::<3>(self.kind(), pose)?);
-        Ok(Configuration {
+        Ok(Posed {
+            orthoglide: self,
             centre: Point3::from(centre),
             limbs: per_limb(|index| self.limb(index, &centre))?,
         })
     }
 
+    #[inline]
     fn limb(&self, index: usize, centre: &Vector3<f64>) -> Result<Limb, PoseError> {
-        let [rail, axis] = [index, (index + 1) % LIMBS].map(|k| Vector3::ith(k, 1.0));
+        let (rail, axis) = (
+            Vector3::ith(index, 1.0),
+            Vector3::ith((index + 1) % LIMBS, 1.0),
+        );
         let number = index + 1;
         let c = centre - rail * self.platform_radius;
         let lateral = c - rail * c.dot(&rail);
@@ -114,132 +125,135 @@ impl Orthoglide {
         let length = self.rod_length;
         let edge = EDGE * length;
         if distance > length + edge {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "limb {number}: point C{number} lies {distance:.6} m beside the rail, too \
-                     far for rods of {length:.6} m"
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "limb {number}: point C{number} lies {} m beside the rail, too far for rods of \
+                 {} m",
+                shown(distance),
+                shown(length),
+            )));
         }
         let advance = ((length - distance) * (length + distance)).max(0.0).sqrt();
         let rod = lateral + rail * advance;
         let across = rod - axis * rod.dot(&axis);
-        if across.norm() <= edge {
-            return Err(PoseError::Singular {
-                what: format!(
-                    "limb {number}: the rods lie along the axes of A{number} and C{number}, so \
-                     the parallelogram has no plane"
-                ),
-            });
+        let across_length = across.norm();
+        if across_length <= edge {
+            return Err(PoseError::singular(format!(
+                "limb {number}: the rods lie along the axes of A{number} and C{number}, so the \
+                 parallelogram has no plane"
+            )));
         }
-        let a = c - rod;
+        let across = across / across_length;
+        let parallelogram_axis = across.cross(&axis);
+        let (a, c) = (Point3::from(c - rod), Point3::from(c));
         let half = axis * (0.5 * self.rod_spacing);
         Ok(Limb {
-            shoulder: [a - half, a, a + half].map(Point3::from),
-            wrist: [c - half, c, c + half].map(Point3::from),
-            rail,
-            axis,
-            parallelogram_axis: across.cross(&axis).normalize(),
+            shoulder: [a - half, a, a + half],
+            wrist: [c - half, c, c + half],
+            parallelogram_axis,
+            rail_frame: frame(&axis, &rail),
+            turn_frame: frame(&across, &axis),
+            rod_end_frame: frame(&rod.normalize(), &parallelogram_axis),
         })
     }
-
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            let name = |word| Name::limb(word, index);
-            let (shoulder, wrist) = (limb.shoulder(index), limb.wrist(index));
-            let mut beam = |word, points: &[NamedPoint], link| {
-                parts.beam(&BeamPart {
-                    name: name(word),
-                    points,
-                    link,
-                    y_axis: limb.parallelogram_axis,
-                    elements: self.elements,
-                })
-            };
-            beam("shoulder", &shoulder, &self.bar)?;
-            beam("wrist", &wrist, &self.bar)?;
-            beam("roda", &[shoulder[0], wrist[0]], &self.rod)?;
-            beam("rodb", &[shoulder[2], wrist[2]], &self.rod)?;
-            parts.rigid(name("carriage"), &[shoulder[1]])?;
-        }
-        let wrist = |index: usize| configuration.limbs[index].wrist(index)[1];
-        let centre = (Name::alone("P"), configuration.centre);
-        parts.rigid(PLATFORM, &[centre, wrist(0), wrist(1), wrist(2)])?;
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            self.joints(index, limb, parts)?;
-        }
-        Ok(())
-    }
-
-    fn joints(&self, index: usize, limb: &Limb, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let name = |word| Name::limb(word, index);
-        let body = |word| Some(name(word));
-        let rod = limb.wrist[1] - limb.shoulder[1];
-        let turn = frame_from_axis(Some(&limb.axis), Some(&rod))?;
-        let rod_end = frame_from_axis(Some(&limb.parallelogram_axis), Some(&rod))?;
-        parts.joint(&JointPart {
-            name: name("D"),
-            at: name("A"),
-            between: [None, body("carriage")],
-            joint: &Prismatic,
-            frame: frame_from_axis(Some(&limb.rail), Some(&limb.axis))?,
-            locked: true,
-            stiffness: construction::prismatic_stiffness(self.drive_stiffness),
-        })?;
-        let joint: &dyn Joint = &Revolute;
-        for (word, between, frame) in [
-            ("A", [body("carriage"), body("shoulder")], turn),
-            ("Aa", [body("shoulder"), body("roda")], rod_end),
-            ("Ca", [body("wrist"), body("roda")], rod_end),
-            ("Ab", [body("shoulder"), body("rodb")], rod_end),
-            ("Cb", [body("wrist"), body("rodb")], rod_end),
-            ("C", [body("wrist"), Some(PLATFORM)], turn),
-        ] {
-            parts.joint(&JointPart {
-                name: name(word),
-                at: name(word),
-                between,
-                joint,
-                frame,
-                locked: false,
-                stiffness: self.joint_stiffness,
-            })?;
-        }
-        Ok(())
-    }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-struct Configuration {
-    centre: Point3<f64>,
-    limbs: [Limb; LIMBS],
-}
-
+/// A limb at a pose.
 struct Limb {
     /// Aa, A and Ab.
     shoulder: [Point3<f64>; 3],
     /// Ca, C and Cb.
     wrist: [Point3<f64>; 3],
-    /// Along the rail.
-    rail: Vector3<f64>,
-    /// Along the joints A and C.
-    axis: Vector3<f64>,
     /// Along the joints at the ends of the rods.
     parallelogram_axis: Vector3<f64>,
+    rail_frame: Rotation3<f64>,
+    /// Frame of the joints A and C.
+    turn_frame: Rotation3<f64>,
+    rod_end_frame: Rotation3<f64>,
 }
 
-impl Limb {
-    fn shoulder(&self, index: usize) -> [NamedPoint; 3] {
-        let name = |word| Name::limb(word, index);
-        let [a, b, c] = self.shoulder;
-        [(name("Aa"), a), (name("A"), b), (name("Ab"), c)]
+/// An Orthoglide at a pose.
+struct Posed<'a> {
+    orthoglide: &'a Orthoglide,
+    centre: Point3<f64>,
+    limbs: [Limb; LIMBS],
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.bodies(index, limb, parts);
+        }
+        let centre = (Name::alone("P"), self.centre);
+        let wrist = |index| (Name::limb("C", index), self.limbs[index].wrist[1]);
+        parts.rigid(PLATFORM, [centre, wrist(0), wrist(1), wrist(2)]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.joints(index, limb, parts);
+        }
     }
 
-    fn wrist(&self, index: usize) -> [NamedPoint; 3] {
+    fn pose(&self) -> [f64; 6] {
+        let [x, y, z] = self.centre.into();
+        [x, y, z, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Posed<'_> {
+    #[inline]
+    fn bodies(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
         let name = |word| Name::limb(word, index);
-        let [a, b, c] = self.wrist;
-        [(name("Ca"), a), (name("C"), b), (name("Cb"), c)]
+        let [aa, a, ab] = limb.shoulder;
+        let shoulder = [(name("Aa"), aa), (name("A"), a), (name("Ab"), ab)];
+        let [ca, c, cb] = limb.wrist;
+        let wrist = [(name("Ca"), ca), (name("C"), c), (name("Cb"), cb)];
+        self.beam("shoulder", shoulder, index, limb, parts);
+        self.beam("wrist", wrist, index, limb, parts);
+        self.beam("roda", [shoulder[0], wrist[0]], index, limb, parts);
+        self.beam("rodb", [shoulder[2], wrist[2]], index, limb, parts);
+        parts.rigid(name("carriage"), [shoulder[1]]);
+    }
+
+    /// Adds a rod between two points, a bar through three.
+    #[inline]
+    fn beam<const N: usize>(
+        &self,
+        word: &'static str,
+        points: [NamedPoint; N],
+        index: usize,
+        limb: &Limb,
+        parts: &mut impl Parts,
+    ) {
+        parts.beam(BeamPart {
+            name: Name::limb(word, index),
+            points,
+            link: match N {
+                2 => &self.orthoglide.rod,
+                _ => &self.orthoglide.bar,
+            },
+            y_axis: limb.parallelogram_axis,
+            elements: self.orthoglide.elements,
+        });
+    }
+
+    #[inline]
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let name = |word| Name::limb(word, index);
+        let body = |word| Some(name(word));
+        let (shoulder, wrist) = (body("shoulder"), body("wrist"));
+        let (roda, rodb, carriage) = (body("roda"), body("rodb"), body("carriage"));
+        let slide = limb.rail_frame;
+        let slide = JointPart::passive(&Prismatic, name("D"), [None, carriage], slide, &RIGID);
+        let slide = slide.at(name("A"));
+        parts.joint(slide.driven(self.orthoglide.drive_stiffness));
+        let given = &self.orthoglide.joint_stiffness;
+        let joint =
+            |word, between, frame| JointPart::passive(&Revolute, name(word), between, frame, given);
+        parts.joint(joint("A", [carriage, shoulder], limb.turn_frame));
+        parts.joint(joint("Aa", [shoulder, roda], limb.rod_end_frame));
+        parts.joint(joint("Ca", [wrist, roda], limb.rod_end_frame));
+        parts.joint(joint("Ab", [shoulder, rodb], limb.rod_end_frame));
+        parts.joint(joint("Cb", [wrist, rodb], limb.rod_end_frame));
+        parts.joint(joint("C", [wrist, Some(PLATFORM)], limb.turn_frame));
     }
 }
 
@@ -253,16 +267,10 @@ impl Prebuilt for Orthoglide {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("orthoglide", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("orthoglide", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let [x, y, z] = configuration.centre.into();
-        Ok([x, y, z, 0.0, 0.0, 0.0])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

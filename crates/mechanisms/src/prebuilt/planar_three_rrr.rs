@@ -1,11 +1,14 @@
 //! The planar 3-RRR: parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Revolute, frame_from_axis};
-use nalgebra::{Point3, Vector3};
+use hyperstat_joints::Revolute;
+use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
-use super::limbs::{LIMBS, outward, per_limb};
+use super::construction::{
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts,
+};
+use super::frames::frame;
+use super::limbs::{LIMBS, outward, per_limb, turned_outward};
 use super::two_links::TwoLinks;
 use super::{
     ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
@@ -86,13 +89,16 @@ impl PlanarThreeRrr {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The limbs with the platform at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let [x, y, turn] = coordinates::<3>(self.kind(), pose)?;
         let centre = Point3::new(x, y, 0.0);
+        let (sin, cos) = turn.sin_cos();
         let limbs = per_limb(|index| {
-            let a = Point3::from(outward(index, 0.0) * self.base_radius);
-            let c = centre + outward(index, turn) * self.platform_radius;
+            let a = Point3::from(outward(index) * self.base_radius);
+            let c = centre + turned_outward(index, (sin, cos)) * self.platform_radius;
             let links = TwoLinks {
                 limb: index + 1,
                 proximal: self.proximal_length,
@@ -100,96 +106,91 @@ impl PlanarThreeRrr {
                 side: self.elbow,
             };
             let [x, y] = links.elbow([c.x - a.x, c.y - a.y])?;
+            let b = a + Vector3::new(x, y, 0.0);
+            let along = |link: Vector3<f64>| frame(&link.normalize(), &Vector3::z());
             Ok(Limb {
-                a,
-                b: a + Vector3::new(x, y, 0.0),
-                c,
+                points: [a, b, c],
+                proximal: along(b - a),
+                distal: along(c - b),
             })
         })?;
-        Ok(Configuration {
+        Ok(Posed {
+            planar: self,
             pose: [x, y, 0.0, 0.0, 0.0, turn],
             limbs,
         })
     }
+}
 
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let z = Vector3::z();
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            let name = |word| Name::limb(word, index);
-            let [a, b, c] = limb.points(index);
-            for (word, points, link) in [
-                ("proximal", [a, b], &self.proximal),
-                ("distal", [b, c], &self.distal),
-            ] {
-                parts.beam(&BeamPart {
-                    name: name(word),
-                    points: &points,
-                    link,
-                    y_axis: z,
-                    elements: self.elements,
-                })?;
-            }
-        }
-        let [first, second, third] = &configuration.limbs;
-        let centre = Point3::new(configuration.pose[0], configuration.pose[1], 0.0);
-        parts.rigid(
-            PLATFORM,
-            &[
-                (Name::alone("P"), centre),
-                first.points(0)[2],
-                second.points(1)[2],
-                third.points(2)[2],
-            ],
-        )?;
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            let [proximal, distal] = ["proximal", "distal"].map(|word| Name::limb(word, index));
-            let along = [limb.b - limb.a, limb.b - limb.a, limb.c - limb.b];
-            let between = [
-                [None, Some(proximal)],
-                [Some(proximal), Some(distal)],
-                [Some(distal), Some(PLATFORM)],
-            ];
-            for (k, (at, _)) in limb.points(index).into_iter().enumerate() {
-                let drive = k == 0;
-                parts.joint(&JointPart {
-                    name: at,
-                    at,
-                    between: between[k],
-                    joint: &Revolute,
-                    frame: frame_from_axis(Some(&z), Some(&along[k]))?,
-                    locked: drive,
-                    stiffness: construction::revolute_stiffness(
-                        self.joint_stiffness,
-                        if drive { self.drive_stiffness } else { None },
-                    ),
-                })?;
-            }
-        }
-        Ok(())
+/// A limb at a pose.
+struct Limb {
+    /// A, B and C.
+    points: [Point3<f64>; 3],
+    /// Frames with x along the links and y along the joints.
+    proximal: Rotation3<f64>,
+    distal: Rotation3<f64>,
+}
+
+impl Limb {
+    #[inline]
+    fn points(&self, index: usize) -> [NamedPoint; 3] {
+        let [a, b, c] = self.points;
+        [
+            (Name::limb("A", index), a),
+            (Name::limb("B", index), b),
+            (Name::limb("C", index), c),
+        ]
     }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-struct Configuration {
+/// A planar 3-RRR at a pose.
+struct Posed<'a> {
+    planar: &'a PlanarThreeRrr,
     pose: [f64; 6],
     limbs: [Limb; LIMBS],
 }
 
-struct Limb {
-    a: Point3<f64>,
-    b: Point3<f64>,
-    c: Point3<f64>,
-}
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let planar = self.planar;
+        for (index, limb) in self.limbs.iter().enumerate() {
+            let [a, b, c] = limb.points(index);
+            let link = |word, points, link| BeamPart {
+                name: Name::limb(word, index),
+                points,
+                link,
+                y_axis: Vector3::z(),
+                elements: planar.elements,
+            };
+            parts.beam(link("proximal", [a, b], &planar.proximal));
+            parts.beam(link("distal", [b, c], &planar.distal));
+        }
+        let [x, y, ..] = self.pose;
+        let centre = (Name::alone("P"), Point3::new(x, y, 0.0));
+        let c = |index: usize| self.limbs[index].points(index)[2];
+        parts.rigid(PLATFORM, [centre, c(0), c(1), c(2)]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            let name = |word| Name::limb(word, index);
+            let (proximal, distal) = (Some(name("proximal")), Some(name("distal")));
+            let joint = |word, between, frame| {
+                JointPart::passive(
+                    &Revolute,
+                    name(word),
+                    between,
+                    frame,
+                    &planar.joint_stiffness,
+                )
+            };
+            let drive = joint("A", [None, proximal], limb.proximal);
+            parts.joint(drive.driven(planar.drive_stiffness));
+            parts.joint(joint("B", [proximal, distal], limb.proximal));
+            parts.joint(joint("C", [distal, Some(PLATFORM)], limb.distal));
+        }
+    }
 
-impl Limb {
-    fn points(&self, index: usize) -> [NamedPoint; 3] {
-        let name = |word| Name::limb(word, index);
-        [
-            (name("A"), self.a),
-            (name("B"), self.b),
-            (name("C"), self.c),
-        ]
+    fn pose(&self) -> [f64; 6] {
+        self.pose
     }
 }
 
@@ -203,15 +204,10 @@ impl Prebuilt for PlanarThreeRrr {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("planar 3-RRR", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("planar 3-RRR", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        Ok(configuration.pose)
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -4,7 +4,8 @@
 use nalgebra::{Point3, Vector3};
 use serde::Deserialize;
 
-use super::limbs::outward;
+use super::error::shown;
+use super::limbs::{LIMBS, outward};
 use super::{ParameterError, PoseError, parameter};
 
 /// How far, relative to the rods' length, a pose may miss the edge of their reach and still
@@ -49,34 +50,35 @@ impl Rails {
         parameter::positive_length("travel", self.travel)
     }
 
-    /// Direction of rail `index` (from 0), away from its foot.
-    pub(super) fn direction(&self, index: usize) -> Vector3<f64> {
+    /// Directions of the rails, away from their feet.
+    #[inline]
+    pub(super) fn directions(&self) -> [Vector3<f64>; LIMBS] {
         let (sin, cos) = self.tilt.sin_cos();
-        Vector3::z() * cos - outward(index, 0.0) * sin
+        [0, 1, 2].map(|index| Vector3::z() * cos - outward(index) * sin)
     }
 
     /// Where the carriage of rail `index` (from 0) stands, from which rods of `length` reach to
-    /// `target`, named `name` and the limb's number in messages.
+    /// `target`, named `name` and the limb's number in messages. `direction` is the rail's.
+    #[inline]
     pub(super) fn carriage(
         &self,
         index: usize,
+        direction: &Vector3<f64>,
         length: f64,
         target: &Point3<f64>,
         name: &str,
     ) -> Result<Point3<f64>, PoseError> {
         let limb = index + 1;
-        let foot = outward(index, 0.0) * self.radius;
-        let direction = self.direction(index);
+        let foot = outward(index) * self.radius;
         let reach = target.coords - foot;
-        let along = reach.dot(&direction);
+        let along = reach.dot(direction);
         let apart = (reach - direction * along).norm();
         if apart.is_nan() || apart > length * (1.0 + EDGE) {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "limb {limb}: {name}{limb} is {apart:.6} m from its rail, too far for \
-                     {length:.6} m"
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "limb {limb}: {name}{limb} is {} m from its rail, too far for {} m",
+                shown(apart),
+                shown(length),
+            )));
         }
         let half = ((length - apart) * (length + apart)).max(0.0).sqrt();
         let travel = match self.carriage {
@@ -85,13 +87,12 @@ impl Rails {
         };
         let edge = EDGE * self.travel;
         if travel < -edge || travel > self.travel + edge {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "limb {limb}: the carriage would stand at {travel:.6} m on its rail, which \
-                     goes from 0 to {:.6} m",
-                    self.travel
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "limb {limb}: the carriage would stand at {} m on its rail, which goes from 0 to \
+                 {} m",
+                shown(travel),
+                shown(self.travel),
+            )));
         }
         Ok(Point3::from(foot + direction * travel))
     }

@@ -3,10 +3,14 @@
 use std::f64::consts::{PI, TAU};
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Revolute, frame_from_axis};
+use hyperstat_joints::Revolute;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::construction::{
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts,
+};
+use super::error::shown;
+use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb};
 use super::{
     ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
@@ -104,38 +108,54 @@ impl SphericalThreeRrr {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The limbs with the platform turned as a pose says.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let turn = coordinates::<3>(self.kind(), pose)?;
         let rotation = Rotation3::from_scaled_axis(Vector3::from(turn));
-        let cone =
-            |index, angle: f64| outward(index, 0.0) * angle.sin() + Vector3::z() * angle.cos();
+        let cone = |index, (sin, cos): (f64, f64)| outward(index) * sin + Vector3::z() * cos;
+        let (base, platform) = (self.base_angle.sin_cos(), self.platform_angle.sin_cos());
+        let cosines = [self.proximal_angle.cos(), self.distal_angle.cos()];
         let limbs = per_limb(|index| {
-            let mut a = cone(index, self.base_angle);
+            let mut a = cone(index, base);
             a.z = -a.z;
-            let c = rotation * cone(index, self.platform_angle);
-            Ok([a, self.elbow_axis(index + 1, &a, &c)?, c])
+            let c = rotation * cone(index, platform);
+            let b = self.elbow_axis(index + 1, &a, &c, cosines)?;
+            Ok(Limb {
+                axes: [a, b, c],
+                normals: [a.cross(&b), b.cross(&c)],
+            })
         })?;
-        Ok(Configuration { turn, limbs })
+        Ok(Posed {
+            spherical: self,
+            turn,
+            limbs,
+        })
     }
 
-    /// The axis of B, at `proximal_angle` from that of A and `distal_angle` from that of C.
+    /// The axis of B, at `proximal_angle` from that of A and `distal_angle` from that of C, of
+    /// which the cosines are given.
+    #[inline]
     fn elbow_axis(
         &self,
         limb: usize,
         a: &Vector3<f64>,
         c: &Vector3<f64>,
+        [proximal_cos, distal_cos]: [f64; 2],
     ) -> Result<Vector3<f64>, PoseError> {
         let (proximal, distal) = (self.proximal_angle, self.distal_angle);
         let normal = a.cross(c);
         let (sin, cos) = (normal.norm(), a.dot(c));
         let distance = sin.atan2(cos);
         let half = 0.5 * (proximal + distal + distance);
-        let unreachable = |how: &str, limit: f64| PoseError::Unreachable {
-            what: format!(
-                "limb {limb}: the axis of C{limb} is too {how} that of A{limb}: {distance:.6} rad, \
-                 and the two links end at {limit:.6} rad"
-            ),
+        let unreachable = |how: &str, limit: f64| {
+            PoseError::unreachable(format!(
+                "limb {limb}: the axis of C{limb} is too {how} that of A{limb}: {} rad, and the \
+                 two links end at {} rad",
+                shown(distance),
+                shown(limit),
+            ))
         };
         if half - distance < -EDGE {
             return Err(unreachable("far from", proximal + distal));
@@ -147,108 +167,121 @@ impl SphericalThreeRrr {
             return Err(unreachable("far from", TAU - proximal - distal));
         }
         if sin <= EDGE {
-            return Err(PoseError::Singular {
-                what: format!(
-                    "limb {limb}: the axes of A{limb} and C{limb} are in one line, so the links \
-                     may have any angle"
-                ),
-            });
+            return Err(PoseError::singular(format!(
+                "limb {limb}: the axes of A{limb} and C{limb} are in one line, so the links may \
+                 have any angle"
+            )));
         }
 
         // In the axes along A, along the arc from A to C, and across it: the half-angle formula for the
         // height of the spherical triangle keeps its digits where the links are nearly in line.
         let along = (c - a * cos) / sin;
-        let forward = (distal.cos() - cos * proximal.cos()) / sin;
+        let forward = (distal_cos - cos * proximal_cos) / sin;
         let square =
             half.sin() * (half - proximal).sin() * (half - distal).sin() * (half - distance).sin();
         let height = self.elbow.sign() * 2.0 * square.max(0.0).sqrt() / sin;
-        let axis = a * proximal.cos() + along * forward + normal * (height / sin);
+        let axis = a * proximal_cos + along * forward + normal * (height / sin);
         Ok(axis.normalize())
     }
-
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        for (index, [a, b, c]) in configuration.limbs.iter().enumerate() {
-            for (word, words, [from, to], link) in [
-                (
-                    "proximal",
-                    ["A", "Aa", "Ab", "Ac", "B"],
-                    [a, b],
-                    &self.proximal,
-                ),
-                ("distal", ["B", "Ba", "Bb", "Bc", "C"], [b, c], &self.distal),
-            ] {
-                let arc = arc(from, to).map(|direction| self.at(&direction));
-                let mut points = [(PLATFORM, Point3::origin()); CHORDS + 1];
-                for ((point, word), at) in points.iter_mut().zip(words).zip(arc) {
-                    *point = (Name::limb(word, index), at);
-                }
-                parts.beam(&BeamPart {
-                    name: Name::limb(word, index),
-                    points: &points,
-                    link,
-                    y_axis: from.cross(to),
-                    elements: self.elements,
-                })?;
-            }
-        }
-        let wrist = |index: usize| -> NamedPoint {
-            let [_, _, c] = &configuration.limbs[index];
-            (Name::limb("C", index), self.at(c))
-        };
-        let centre = (Name::alone("P"), Point3::origin());
-        parts.rigid(PLATFORM, &[centre, wrist(0), wrist(1), wrist(2)])?;
-        for (index, [a, b, c]) in configuration.limbs.iter().enumerate() {
-            let name = |word| Name::limb(word, index);
-            let [proximal, distal] = ["proximal", "distal"].map(name);
-            for (word, between, axis, x_axis) in [
-                ("A", [None, Some(proximal)], a, b),
-                ("B", [Some(proximal), Some(distal)], b, c),
-                ("C", [Some(distal), Some(PLATFORM)], c, b),
-            ] {
-                let drive = word == "A";
-                parts.joint(&JointPart {
-                    name: name(word),
-                    at: name(word),
-                    between,
-                    joint: &Revolute,
-                    frame: frame_from_axis(Some(axis), Some(x_axis))?,
-                    locked: drive,
-                    stiffness: construction::revolute_stiffness(
-                        self.joint_stiffness,
-                        self.drive_stiffness.filter(|_| drive),
-                    ),
-                })?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The point of the sphere in this direction from O.
-    fn at(&self, direction: &Vector3<f64>) -> Point3<f64> {
-        Point3::from(direction * self.radius)
-    }
 }
 
-/// Directions evenly along the arc between two, both included.
-fn arc(from: &Vector3<f64>, to: &Vector3<f64>) -> [Vector3<f64>; CHORDS + 1] {
-    let angle = from.cross(to).norm().atan2(from.dot(to));
-    std::array::from_fn(|k| match k {
-        0 => *from,
-        CHORDS => *to,
-        _ => {
-            let t = k as f64 / CHORDS as f64;
-            from * ((1.0 - t) * angle).sin() / angle.sin() + to * (t * angle).sin() / angle.sin()
-        }
-    })
+/// A limb at a pose.
+struct Limb {
+    /// Of A, B and C, away from O.
+    axes: [Vector3<f64>; 3],
+    /// Of the arcs of the proximal and the distal link.
+    normals: [Vector3<f64>; 2],
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-struct Configuration {
+/// A spherical 3-RRR at a pose.
+struct Posed<'a> {
+    spherical: &'a SphericalThreeRrr,
     /// The platform's rotation vector (rad).
     turn: [f64; 3],
-    /// The axes of A, B and C of every limb, away from O.
-    limbs: [[Vector3<f64>; 3]; LIMBS],
+    limbs: [Limb; LIMBS],
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.bodies(index, limb, parts);
+        }
+        let wrist = |index: usize| {
+            let [_, _, c] = &self.limbs[index].axes;
+            (Name::limb("C", index), self.point(c))
+        };
+        let centre = (Name::alone("P"), Point3::origin());
+        parts.rigid(PLATFORM, [centre, wrist(0), wrist(1), wrist(2)]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.joints(index, limb, parts);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        let [rx, ry, rz] = self.turn;
+        [0.0, 0.0, 0.0, rx, ry, rz]
+    }
+}
+
+impl Posed<'_> {
+    /// The point of the sphere in this direction from O.
+    fn point(&self, direction: &Vector3<f64>) -> Point3<f64> {
+        Point3::from(direction * self.spherical.radius)
+    }
+
+    #[inline]
+    fn bodies(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let ([a, b, c], [ab, bc], spherical) = (&limb.axes, &limb.normals, self.spherical);
+        let proximal = self.arc(["A", "Aa", "Ab", "Ac", "B"], index, [a, b]);
+        let distal = self.arc(["B", "Ba", "Bb", "Bc", "C"], index, [b, c]);
+        let link = |word, points, y_axis, link| BeamPart {
+            name: Name::limb(word, index),
+            points,
+            link,
+            y_axis,
+            elements: spherical.elements,
+        };
+        parts.beam(link("proximal", proximal, *ab, &spherical.proximal));
+        parts.beam(link("distal", distal, *bc, &spherical.distal));
+    }
+
+    /// Points evenly along the arc between two directions, both included.
+    #[inline]
+    fn arc(
+        &self,
+        words: [&'static str; CHORDS + 1],
+        index: usize,
+        [from, to]: [&Vector3<f64>; 2],
+    ) -> [NamedPoint; CHORDS + 1] {
+        let middle = (from + to).normalize();
+        let (before, after) = ((from + middle).normalize(), (middle + to).normalize());
+        let point = |k: usize, at: &Vector3<f64>| (Name::limb(words[k], index), self.point(at));
+        [
+            point(0, from),
+            point(1, &before),
+            point(2, &middle),
+            point(3, &after),
+            point(4, to),
+        ]
+    }
+
+    #[inline]
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let name = |word| Name::limb(word, index);
+        let (proximal, distal) = (Some(name("proximal")), Some(name("distal")));
+        let ([a, b, c], [ab, bc]) = (&limb.axes, &limb.normals);
+        // x of the frames is normal to the joint's axis, in the plane of an arc.
+        let joint = |word, between, axis: &Vector3<f64>, x_axis: Vector3<f64>| {
+            let frame = frame(&x_axis.normalize(), axis);
+            let stiffness = &self.spherical.joint_stiffness;
+            JointPart::passive(&Revolute, name(word), between, frame, stiffness)
+        };
+        let drive = joint("A", [None, proximal], a, ab.cross(a));
+        parts.joint(drive.driven(self.spherical.drive_stiffness));
+        parts.joint(joint("B", [proximal, distal], b, bc.cross(b)));
+        parts.joint(joint("C", [distal, Some(PLATFORM)], c, c.cross(bc)));
+    }
 }
 
 impl Prebuilt for SphericalThreeRrr {
@@ -261,16 +294,10 @@ impl Prebuilt for SphericalThreeRrr {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("spherical 3-RRR", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("spherical 3-RRR", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let [rx, ry, rz] = configuration.turn;
-        Ok([0.0, 0.0, 0.0, rx, ry, rz])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -1,14 +1,12 @@
 //! Telescopic legs: a cylinder, a piston and the drive between them.
 
-use hyperstat_joints::{
-    Joint, Prismatic, Revolute, Spherical, Universal, frame_from_axes, frame_from_axis,
-};
+use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical, Universal};
 use nalgebra::{Point3, Rotation3, Vector3};
 use serde::Deserialize;
 
-use super::construction::{
-    BeamPart, JointPart, Name, NamedPoint, Parts, constrained_stiffness, prismatic_stiffness,
-};
+use super::construction::{BeamPart, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID};
+use super::error::shown;
+use super::frames::frame;
 use super::{Link, ParameterError, PoseError, parameter};
 
 /// How far, relative to its length, a leg may miss its shortest and longest length and still
@@ -79,7 +77,7 @@ impl TelescopicLeg {
     }
 }
 
-/// How a leg stands on the base.
+/// How a leg or rod stands on the base or carriage.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Foot {
     /// By a universal joint with this first axis, fixed in the base.
@@ -91,7 +89,8 @@ pub(super) enum Foot {
 }
 
 impl Foot {
-    /// What `kind` is with this first axis.
+    /// What `kind` is with this first axis, a unit vector.
+    #[inline]
     pub(super) fn new(kind: FootJoint, first_axis: Vector3<f64>) -> Self {
         match kind {
             FootJoint::Universal => Self::Universal(first_axis),
@@ -107,54 +106,62 @@ impl Foot {
         }
     }
 
-    /// The joint's frame, and the direction of local y of what stands on it along `span`: the
-    /// universal joint's second axis, or the revolute joint's. `what` names it in messages.
+    /// The joint's frame, and the direction of local y of what stands on it along the unit vector
+    /// `along`: the universal joint's second axis, or the revolute joint's. `what` names it in
+    /// messages.
+    #[inline]
     pub(super) fn orient(
         &self,
-        span: &Vector3<f64>,
+        along: &Vector3<f64>,
         what: Name,
     ) -> Result<(Rotation3<f64>, Vector3<f64>), PoseError> {
         match self {
             Self::Universal(first) => {
-                let second = second_axis(span, first, what)?;
-                Ok((frame_from_axes(first, &second)?, second))
+                let second = second_axis(along, first, what)?;
+                Ok((frame(first, &second), second))
             }
-            Self::Revolute(axis) => Ok((frame_from_axis(Some(axis), Some(span))?, *axis)),
-            Self::Spherical(first) => Ok((Rotation3::identity(), second_axis(span, first, what)?)),
+            Self::Revolute(axis) => Ok((frame(along, axis), *axis)),
+            Self::Spherical(first) => Ok((Rotation3::identity(), second_axis(along, first, what)?)),
         }
     }
 }
 
-/// The second axis of a universal joint: along `span` × `first`, of unit length.
+/// The second axis of a universal joint: the unit vector along `along` × `first`, both of which
+/// are unit vectors.
+#[inline]
 pub(super) fn second_axis(
-    span: &Vector3<f64>,
+    along: &Vector3<f64>,
     first: &Vector3<f64>,
     what: Name,
 ) -> Result<Vector3<f64>, PoseError> {
-    let across = span.cross(first);
-    if across.norm() <= ALIGNED * span.norm() * first.norm() {
-        return Err(PoseError::Singular {
-            what: format!("{what}: in line with the first axis of the universal joint"),
-        });
+    let across = along.cross(first);
+    if across.norm_squared() <= ALIGNED * ALIGNED {
+        return Err(PoseError::singular(format!(
+            "{what}: in line with the first axis of the universal joint"
+        )));
     }
+    // Normal to the first axis to rounding, however near the two are.
+    let across = across - first * first.dot(&across);
     Ok(across.normalize())
 }
 
 /// A telescopic leg at one pose: points `B`, `M`, `S`, bodies `cylinder` and `piston`, and
 /// joints named as their points, all with the leg's number.
-pub(super) struct Leg<'a> {
+pub(super) struct Leg {
     index: usize,
-    parameters: &'a TelescopicLeg,
+    /// B, M and S.
     points: [Point3<f64>; 3],
-    foot: Foot,
+    foot: &'static dyn Joint,
     foot_frame: Rotation3<f64>,
+    drive_frame: Rotation3<f64>,
     y_axis: Vector3<f64>,
 }
 
-impl<'a> Leg<'a> {
+impl Leg {
     /// Leg `index` (from 0) from `base` to `platform`.
+    #[inline]
     pub(super) fn new(
-        parameters: &'a TelescopicLeg,
+        parameters: &TelescopicLeg,
         index: usize,
         foot: Foot,
         base: Point3<f64>,
@@ -165,107 +172,104 @@ impl<'a> Leg<'a> {
         let (shortest, longest) = parameters.lengths;
         let number = index + 1;
         if length.is_nan() || length > longest * (1.0 + EDGE) {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "leg {number}: S{number} is {length:.6} m from B{number}, where the leg \
-                     reaches {longest:.6} m"
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "leg {number}: S{number} is {} m from B{number}, where the leg reaches {} m",
+                shown(length),
+                shown(longest),
+            )));
         }
         if length < shortest * (1.0 - EDGE) {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "leg {number}: S{number} is {length:.6} m from B{number}, where the leg is \
-                     no shorter than {shortest:.6} m"
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "leg {number}: S{number} is {} m from B{number}, where the leg is no shorter \
+                 than {} m",
+                shown(length),
+                shown(shortest),
+            )));
         }
-        let mouth = base + span * (parameters.cylinder_length / length);
-        let (foot_frame, y_axis) = foot.orient(&span, Name::limb("leg ", index))?;
+        let along = span / length;
+        let (foot_frame, y_axis) = foot.orient(&along, Name::limb("leg ", index))?;
         Ok(Self {
             index,
-            parameters,
-            points: [base, mouth, platform],
-            foot,
+            points: [base, base + along * parameters.cylinder_length, platform],
+            foot: foot.joint(),
             foot_frame,
+            drive_frame: frame(&y_axis, &along),
             y_axis,
         })
     }
 
+    #[inline]
     fn name(&self, word: &'static str) -> Name {
         Name::limb(word, self.index)
     }
 
-    fn points(&self) -> [NamedPoint; 3] {
-        let [base, mouth, platform] = self.points;
-        [
-            (self.name("B"), base),
-            (self.name("M"), mouth),
-            (self.name("S"), platform),
-        ]
-    }
-
     /// The point that the platform has too.
+    #[inline]
     pub(super) fn platform_point(&self) -> NamedPoint {
-        self.points()[2]
+        let [_, _, platform] = self.points;
+        (self.name("S"), platform)
     }
 
     /// Adds cylinder and piston.
-    pub(super) fn bodies(&self, parts: &mut dyn Parts, elements: usize) -> Result<(), PoseError> {
-        let [base, mouth, platform] = self.points();
-        for (word, points, link) in [
-            ("cylinder", [base, mouth], &self.parameters.cylinder),
-            ("piston", [mouth, platform], &self.parameters.piston),
-        ] {
-            parts.beam(&BeamPart {
-                name: self.name(word),
-                points: &points,
-                link,
-                y_axis: self.y_axis,
-                elements,
-            })?;
-        }
-        Ok(())
+    #[inline]
+    pub(super) fn bodies(
+        &self,
+        parts: &mut impl Parts,
+        parameters: &TelescopicLeg,
+        elements: usize,
+    ) {
+        let [base, mouth, _] = self.points;
+        let mouth = (self.name("M"), mouth);
+        parts.beam(BeamPart {
+            name: self.name("cylinder"),
+            points: [(self.name("B"), base), mouth],
+            link: &parameters.cylinder,
+            y_axis: self.y_axis,
+            elements,
+        });
+        parts.beam(BeamPart {
+            name: self.name("piston"),
+            points: [mouth, self.platform_point()],
+            link: &parameters.piston,
+            y_axis: self.y_axis,
+            elements,
+        });
     }
 
-    /// Adds the joints: B and S of `joint_stiffness` where they constrain, M of
-    /// `drive_stiffness` along the leg.
+    /// Adds the joints: B and S of `given` stiffness, M of `drive` along the leg.
+    #[inline]
     pub(super) fn joints(
         &self,
-        parts: &mut dyn Parts,
-        platform: Name,
-        joint_stiffness: [Option<f64>; 6],
-        drive_stiffness: Option<f64>,
-    ) -> Result<(), PoseError> {
-        let [cylinder, piston] = ["cylinder", "piston"].map(|word| self.name(word));
-        let [base, mouth, _] = self.points;
-        let foot = self.foot.joint();
-        parts.joint(&JointPart {
-            name: self.name("B"),
-            at: self.name("B"),
-            between: [None, Some(cylinder)],
-            joint: foot,
-            frame: self.foot_frame,
-            locked: false,
-            stiffness: constrained_stiffness(foot, joint_stiffness),
-        })?;
-        parts.joint(&JointPart {
-            name: self.name("M"),
-            at: self.name("M"),
-            between: [Some(cylinder), Some(piston)],
-            joint: &Prismatic,
-            frame: frame_from_axis(Some(&(mouth - base)), Some(&self.y_axis))?,
-            locked: true,
-            stiffness: prismatic_stiffness(drive_stiffness),
-        })?;
-        parts.joint(&JointPart {
-            name: self.name("S"),
-            at: self.name("S"),
-            between: [Some(piston), Some(platform)],
-            joint: &Spherical,
-            frame: Rotation3::identity(),
-            locked: false,
-            stiffness: constrained_stiffness(&Spherical, joint_stiffness),
-        })
+        parts: &mut impl Parts,
+        given: &[Option<f64>; 6],
+        drive: Option<f64>,
+    ) {
+        let (cylinder, piston) = (Some(self.name("cylinder")), Some(self.name("piston")));
+        let ball = Rotation3::identity();
+        let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
+            JointPart::passive(joint, self.name(word), between, frame, stiffness)
+        };
+        parts.joint(joint(
+            self.foot,
+            "B",
+            [None, cylinder],
+            self.foot_frame,
+            given,
+        ));
+        let slide = joint(
+            &Prismatic,
+            "M",
+            [cylinder, piston],
+            self.drive_frame,
+            &RIGID,
+        );
+        parts.joint(slide.driven(drive));
+        parts.joint(joint(
+            &Spherical,
+            "S",
+            [piston, Some(PLATFORM)],
+            ball,
+            given,
+        ));
     }
 }

@@ -1,13 +1,14 @@
 //! The 3-PRS: parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical, frame_from_axis};
+use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
-    self, BeamPart, JointPart, Name, Parts, constrained_stiffness, prismatic_stiffness,
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
-use super::limbs::{LIMBS, outward, per_limb};
+use super::frames::frame;
+use super::limbs::{LIMBS, per_limb, tangent};
 use super::rail::Rails;
 use super::zero_torsion::Platform;
 use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
@@ -83,101 +84,93 @@ impl ThreePrs {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The carriages and the platform at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let given = coordinates::<3>(self.kind(), pose)?;
         let platform = Platform::new(self.platform_radius, given);
+        let rails = self.rails.directions();
         let carriages = per_limb(|index| {
-            let corner = &platform.corners[index];
-            self.rails.carriage(index, self.rod_length, corner, "S")
+            let (rail, corner) = (&rails[index], &platform.corners[index]);
+            self.rails
+                .carriage(index, rail, self.rod_length, corner, "S")
         })?;
-        Ok(Configuration {
+        Ok(Posed {
+            three_prs: self,
+            rails,
             carriages,
             platform,
         })
     }
-
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        let Configuration {
-            carriages,
-            platform,
-        } = configuration;
-        let point = |word, index, at: [Point3<f64>; LIMBS]| (Name::limb(word, index), at[index]);
-        let a = |index| point("A", index, *carriages);
-        let s = |index| point("S", index, platform.corners);
-        for index in 0..LIMBS {
-            parts.rigid(Name::limb("carriage", index), &[a(index)])?;
-            parts.beam(&BeamPart {
-                name: Name::limb("rod", index),
-                points: &[a(index), s(index)],
-                link: &self.rod,
-                y_axis: hinge_axis(index),
-                elements: self.elements,
-            })?;
-        }
-        let centre = (Name::alone("P"), platform.centre);
-        parts.rigid(PLATFORM, &[centre, s(0), s(1), s(2)])?;
-        for index in 0..LIMBS {
-            self.joints(index, &(s(index).1 - a(index).1), parts)?;
-        }
-        Ok(())
-    }
-
-    /// Adds the joints of a limb with its rod along `span`.
-    fn joints(
-        &self,
-        index: usize,
-        span: &Vector3<f64>,
-        parts: &mut dyn Parts,
-    ) -> Result<(), PoseError> {
-        let name = |word| Name::limb(word, index);
-        let [carriage, rod] = ["carriage", "rod"].map(name);
-        let axis = hinge_axis(index);
-        parts.joint(&JointPart {
-            name: name("D"),
-            at: name("A"),
-            between: [None, Some(carriage)],
-            joint: &Prismatic,
-            frame: frame_from_axis(Some(&self.rails.direction(index)), Some(&axis))?,
-            locked: true,
-            stiffness: prismatic_stiffness(self.drive_stiffness),
-        })?;
-        let hinge = frame_from_axis(Some(&axis), Some(span))?;
-        let passive: [(_, _, &dyn Joint, _); 2] = [
-            ("A", [Some(carriage), Some(rod)], &Revolute, hinge),
-            (
-                "S",
-                [Some(rod), Some(PLATFORM)],
-                &Spherical,
-                Rotation3::identity(),
-            ),
-        ];
-        for (word, between, joint, frame) in passive {
-            parts.joint(&JointPart {
-                name: name(word),
-                at: name(word),
-                between,
-                joint,
-                frame,
-                locked: false,
-                stiffness: constrained_stiffness(joint, self.joint_stiffness),
-            })?;
-        }
-        Ok(())
-    }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-/// Axis of the revolute joint of limb `index`.
-fn hinge_axis(index: usize) -> Vector3<f64> {
-    Vector3::z().cross(&outward(index, 0.0))
-}
-
-/// The carriages' points A and the platform at a pose.
-struct Configuration {
+/// A 3-PRS at a pose.
+struct Posed<'a> {
+    three_prs: &'a ThreePrs,
+    /// Directions of the rails.
+    rails: [Vector3<f64>; LIMBS],
+    /// The carriages' points A.
     carriages: [Point3<f64>; LIMBS],
     platform: Platform,
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        for index in 0..LIMBS {
+            parts.rigid(Name::limb("carriage", index), [self.carriage(index)]);
+            parts.beam(BeamPart {
+                name: Name::limb("rod", index),
+                points: [self.carriage(index), self.corner(index)],
+                link: &self.three_prs.rod,
+                // The axis of the hinge.
+                y_axis: tangent(index),
+                elements: self.three_prs.elements,
+            });
+        }
+        let centre = (Name::alone("P"), self.platform.centre);
+        let s = |index| self.corner(index);
+        parts.rigid(PLATFORM, [centre, s(0), s(1), s(2)]);
+        for index in 0..LIMBS {
+            self.joints(index, parts);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        self.platform.pose
+    }
+}
+
+impl Posed<'_> {
+    #[inline]
+    fn carriage(&self, index: usize) -> NamedPoint {
+        (Name::limb("A", index), self.carriages[index])
+    }
+
+    #[inline]
+    fn corner(&self, index: usize) -> NamedPoint {
+        (Name::limb("S", index), self.platform.corners[index])
+    }
+
+    #[inline]
+    fn joints(&self, index: usize, parts: &mut impl Parts) {
+        let name = |word| Name::limb(word, index);
+        let (carriage, rod) = (Some(name("carriage")), Some(name("rod")));
+        let axis = tangent(index);
+        let along = (self.platform.corners[index] - self.carriages[index]).normalize();
+        let given = &self.three_prs.joint_stiffness;
+        let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
+            JointPart::passive(joint, name(word), between, frame, stiffness)
+        };
+        let slide = frame(&axis, &self.rails[index]);
+        let slide = joint(&Prismatic, "D", [None, carriage], slide, &RIGID).at(name("A"));
+        parts.joint(slide.driven(self.three_prs.drive_stiffness));
+        let hinge = frame(&along, &axis);
+        parts.joint(joint(&Revolute, "A", [carriage, rod], hinge, given));
+        let ball = Rotation3::identity();
+        parts.joint(joint(&Spherical, "S", [rod, Some(PLATFORM)], ball, given));
+    }
 }
 
 impl Prebuilt for ThreePrs {
@@ -190,13 +183,10 @@ impl Prebuilt for ThreePrs {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("3-PRS", PLATFORM, |parts| self.walk(&configuration, parts))
+        construction::model("3-PRS", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        Ok(configuration.platform.pose)
+        construction::place(geometry, &self.at(pose)?)
     }
 }

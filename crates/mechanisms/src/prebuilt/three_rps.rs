@@ -1,10 +1,10 @@
 //! The 3-RPS: parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use nalgebra::{Point3, Vector3};
+use nalgebra::Point3;
 
-use super::construction::{self, Name, Parts};
-use super::limbs::{LIMBS, outward, per_limb};
+use super::construction::{self, Configuration, Name, PLATFORM, Parts};
+use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::telescope::{Foot, Leg, TelescopicLeg};
 use super::zero_torsion::Platform;
 use super::{ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
@@ -81,44 +81,50 @@ impl ThreeRps {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration<'_>, PoseError> {
+    /// The legs and the platform at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let given = coordinates::<3>(self.kind(), pose)?;
         let platform = Platform::new(self.platform_radius, given);
         let legs = per_limb(|index| {
-            let out = outward(index, 0.0);
-            let foot = Foot::Revolute(Vector3::z().cross(&out));
-            let base = Point3::from(out * self.base_radius);
+            let foot = Foot::Revolute(tangent(index));
+            let base = Point3::from(outward(index) * self.base_radius);
             Leg::new(&self.leg, index, foot, base, platform.corners[index])
         })?;
-        Ok(Configuration { legs, platform })
-    }
-
-    fn walk(
-        &self,
-        configuration: &Configuration<'_>,
-        parts: &mut dyn Parts,
-    ) -> Result<(), PoseError> {
-        let Configuration { legs, platform } = configuration;
-        for leg in legs {
-            leg.bodies(parts, self.elements)?;
-        }
-        let [s1, s2, s3] = [0, 1, 2].map(|index: usize| legs[index].platform_point());
-        let centre = (Name::alone("P"), platform.centre);
-        parts.rigid(PLATFORM, &[centre, s1, s2, s3])?;
-        for leg in legs {
-            leg.joints(parts, PLATFORM, self.joint_stiffness, self.drive_stiffness)?;
-        }
-        Ok(())
+        Ok(Posed {
+            three_rps: self,
+            legs,
+            platform,
+        })
     }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-/// The legs and the platform at a pose.
-struct Configuration<'a> {
-    legs: [Leg<'a>; LIMBS],
+/// A 3-RPS at a pose.
+struct Posed<'a> {
+    three_rps: &'a ThreeRps,
+    legs: [Leg; LIMBS],
     platform: Platform,
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let three_rps = self.three_rps;
+        for leg in &self.legs {
+            leg.bodies(parts, &three_rps.leg, three_rps.elements);
+        }
+        let s = |index: usize| self.legs[index].platform_point();
+        let centre = (Name::alone("P"), self.platform.centre);
+        parts.rigid(PLATFORM, [centre, s(0), s(1), s(2)]);
+        for leg in &self.legs {
+            leg.joints(parts, &three_rps.joint_stiffness, three_rps.drive_stiffness);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        self.platform.pose
+    }
 }
 
 impl Prebuilt for ThreeRps {
@@ -131,13 +137,10 @@ impl Prebuilt for ThreeRps {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("3-RPS", PLATFORM, |parts| self.walk(&configuration, parts))
+        construction::model("3-RPS", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        Ok(configuration.platform.pose)
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -1,12 +1,15 @@
 //! The Tricept (3-UPS + UP): parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Fixed, Joint, Prismatic, Universal, frame_from_axes, frame_from_axis};
-use nalgebra::{Point3, Rotation3, UnitQuaternion, Vector3};
+use hyperstat_joints::{Fixed, Joint, Prismatic, Universal};
+use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, JointPart, Name, Parts, constrained_stiffness};
-use super::limbs::{LIMBS, outward, per_limb};
+use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
+use super::error::shown;
+use super::frames::frame;
+use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::telescope::{Foot, Leg, TelescopicLeg, second_axis};
+use super::tilt::Tilt;
 use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
 
 /// The Tricept (3-UPS + UP): a platform on three telescopic legs, its orientation held by a
@@ -92,108 +95,43 @@ impl Tricept {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration<'_>, PoseError> {
+    /// The legs with the platform's centre at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
-        let [x, y, z] = coordinates::<3>(self.kind(), pose)?;
-        let centre = Point3::new(x, y, z);
+        let centre = Point3::from(coordinates::<3>(self.kind(), pose)?);
         let length = centre.coords.norm();
         if length <= self.tube_length {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "the middle leg: P is {length:.6} m from O, where the tube alone is {:.6} m",
-                    self.tube_length
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "the middle leg: P is {} m from O, where the tube alone is {} m",
+                shown(length),
+                shown(self.tube_length),
+            )));
         }
-        let second_axis = second_axis(&centre.coords, &FIRST_AXIS, Name::alone("the middle leg"))?;
-        let about_x = (-y).atan2(z);
-        let about_y = x.atan2(y.hypot(z));
-        let rotation = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), about_x)
-            * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), about_y);
+        let along = centre.coords / length;
+        let second_axis = second_axis(&along, &FIRST_AXIS, Name::alone("the middle leg"))?;
+        let height = along.y.hypot(along.z);
+        let tilt = Tilt {
+            about_x: [-along.y / height, along.z / height],
+            about_y: [along.x, height],
+        };
+        let rotation = tilt.rotation();
         let legs = per_limb(|index| {
-            let out = outward(index, 0.0);
-            let foot = Foot::Universal(Vector3::z().cross(&out));
-            let base = Point3::from(out * self.base_radius);
-            let platform = centre + rotation * out * self.platform_radius;
+            let base = Point3::from(outward(index) * self.base_radius);
+            let platform = centre + rotation * outward(index) * self.platform_radius;
+            let foot = Foot::Universal(tangent(index));
             Leg::new(&self.leg, index, foot, base, platform)
         })?;
-        Ok(Configuration {
+        Ok(Posed {
+            tricept: self,
             legs,
             centre,
-            mouth: Point3::from(centre.coords * (self.tube_length / length)),
+            turn: tilt.rotation_vector(),
+            mouth: Point3::from(along * self.tube_length),
+            foot_frame: frame(&FIRST_AXIS, &second_axis),
+            slide_frame: frame(&second_axis, &along),
             second_axis,
-            rotation,
         })
-    }
-
-    fn walk(
-        &self,
-        configuration: &Configuration<'_>,
-        parts: &mut dyn Parts,
-    ) -> Result<(), PoseError> {
-        let Configuration {
-            legs,
-            centre,
-            mouth,
-            second_axis,
-            ..
-        } = configuration;
-        let foot = (Name::alone("O"), Point3::origin());
-        let mouth = (Name::alone("M"), *mouth);
-        let centre = (Name::alone("P"), *centre);
-        for (name, points, link) in [
-            (TUBE, [foot, mouth], &self.tube),
-            (SPLINE, [mouth, centre], &self.spline),
-        ] {
-            parts.beam(&BeamPart {
-                name,
-                points: &points,
-                link,
-                y_axis: *second_axis,
-                elements: self.elements,
-            })?;
-        }
-        for leg in legs {
-            leg.bodies(parts, self.elements)?;
-        }
-        let [s1, s2, s3] = [0, 1, 2].map(|index: usize| legs[index].platform_point());
-        parts.rigid(PLATFORM, &[centre, s1, s2, s3])?;
-
-        let along = frame_from_axis(Some(&centre.1.coords), Some(second_axis))?;
-        let middle: [(_, _, &dyn Joint, _); 3] = [
-            (
-                foot,
-                [None, Some(TUBE)],
-                &Universal,
-                frame_from_axes(&FIRST_AXIS, second_axis)?,
-            ),
-            (mouth, [Some(TUBE), Some(SPLINE)], &Prismatic, along),
-            (
-                centre,
-                [Some(SPLINE), Some(PLATFORM)],
-                &Fixed,
-                Rotation3::identity(),
-            ),
-        ];
-        for ((name, _), between, joint, frame) in middle {
-            let stiffness = match name == foot.0 {
-                true => constrained_stiffness(joint, self.joint_stiffness),
-                false => [None; 6],
-            };
-            parts.joint(&JointPart {
-                name,
-                at: name,
-                between,
-                joint,
-                frame,
-                locked: false,
-                stiffness,
-            })?;
-        }
-        for leg in legs {
-            leg.joints(parts, PLATFORM, self.joint_stiffness, self.drive_stiffness)?;
-        }
-        Ok(())
     }
 }
 
@@ -202,17 +140,81 @@ const FIRST_AXIS: Vector3<f64> = Vector3::new(1.0, 0.0, 0.0);
 
 const TUBE: Name = Name::alone("tube");
 const SPLINE: Name = Name::alone("spline");
-const PLATFORM: Name = Name::alone("platform");
 
-/// The legs and the platform at a pose.
-struct Configuration<'a> {
-    legs: [Leg<'a>; LIMBS],
+/// A Tricept at a pose.
+struct Posed<'a> {
+    tricept: &'a Tricept,
+    legs: [Leg; LIMBS],
     centre: Point3<f64>,
+    /// The platform's rotation vector (rad).
+    turn: Vector3<f64>,
     /// M of the middle leg.
     mouth: Point3<f64>,
+    /// Frames of the middle leg's universal and sliding joint.
+    foot_frame: Rotation3<f64>,
+    slide_frame: Rotation3<f64>,
     /// Of the middle leg's universal joint.
     second_axis: Vector3<f64>,
-    rotation: UnitQuaternion<f64>,
+}
+
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let tricept = self.tricept;
+        let foot = (Name::alone("O"), Point3::origin());
+        let mouth = (Name::alone("M"), self.mouth);
+        let centre = (Name::alone("P"), self.centre);
+        parts.beam(BeamPart {
+            name: TUBE,
+            points: [foot, mouth],
+            link: &tricept.tube,
+            y_axis: self.second_axis,
+            elements: tricept.elements,
+        });
+        parts.beam(BeamPart {
+            name: SPLINE,
+            points: [mouth, centre],
+            link: &tricept.spline,
+            y_axis: self.second_axis,
+            elements: tricept.elements,
+        });
+        for leg in &self.legs {
+            leg.bodies(parts, &tricept.leg, tricept.elements);
+        }
+        let s = |index: usize| self.legs[index].platform_point();
+        parts.rigid(PLATFORM, [centre, s(0), s(1), s(2)]);
+        self.middle_joints(parts);
+        for leg in &self.legs {
+            leg.joints(parts, &tricept.joint_stiffness, tricept.drive_stiffness);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        let (at, turn) = (self.centre, self.turn);
+        [at.x, at.y, at.z, turn.x, turn.y, turn.z]
+    }
+}
+
+impl Posed<'_> {
+    /// Adds the joints of the middle leg.
+    #[inline]
+    fn middle_joints(&self, parts: &mut impl Parts) {
+        let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
+            JointPart::passive(joint, Name::alone(word), between, frame, stiffness)
+        };
+        let given = &self.tricept.joint_stiffness;
+        let (tube, spline, platform) = (Some(TUBE), Some(SPLINE), Some(PLATFORM));
+        parts.joint(joint(&Universal, "O", [None, tube], self.foot_frame, given));
+        parts.joint(joint(
+            &Prismatic,
+            "M",
+            [tube, spline],
+            self.slide_frame,
+            &RIGID,
+        ));
+        let weld = Rotation3::identity();
+        parts.joint(joint(&Fixed, "P", [spline, platform], weld, &RIGID));
+    }
 }
 
 impl Prebuilt for Tricept {
@@ -225,17 +227,10 @@ impl Prebuilt for Tricept {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("tricept", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("tricept", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let [x, y, z] = configuration.centre.into();
-        let [rx, ry, rz] = configuration.rotation.scaled_axis().into();
-        Ok([x, y, z, rx, ry, rz])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -1,10 +1,13 @@
 //! The Tripteron (3-PRRR): parameters, model and poses.
 
 use hyperstat_assembly::{Geometry, Model};
-use hyperstat_joints::{Joint, Prismatic, Revolute, frame_from_axis};
-use nalgebra::{Point3, Vector3};
+use hyperstat_joints::{Prismatic, Revolute};
+use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, JointPart, Name, NamedPoint, Parts};
+use super::construction::{
+    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+};
+use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
 use super::two_links::TwoLinks;
 use super::{
@@ -93,7 +96,9 @@ impl Tripteron {
         parameter::elements("elements", self.elements)
     }
 
-    fn configuration(&self, pose: &[f64]) -> Result<Configuration, PoseError> {
+    /// The limbs with the platform's centre at a pose.
+    #[inline]
+    fn at(&self, pose: &[f64]) -> Result<Posed<'_>, PoseError> {
         self.check()?;
         let centre = coordinates::<3>(self.kind(), pose)?;
         let limbs = per_limb(|index| {
@@ -115,79 +120,102 @@ impl Tripteron {
             let mut b = a;
             b[first] += elbow[0];
             b[second] += elbow[1];
-            Ok([a, b, c].map(Point3::from))
+            let axis = Vector3::ith(along, 1.0);
+            let link = |link: Vector3<f64>| frame(&link.normalize(), &axis);
+            Ok(Limb {
+                points: [Point3::from(a), Point3::from(b), Point3::from(c)],
+                axis,
+                rail: frame(&Vector3::ith(first, 1.0), &axis),
+                proximal: link(b - a),
+                distal: link(c - b),
+            })
         })?;
-        Ok(Configuration {
+        Ok(Posed {
+            tripteron: self,
             centre: Point3::from(centre),
             limbs,
         })
     }
+}
 
-    fn walk(&self, configuration: &Configuration, parts: &mut dyn Parts) -> Result<(), PoseError> {
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            let name = |word| Name::limb(word, index);
-            let [a, b, c] = named(index, limb);
-            parts.rigid(name("carriage"), &[a])?;
-            for (word, points, link) in [
-                ("proximal", [a, b], &self.proximal),
-                ("distal", [b, c], &self.distal),
-            ] {
-                parts.beam(&BeamPart {
-                    name: name(word),
-                    points: &points,
-                    link,
-                    y_axis: Vector3::ith(index, 1.0),
-                    elements: self.elements,
-                })?;
-            }
-        }
-        let wrist = |index: usize| named(index, &configuration.limbs[index])[2];
-        let centre = (Name::alone("P"), configuration.centre);
-        parts.rigid(PLATFORM, &[centre, wrist(0), wrist(1), wrist(2)])?;
-        for (index, limb) in configuration.limbs.iter().enumerate() {
-            let name = |word| Name::limb(word, index);
-            let axis = Vector3::ith(index, 1.0);
-            let [a, b, c] = limb;
-            let next = Vector3::ith((index + 1) % LIMBS, 1.0);
-            let [carriage, proximal, distal] = ["carriage", "proximal", "distal"].map(name);
-            let joints: [(_, &dyn Joint, _, _, _); 4] = [
-                ("D", &Prismatic, "A", [None, Some(carriage)], next),
-                ("A", &Revolute, "A", [Some(carriage), Some(proximal)], b - a),
-                ("B", &Revolute, "B", [Some(proximal), Some(distal)], b - a),
-                ("C", &Revolute, "C", [Some(distal), Some(PLATFORM)], c - b),
-            ];
-            for (word, joint, at, between, x_axis) in joints {
-                let drive = word == "D";
-                parts.joint(&JointPart {
-                    name: name(word),
-                    at: name(at),
-                    between,
-                    joint,
-                    frame: frame_from_axis(Some(&axis), Some(&x_axis))?,
-                    locked: drive,
-                    stiffness: if drive {
-                        construction::prismatic_stiffness(self.drive_stiffness)
-                    } else {
-                        self.joint_stiffness
-                    },
-                })?;
-            }
-        }
-        Ok(())
+/// A limb at a pose.
+struct Limb {
+    /// A, B and C.
+    points: [Point3<f64>; 3],
+    /// Along all joints.
+    axis: Vector3<f64>,
+    rail: Rotation3<f64>,
+    /// Frames with x along the links and y along the joints.
+    proximal: Rotation3<f64>,
+    distal: Rotation3<f64>,
+}
+
+impl Limb {
+    #[inline]
+    fn points(&self, index: usize) -> [NamedPoint; 3] {
+        let [a, b, c] = self.points;
+        [
+            (Name::limb("A", index), a),
+            (Name::limb("B", index), b),
+            (Name::limb("C", index), c),
+        ]
     }
 }
 
-const PLATFORM: Name = Name::alone("platform");
-
-/// The platform's centre, and A, B and C of every limb.
-struct Configuration {
+/// A Tripteron at a pose.
+struct Posed<'a> {
+    tripteron: &'a Tripteron,
     centre: Point3<f64>,
-    limbs: [[Point3<f64>; 3]; LIMBS],
+    limbs: [Limb; LIMBS],
 }
 
-fn named(index: usize, [a, b, c]: &[Point3<f64>; 3]) -> [NamedPoint; 3] {
-    let name = |word| Name::limb(word, index);
-    [(name("A"), *a), (name("B"), *b), (name("C"), *c)]
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        let tripteron = self.tripteron;
+        for (index, limb) in self.limbs.iter().enumerate() {
+            let [a, b, c] = limb.points(index);
+            parts.rigid(Name::limb("carriage", index), [a]);
+            let link = |word, points, link| BeamPart {
+                name: Name::limb(word, index),
+                points,
+                link,
+                y_axis: limb.axis,
+                elements: tripteron.elements,
+            };
+            parts.beam(link("proximal", [a, b], &tripteron.proximal));
+            parts.beam(link("distal", [b, c], &tripteron.distal));
+        }
+        let centre = (Name::alone("P"), self.centre);
+        let c = |index: usize| self.limbs[index].points(index)[2];
+        parts.rigid(PLATFORM, [centre, c(0), c(1), c(2)]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.joints(index, limb, parts);
+        }
+    }
+
+    fn pose(&self) -> [f64; 6] {
+        let [x, y, z] = self.centre.into();
+        [x, y, z, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Posed<'_> {
+    #[inline]
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let name = |word| Name::limb(word, index);
+        let (proximal, distal) = (Some(name("proximal")), Some(name("distal")));
+        let carriage = Some(name("carriage"));
+        let slide = JointPart::passive(&Prismatic, name("D"), [None, carriage], limb.rail, &RIGID);
+        let slide = slide.at(name("A"));
+        parts.joint(slide.driven(self.tripteron.drive_stiffness));
+        let given = &self.tripteron.joint_stiffness;
+        let joint =
+            |word, between, frame| JointPart::passive(&Revolute, name(word), between, frame, given);
+        parts.joint(joint("A", [carriage, proximal], limb.proximal));
+        parts.joint(joint("B", [proximal, distal], limb.proximal));
+        parts.joint(joint("C", [distal, Some(PLATFORM)], limb.distal));
+    }
 }
 
 impl Prebuilt for Tripteron {
@@ -200,16 +228,10 @@ impl Prebuilt for Tripteron {
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::model("tripteron", PLATFORM, |parts| {
-            self.walk(&configuration, parts)
-        })
+        construction::model("tripteron", &self.at(pose)?)
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
-        let configuration = self.configuration(pose)?;
-        construction::place(geometry, |parts| self.walk(&configuration, parts))?;
-        let [x, y, z] = configuration.centre.into();
-        Ok([x, y, z, 0.0, 0.0, 0.0])
+        construction::place(geometry, &self.at(pose)?)
     }
 }

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::PoseError;
+use super::error::shown;
 
 /// How far, relative to the links' length, a pose may miss the edge of their reach and still
 /// count as on it (both links in one line). Loops then close to this, not to rounding.
@@ -45,31 +46,28 @@ impl TwoLinks {
         let Self { limb, .. } = self;
         let (sum, difference) = (self.proximal + self.distal, self.proximal - self.distal);
         let edge = EDGE * sum;
-        let distance = reach[0].hypot(reach[1]);
+        let distance = (reach[0] * reach[0] + reach[1] * reach[1]).sqrt();
         if distance > sum + edge {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "limb {limb}: point C{limb} is too far from A{limb}: {distance:.6} m across \
-                     the joint axes, where the two links reach {sum:.6} m"
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "limb {limb}: point C{limb} is too far from A{limb}: {} m across the joint axes, \
+                 where the two links reach {} m",
+                shown(distance),
+                shown(sum),
+            )));
         }
         if distance < difference.abs() - edge {
-            return Err(PoseError::Unreachable {
-                what: format!(
-                    "limb {limb}: point C{limb} is too close to A{limb}: {distance:.6} m across \
-                     the joint axes, where the two links reach no nearer than {:.6} m",
-                    difference.abs(),
-                ),
-            });
+            return Err(PoseError::unreachable(format!(
+                "limb {limb}: point C{limb} is too close to A{limb}: {} m across the joint axes, \
+                 where the two links reach no nearer than {} m",
+                shown(distance),
+                shown(difference.abs()),
+            )));
         }
         if distance <= edge {
-            return Err(PoseError::Singular {
-                what: format!(
-                    "limb {limb}: point C{limb} lies on the axis of A{limb}, so the links may \
-                     have any angle"
-                ),
-            });
+            return Err(PoseError::singular(format!(
+                "limb {limb}: point C{limb} lies on the axis of A{limb}, so the links may have \
+                 any angle"
+            )));
         }
 
         // Foot of the elbow's height over the line from A to C, and that height by Heron's

@@ -5,6 +5,7 @@ mod error;
 mod joints;
 mod numbers;
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{Model, NodeId};
@@ -77,11 +78,15 @@ fn points(model: &Model) -> Result<Vec<(&str, String)>, WriteError> {
     let size = positions
         .iter()
         .fold(0.0_f64, |size, p| size.max(p.coords.amax()));
-    let mut known: Vec<(&str, Point3<f64>)> = Vec::new();
+    let mut written = Vec::new();
+    let mut known: HashMap<&str, Point3<f64>> = HashMap::new();
     for (node, position) in model.nodes().iter().zip(positions) {
-        match known.iter().find(|(name, _)| *name == node.point) {
-            None => known.push((&node.point, *position)),
-            Some((_, first)) if (first - position).norm() <= SAME_PLACE * size => {}
+        match known.get(&*node.point) {
+            None => {
+                known.insert(&node.point, *position);
+                written.push((&*node.point, vector(&position.coords)));
+            }
+            Some(first) if (first - position).norm() <= SAME_PLACE * size => {}
             Some(_) => {
                 return Err(WriteError::TwoPlaces {
                     point: node.point.clone(),
@@ -90,8 +95,7 @@ fn points(model: &Model) -> Result<Vec<(&str, String)>, WriteError> {
             }
         }
     }
-    let written = known.iter().map(|(name, p)| (*name, vector(&p.coords)));
-    Ok(written.collect())
+    Ok(written)
 }
 
 /// `("body", "point")` of a node.

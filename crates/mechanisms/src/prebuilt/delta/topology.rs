@@ -1,5 +1,14 @@
-//! Which bodies and joints a limb has, in the order of the model: the one table from which the
-//! model is built and by which a pose is written into its geometry.
+//! Which bodies and joints a limb has, in the order of the model.
+
+use hyperstat_joints::{Joint, Revolute, Spherical};
+use nalgebra::Point3;
+
+use super::limb::Limb;
+use super::{Delta, RodEnds};
+use crate::prebuilt::construction::{
+    BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+};
+use crate::prebuilt::limbs::LIMBS;
 
 /// A point of a limb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,11 +23,9 @@ pub(super) enum Point {
 }
 
 impl Point {
-    /// Number of points of a limb.
-    pub(super) const COUNT: usize = 7;
-
     /// Its name, without the limb's number.
-    pub(super) fn name(self) -> &'static str {
+    #[inline]
+    fn name(self) -> &'static str {
         match self {
             Self::A => "A",
             Self::B => "B",
@@ -40,17 +47,6 @@ pub(super) enum Part {
     Rod,
 }
 
-/// An elastic body of a limb.
-#[derive(Debug)]
-pub(super) struct LimbBody {
-    /// Its name, without the limb's number.
-    pub(super) name: &'static str,
-    /// The points it runs through.
-    pub(super) points: &'static [Point],
-    /// What it is made of.
-    pub(super) part: Part,
-}
-
 /// Where a joint belongs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum JointRole {
@@ -64,108 +60,104 @@ pub(super) enum JointRole {
     Wrist,
 }
 
-/// A body that a joint joins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
-    Ground,
-    /// Index in [`BODIES`].
-    Limb(usize),
-    Platform,
+/// A delta with its platform's centre at a place that it can reach.
+pub(super) struct Posed<'a> {
+    pub(super) delta: &'a Delta,
+    pub(super) centre: Point3<f64>,
+    pub(super) limbs: [Limb; LIMBS],
 }
 
-/// A joint of a limb, named after its point.
-#[derive(Debug)]
-pub(super) struct LimbJoint {
-    pub(super) point: Point,
-    pub(super) between: [Side; 2],
-    pub(super) role: JointRole,
-}
-
-/// Number of limbs.
-pub(super) const LIMBS: usize = 3;
-
-const ARM: usize = 0;
-const ELBOW: usize = 1;
-const WRIST: usize = 2;
-const ROD_A: usize = 3;
-const ROD_B: usize = 4;
-
-/// The bodies of a limb; all limbs' come first, then the platform.
-pub(super) const BODIES: [LimbBody; 5] = [
-    body("arm", &[Point::A, Point::B], Part::Arm),
-    body("elbow", &[Point::Ba, Point::B, Point::Bb], Part::Bar),
-    body("wrist", &[Point::Ca, Point::C, Point::Cb], Part::Bar),
-    body("roda", &[Point::Ba, Point::Ca], Part::Rod),
-    body("rodb", &[Point::Bb, Point::Cb], Part::Rod),
-];
-
-/// The joints of a limb.
-pub(super) const JOINTS: [LimbJoint; 7] = [
-    joint(Point::A, Side::Ground, Side::Limb(ARM), JointRole::Drive),
-    joint(
-        Point::B,
-        Side::Limb(ARM),
-        Side::Limb(ELBOW),
-        JointRole::Elbow,
-    ),
-    joint(
-        Point::Ba,
-        Side::Limb(ELBOW),
-        Side::Limb(ROD_A),
-        JointRole::RodEnd,
-    ),
-    joint(
-        Point::Ca,
-        Side::Limb(WRIST),
-        Side::Limb(ROD_A),
-        JointRole::RodEnd,
-    ),
-    joint(
-        Point::Bb,
-        Side::Limb(ELBOW),
-        Side::Limb(ROD_B),
-        JointRole::RodEnd,
-    ),
-    joint(
-        Point::Cb,
-        Side::Limb(WRIST),
-        Side::Limb(ROD_B),
-        JointRole::RodEnd,
-    ),
-    joint(
-        Point::C,
-        Side::Limb(WRIST),
-        Side::Platform,
-        JointRole::Wrist,
-    ),
-];
-
-/// Nodes of the platform: P and every limb's C.
-const PLATFORM_NODES: usize = 1 + LIMBS;
-
-/// Numbers of nodes, segments and joints of the whole mechanism.
-pub(super) const COUNTS: [usize; 3] = {
-    let (mut nodes, mut segments, mut k) = (0, 0, 0);
-    while k < BODIES.len() {
-        nodes += BODIES[k].points.len();
-        segments += BODIES[k].points.len() - 1;
-        k += 1;
+impl Configuration for Posed<'_> {
+    #[inline]
+    fn walk(&self, parts: &mut impl Parts) {
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.bodies(index, limb, parts);
+        }
+        let wrist = |index: usize| named(Point::C, index, &self.limbs[index]);
+        let centre = (Name::alone("P"), self.centre);
+        parts.rigid(PLATFORM, [centre, wrist(0), wrist(1), wrist(2)]);
+        for (index, limb) in self.limbs.iter().enumerate() {
+            self.joints(index, limb, parts);
+        }
     }
-    [
-        LIMBS * nodes + PLATFORM_NODES,
-        LIMBS * segments,
-        LIMBS * JOINTS.len(),
-    ]
-};
 
-const fn body(name: &'static str, points: &'static [Point], part: Part) -> LimbBody {
-    LimbBody { name, points, part }
+    fn pose(&self) -> [f64; 6] {
+        let [x, y, z] = self.centre.into();
+        [x, y, z, 0.0, 0.0, 0.0]
+    }
 }
 
-const fn joint(point: Point, first: Side, second: Side, role: JointRole) -> LimbJoint {
-    LimbJoint {
-        point,
-        between: [first, second],
-        role,
+impl Posed<'_> {
+    #[inline]
+    fn bodies(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let point = |point| named(point, index, limb);
+        let [a, b, c] = [point(Point::A), point(Point::B), point(Point::C)];
+        let [ba, bb] = [point(Point::Ba), point(Point::Bb)];
+        let [ca, cb] = [point(Point::Ca), point(Point::Cb)];
+        parts.beam(self.beam("arm", [a, b], Part::Arm, index, limb));
+        parts.beam(self.beam("elbow", [ba, b, bb], Part::Bar, index, limb));
+        parts.beam(self.beam("wrist", [ca, c, cb], Part::Bar, index, limb));
+        parts.beam(self.beam("roda", [ba, ca], Part::Rod, index, limb));
+        parts.beam(self.beam("rodb", [bb, cb], Part::Rod, index, limb));
     }
+
+    #[inline]
+    fn beam<const N: usize>(
+        &self,
+        word: &'static str,
+        points: [NamedPoint; N],
+        part: Part,
+        index: usize,
+        limb: &Limb,
+    ) -> BeamPart<'_, N> {
+        BeamPart {
+            name: Name::limb(word, index),
+            points,
+            link: match part {
+                Part::Arm => &self.delta.arm,
+                Part::Bar => &self.delta.bar,
+                Part::Rod => &self.delta.rod,
+            },
+            y_axis: limb.y_axis(part),
+            elements: self.delta.elements,
+        }
+    }
+
+    #[inline]
+    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+        let body = |word| Some(Name::limb(word, index));
+        let (arm, elbow, wrist) = (body("arm"), body("elbow"), body("wrist"));
+        let (roda, rodb) = (body("roda"), body("rodb"));
+        let joint = |point, between, role| self.joint(point, between, role, index, limb);
+        let drive = joint(Point::A, [None, arm], JointRole::Drive);
+        parts.joint(drive.driven(self.delta.drive_stiffness));
+        parts.joint(joint(Point::B, [arm, elbow], JointRole::Elbow));
+        parts.joint(joint(Point::Ba, [elbow, roda], JointRole::RodEnd));
+        parts.joint(joint(Point::Ca, [wrist, roda], JointRole::RodEnd));
+        parts.joint(joint(Point::Bb, [elbow, rodb], JointRole::RodEnd));
+        parts.joint(joint(Point::Cb, [wrist, rodb], JointRole::RodEnd));
+        parts.joint(joint(Point::C, [wrist, Some(PLATFORM)], JointRole::Wrist));
+    }
+
+    #[inline]
+    fn joint(
+        &self,
+        point: Point,
+        between: [Option<Name>; 2],
+        role: JointRole,
+        index: usize,
+        limb: &Limb,
+    ) -> JointPart<'_> {
+        let (joint, stiffness): (&'static dyn Joint, _) = match (role, self.delta.rod_ends) {
+            (JointRole::RodEnd, RodEnds::Spherical) => (&Spherical, &RIGID),
+            _ => (&Revolute, &self.delta.joint_stiffness),
+        };
+        let name = Name::limb(point.name(), index);
+        JointPart::passive(joint, name, between, limb.frame(role), stiffness)
+    }
+}
+
+#[inline]
+fn named(point: Point, index: usize, limb: &Limb) -> NamedPoint {
+    (Name::limb(point.name(), index), limb.point(point))
 }

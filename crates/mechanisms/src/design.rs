@@ -1,0 +1,243 @@
+//! One design of a job: its mechanism with one choice of the varied values.
+
+use std::fmt;
+use std::sync::Arc;
+
+use hyperstat_assembly::{Geometry, Model};
+
+use crate::error::LoadError;
+use crate::fragment::Fragment;
+use crate::mechanism::Mechanism;
+use crate::overlay::{Known, Overlay};
+use crate::poses::Poses;
+use crate::prebuilt::PoseError;
+use crate::source::Place;
+use crate::subject::{Checked, Recipe, Subject};
+use crate::vary::Variation;
+
+/// One design of a job, in all of the job's poses; made by [`Job::design`](crate::Job::design).
+#[derive(Debug, Clone)]
+pub struct Design {
+    pub(crate) number: usize,
+    pub(crate) values: Vec<Value>,
+    pub(crate) subject: Arc<Subject>,
+    pub(crate) poses: Arc<Poses>,
+}
+
+/// What varies from design to design of a job.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Varied {
+    /// Its path in the mechanism as it is written, such as `rod.section.diameter`.
+    pub path: String,
+    /// Whether all of its values are numbers.
+    pub numeric: bool,
+}
+
+/// A varied value of a design.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A finite number, in the unit of what varies.
+    Number(f64),
+    /// Anything else: the content of a text in quotes, or the RON as it is written.
+    Text(String),
+}
+
+impl Value {
+    /// The value that stands at a place.
+    pub(crate) fn at(place: &Place) -> Self {
+        let value = Fragment::at(place);
+        match (value.number(), value.string()) {
+            (Ok(number), _) => Self::Number(number),
+            (_, Ok(text)) => Self::Text(text),
+            _ => Self::Text(value.text().into()),
+        }
+    }
+}
+
+/// The shortest form of a number that reads back to the same double; a text as it is.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number:?}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Design {
+    /// Its number in the job, from 0.
+    pub fn number(&self) -> usize {
+        self.number
+    }
+
+    /// The varied values, in the order of [`Job::varied`](crate::Job::varied).
+    pub fn values(&self) -> &[Value] {
+        &self.values
+    }
+
+    /// Number of poses, at least 1; the same in every design.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// The model with the job's loads, in pose 0 or, where that cannot be reached, in another pose
+    /// that can, which need not be one of the job's.
+    ///
+    /// # Errors
+    /// Why pose 0 cannot be reached, where no other pose was found.
+    pub fn model(&self) -> Result<Model, PoseError> {
+        self.subject.model()
+    }
+
+    /// Brings `geometry`, which belongs to a model of [`Design::model`], to `pose` (from 0);
+    /// returns the output's whole pose x y z \[m\] and rotation vector rx ry rz \[rad\] from its
+    /// home orientation.
+    ///
+    /// # Errors
+    /// The pose cannot be reached; `geometry` is then as it was.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Design::len`].
+    pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        self.subject.place(&self.poses, pose, geometry)
+    }
+
+    /// The numbers given for a pose (from 0), x y z \[m\] and rotation vector \[rad\]; zero where
+    /// none is given.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Design::len`].
+    pub fn target(&self, pose: usize) -> [f64; 6] {
+        self.poses.get(pose)
+    }
+
+    /// The mechanism, where it comes from a file; its loads are the job's.
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        self.subject.mechanism()
+    }
+}
+
+/// The designs of a job, of which each is made when it is asked for.
+#[derive(Debug)]
+pub(crate) struct Designs {
+    variation: Variation,
+    varied: Vec<Varied>,
+    /// The mechanism's text, taken apart.
+    known: Known,
+}
+
+/// Designs that are checked before a job runs: all, if they are no more, else so many values of
+/// every path, each with the first values of the others.
+const CHECKED: usize = 10_000;
+
+impl Designs {
+    /// Checks the designs; `known` is what was learnt from reading the mechanism as it is written.
+    pub(crate) fn check(
+        variation: Variation,
+        known: Known,
+        recipe: &Recipe,
+    ) -> Result<Self, LoadError> {
+        let varied = variation.varied();
+        let designs = Self {
+            variation,
+            varied,
+            known,
+        };
+        for number in designs.variation.samples(CHECKED) {
+            designs.read(number, recipe)?;
+        }
+        Ok(designs)
+    }
+
+    /// Number of designs.
+    pub(crate) fn len(&self) -> usize {
+        self.variation.len()
+    }
+
+    /// What varies, in the order of the file.
+    pub(crate) fn varied(&self) -> &[Varied] {
+        &self.varied
+    }
+
+    /// The varied values of a design.
+    pub(crate) fn values(&self, number: usize) -> Vec<Value> {
+        let places = self.variation.design(number);
+        places.iter().map(Value::at).collect()
+    }
+
+    /// Makes a design of a job with these poses; `similar` is another one.
+    pub(crate) fn load(
+        &self,
+        number: usize,
+        recipe: &Recipe,
+        poses: &Poses,
+        similar: &Subject,
+    ) -> Result<Subject, LoadError> {
+        let checked = self.read(number, recipe)?;
+        let subject = recipe.load(checked, poses, Some(similar));
+        subject.map_err(|error| self.refused(number, recipe, error))
+    }
+
+    fn read(&self, number: usize, recipe: &Recipe) -> Result<Checked, LoadError> {
+        let values = self.variation.design(number);
+        let checked = self.read_with(&values, |_| true, recipe);
+        checked.map_err(|error| self.refused(number, recipe, error))
+    }
+
+    /// Reads the mechanism with those of the varied values, by their number, that are `taken`.
+    fn read_with(
+        &self,
+        values: &[Place],
+        taken: impl Fn(usize) -> bool,
+        recipe: &Recipe,
+    ) -> Result<Checked, LoadError> {
+        let spans = self.variation.spans().zip(values).enumerate();
+        let spans = spans.filter(|(k, _)| taken(*k));
+        let replaced = spans.map(|(_, (span, value))| (span, Fragment::at(value)));
+        let overlay = Overlay::new(replaced.collect(), &self.known);
+        recipe.read(recipe.root().under(&overlay))
+    }
+
+    /// The loader's error about a design, at the value that is to blame: the one at which it
+    /// stands; else one that is wrong among the values as they are written; else all of them.
+    fn refused(&self, number: usize, recipe: &Recipe, error: LoadError) -> LoadError {
+        let LoadError::At {
+            location,
+            message,
+            help,
+        } = error
+        else {
+            return error;
+        };
+        if self.variation.holds(&location) {
+            let message = format!("design {number}: {message}");
+            return LoadError::At {
+                location,
+                message,
+                help,
+            };
+        }
+        let values = self.variation.design(number);
+        let alone = |k: &usize| {
+            self.read_with(&values, |other| other == *k, recipe)
+                .is_err()
+        };
+        let blamed = (0..values.len()).find(alone);
+        let place = blamed.map_or(&self.variation.place, |k| &values[k]);
+        let values = values.iter().zip(&self.varied).enumerate();
+        let values = values.filter(|(k, _)| blamed.is_none_or(|blamed| blamed == *k));
+        let words =
+            values.map(|(_, (value, varied))| format!("`{}` = {}", varied.path, Value::at(value)));
+        let words: Vec<String> = words.collect();
+        LoadError::At {
+            message: format!(
+                "design {number}, {}: {message} ({location})",
+                words.join(", ")
+            ),
+            location: Box::new(place.location()),
+            help,
+        }
+    }
+}
