@@ -40,7 +40,7 @@ pub(crate) enum Command {
     /// Solve one mechanism and print everything found
     #[command(after_help = SOLVE_HELP)]
     Solve(Solve),
-    /// Run every job of a batch file: one CSV file a job, and its figures
+    /// Run every job of a batch file: one table a job, CSV or Parquet, and its figures
     #[command(after_help = RUN_HELP)]
     Run(Run),
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
@@ -63,6 +63,7 @@ Examples:
   hyperstat solve portal.ron
   hyperstat solve portal.ron --format json > portal.json
   hyperstat solve portal.ron --verify
+  hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -73,7 +74,7 @@ A mechanism file, a round bar held at one end:
 
 const RUN_HELP: &str = concat!(
     "\
-Writes DIR/<job>.csv, one line a pose in the order of the poses, with the columns
+Writes DIR/<job>.csv, one row a pose in the order of the poses, with the columns
   pose,x,y,z,rx,ry,rz,status,dx,dy,dz,drx,dry,drz,k11,k12,...,k16,k22,...,k66
 (pose of the output, its displacement, upper triangle of its stiffness), and the job's figures as
 DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no result:
@@ -82,11 +83,17 @@ DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no resul
   unrestrained   something moves freely there, or a load works on a free motion
   rigid          the output is rigidly held in some direction: it has no finite stiffness
   failed         the numbers could not be found
+A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
+one for every path that varies, with its value.
 A pose without a result does not end the run; the exit status is then 1.
 A file is put in place when it is complete, never half written.
 
-Example:
+With --format parquet the table is DIR/<job>.parquet: the same columns and the same numbers, null
+where a pose has no result.
+
+Examples:
   hyperstat run paper.ron --out results
+  hyperstat run map.ron --out results --format parquet --threads 4
 
 A batch file, for the mechanism file of `hyperstat solve --help`:
 
@@ -120,6 +127,9 @@ pub(crate) struct Solve {
     /// Take an output that moves freely as a result (semidefinite stiffness), not as an error
     #[arg(long)]
     pub(crate) allow_free: bool,
+    /// Report the displacements of the nodes between a segment's elements too, as `body.A-B.k`
+    #[arg(long)]
+    pub(crate) all_nodes: bool,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -134,6 +144,12 @@ pub(crate) struct Run {
     /// Folder for the results; made where it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
+    /// Form of the tables
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: TableFormat,
+    /// Number of threads that solve; 0 is one a core. The results are the same with any number
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) threads: usize,
 }
 
 /// `hyperstat check`
@@ -165,6 +181,9 @@ pub(crate) struct Input {
     /// Job of a batch file; may be left out where there is only one
     #[arg(long, value_name = "NAME")]
     pub(crate) job: Option<String>,
+    /// Design of a job that varies, counted from 0 [default: 0]
+    #[arg(long, value_name = "N")]
+    pub(crate) design: Option<usize>,
     /// Pose of the job, counted from 0 [default: 0]
     #[arg(long, value_name = "N")]
     pub(crate) pose: Option<usize>,
@@ -178,6 +197,26 @@ pub(crate) enum Format {
     Text,
     /// JSON, numbers that read back to the same double
     Json,
+}
+
+/// Form of a job's table.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TableFormat {
+    /// Comma-separated values, numbers that read back to the same double
+    #[default]
+    Csv,
+    /// Apache Parquet: binary columns, smaller and faster
+    Parquet,
+}
+
+impl TableFormat {
+    /// The extension of its files.
+    pub(crate) fn extension(self) -> &'static str {
+        match self {
+            Self::Csv => "csv",
+            Self::Parquet => "parquet",
+        }
+    }
 }
 
 #[cfg(test)]

@@ -40,16 +40,8 @@ impl AtomicFile {
     /// Writes a whole file.
     pub(crate) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
         let mut file = Self::create(path)?;
-        file.append(content)?;
+        file.write_all(content)?;
         file.commit()
-    }
-
-    /// Appends `content`.
-    pub(crate) fn append(&mut self, content: &[u8]) -> io::Result<()> {
-        match &mut self.writer {
-            Some(writer) => writer.write_all(content),
-            None => Ok(()),
-        }
     }
 
     /// Puts the complete file in place of what had its name before.
@@ -62,6 +54,19 @@ impl AtomicFile {
         fs::rename(&self.temporary, &self.path)?;
         self.writer = None;
         Ok(())
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, content: &[u8]) -> io::Result<usize> {
+        match &mut self.writer {
+            Some(writer) => writer.write(content),
+            None => Ok(content.len()),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.as_mut().map_or(Ok(()), Write::flush)
     }
 }
 

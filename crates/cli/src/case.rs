@@ -2,11 +2,12 @@
 
 use hyperstat_assembly::{BodyId, Model, Motion, Solution, SolveError};
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Input, Job, Location, Mechanism, Registry};
+use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
 
 use crate::args;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
+use crate::report::{Entries, inner_displacements};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -19,7 +20,11 @@ pub(crate) struct Case {
 #[derive(Debug)]
 enum Origin {
     Mechanism(Box<Mechanism>),
-    Job { job: Box<Job>, pose: usize },
+    Job {
+        job: Box<Job>,
+        design: Design,
+        pose: usize,
+    },
 }
 
 impl Case {
@@ -29,6 +34,7 @@ impl Case {
             Input::Mechanism(mechanism) => {
                 for (option, given) in [
                     ("--job", input.job.is_some()),
+                    ("--design", input.design.is_some()),
                     ("--pose", input.pose.is_some()),
                 ] {
                     if given {
@@ -43,12 +49,20 @@ impl Case {
             }
             Input::Batch(batch) => {
                 let job = choose(batch.jobs, input)?;
-                Self::of_job(job, input.pose.unwrap_or(0))
+                Self::of_job(job, input.design.unwrap_or(0), input.pose.unwrap_or(0))
             }
         }
     }
 
-    fn of_job(job: Job, pose: usize) -> Result<Self, CliError> {
+    fn of_job(job: Job, design: usize, pose: usize) -> Result<Self, CliError> {
+        if design >= job.designs() {
+            return Err(CliError::NoSuchDesign {
+                location: Box::new(job.location()),
+                count: job.designs(),
+                job: job.name,
+                design,
+            });
+        }
         if pose >= job.len() {
             return Err(CliError::NoSuchPose {
                 location: Box::new(job.location()),
@@ -57,11 +71,13 @@ impl Case {
                 pose,
             });
         }
-        match job_model(&job, pose) {
+        let design = job.design(design)?;
+        match design_model(&design, pose) {
             Ok(model) => Ok(Self {
                 model,
                 origin: Origin::Job {
                     job: Box::new(job),
+                    design,
                     pose,
                 },
             }),
@@ -69,7 +85,7 @@ impl Case {
                 location: Box::new(job.location()),
                 job: job.name,
                 pose,
-                source,
+                source: Box::new(source),
             }),
         }
     }
@@ -78,13 +94,30 @@ impl Case {
     pub(crate) fn job(&self) -> Option<(&str, usize)> {
         match &self.origin {
             Origin::Mechanism(_) => None,
-            Origin::Job { job, pose } => Some((&job.name, *pose)),
+            Origin::Job { job, pose, .. } => Some((&job.name, *pose)),
+        }
+    }
+
+    /// Number of the design that it is, of a job that varies.
+    pub(crate) fn design(&self) -> Option<usize> {
+        match &self.origin {
+            Origin::Job { job, design, .. } if !job.varied().is_empty() => Some(design.number()),
+            _ => None,
         }
     }
 
     /// Solves the mechanism. What is unrestrained is named, with its place in the file.
     pub(crate) fn solve(&self) -> Result<Solution, CliError> {
         hyperstat_assembly::solve(&self.model)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// Displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
+    pub(crate) fn inner_displacements(
+        &self,
+        solution: &Solution,
+    ) -> Result<Entries<[f64; 6]>, CliError> {
+        inner_displacements(&self.model, solution)
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
@@ -138,16 +171,25 @@ impl Case {
     fn source(&self) -> Source<'_> {
         match &self.origin {
             Origin::Mechanism(mechanism) => Source::Mechanism(mechanism),
-            Origin::Job { job, .. } => Source::Job(job),
+            Origin::Job { job, design, .. } => Source::Design(job, design),
         }
     }
 }
 
-/// The model of a job at one of its poses.
-pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, hyperstat_mechanisms::PoseError> {
+/// The model of a job's first design at one of its poses.
+pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, PoseError> {
     let mut model = job.model()?;
     let mut geometry = model.geometry().clone();
     job.place(pose, &mut geometry)?;
+    model.set_geometry(geometry);
+    Ok(model)
+}
+
+/// The model of a design at one of its poses.
+fn design_model(design: &Design, pose: usize) -> Result<Model, PoseError> {
+    let mut model = design.model()?;
+    let mut geometry = model.geometry().clone();
+    design.place(pose, &mut geometry)?;
     model.set_geometry(geometry);
     Ok(model)
 }
@@ -183,6 +225,8 @@ pub(crate) enum Source<'a> {
     Mechanism(&'a Mechanism),
     /// In a job's mechanism file, where it has one, else in the job itself.
     Job(&'a Job),
+    /// The same of one design.
+    Design(&'a Job, &'a Design),
 }
 
 impl Source<'_> {
@@ -226,6 +270,10 @@ impl Source<'_> {
         match self {
             Self::Mechanism(mechanism) => locate(mechanism),
             Self::Job(job) => job.mechanism().map_or_else(|| job.location(), locate),
+            Self::Design(job, design) => {
+                let mechanism = design.mechanism();
+                mechanism.map_or_else(|| job.location(), locate)
+            }
         }
     }
 }

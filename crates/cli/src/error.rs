@@ -7,6 +7,7 @@ use hyperstat_assembly::SolveError;
 use hyperstat_figures::FigureError;
 use hyperstat_mechanisms::{LoadError, Location, PoseError, WriteError};
 use hyperstat_reference::ReferenceError;
+use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
 use crate::drives::MissingDrives;
@@ -40,13 +41,21 @@ pub(crate) enum CliError {
         pose: usize,
         count: usize,
     },
+    /// A design that a job does not have.
+    #[error("job `{job}` has no design {design}: it has {count}, counted from 0")]
+    NoSuchDesign {
+        location: Box<Location>,
+        job: String,
+        design: usize,
+        count: usize,
+    },
     /// A pose that the mechanism cannot take.
     #[error("job `{job}`, pose {pose}: {source}")]
     Pose {
         location: Box<Location>,
         job: String,
         pose: usize,
-        source: PoseError,
+        source: Box<PoseError>,
     },
     /// A mechanism that has no solution.
     #[error("{source}")]
@@ -74,6 +83,9 @@ pub(crate) enum CliError {
         location: Box<Location>,
         source: WriteError,
     },
+    /// Threads that cannot be had.
+    #[error("the threads cannot be started: {0}")]
+    Threads(#[from] ThreadPoolBuildError),
     /// A result that could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write { path: PathBuf, source: io::Error },
@@ -99,6 +111,7 @@ impl CliError {
         match self {
             Self::Load(error) => error.location(),
             Self::NoSuchPose { location, .. }
+            | Self::NoSuchDesign { location, .. }
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
@@ -119,6 +132,10 @@ impl CliError {
             Self::NoSuchPose { count, .. } => {
                 Some(format!("choose `--pose` from 0 to {}", count - 1))
             }
+            Self::NoSuchDesign { count: 1, .. } => Some("leave `--design` out".into()),
+            Self::NoSuchDesign { count, .. } => {
+                Some(format!("choose `--design` from 0 to {}", count - 1))
+            }
             Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
             Self::Unsolvable {
                 source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
@@ -138,6 +155,7 @@ impl CliError {
                 drives.help()
             )),
             Self::Unverified(_) => Some("leave `--verify` out".into()),
+            Self::Threads(_) => Some("give a smaller number of `--threads`".into()),
             _ => None,
         }
     }

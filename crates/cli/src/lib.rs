@@ -73,7 +73,10 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     } else {
         None
     };
-    let report = SolveReport::new(&case, &solution, verification);
+    let mut report = SolveReport::new(&case, &solution, verification);
+    if args.all_nodes {
+        report.add_displacements(case.inner_displacements(&solution)?);
+    }
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

@@ -1,22 +1,23 @@
 //! `hyperstat run`: every job of a batch, to CSV files and figures.
 
 mod figures;
-mod row;
+mod record;
 mod summary;
 mod sweep;
+mod table;
 
 use std::fs;
-use std::path::Path;
 
 use hyperstat_mechanisms::{Batch, Registry};
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
-use crate::atomic::AtomicFile;
 use crate::case::Source;
 use crate::error::CliError;
 use summary::Summary;
 use sweep::Sweep;
+use table::Table;
 
 /// Runs a batch. `tell` gets the summary of every job.
 ///
@@ -32,11 +33,13 @@ pub(crate) fn run(
         path: args.out.clone(),
         source,
     })?;
-    let bar = progress_bar(batch.jobs.iter().map(|job| job.len() as u64).sum());
+    let pool = ThreadPoolBuilder::new().num_threads(args.threads).build()?;
+    let rows = sweeps.iter().map(|sweep| sweep.len() as u64);
+    let bar = progress_bar(rows.fold(0, u64::saturating_add));
     let mut complete = true;
     for sweep in &sweeps {
         bar.set_message(sweep.job().name.clone());
-        let summary = run_job(sweep, &args.out, &bar)?;
+        let summary = run_job(sweep, args, &pool, &bar)?;
         complete &= summary.is_complete();
         bar.suspend(|| tell(&summary.to_string()))?;
     }
@@ -55,31 +58,43 @@ fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
     batch.jobs.iter().map(prepare).collect()
 }
 
-fn run_job(sweep: &Sweep<'_>, folder: &Path, bar: &ProgressBar) -> Result<Summary, CliError> {
+/// Writes a job's table and its figures.
+fn run_job(
+    sweep: &Sweep<'_>,
+    args: &args::Run,
+    pool: &ThreadPool,
+    bar: &ProgressBar,
+) -> Result<Summary, CliError> {
     let job = sweep.job();
-    let path = folder.join(format!("{}.csv", job.name));
+    let path = args
+        .out
+        .join(format!("{}.{}", job.name, args.format.extension()));
     let cannot_write = |source| CliError::Write {
         path: path.clone(),
         source,
     };
-    let mut file = AtomicFile::create(&path).map_err(cannot_write)?;
-    file.append(row::header().as_bytes())
-        .map_err(cannot_write)?;
+    let mut table = Table::create(&path, args.format, job.varied()).map_err(cannot_write)?;
     let mut summary = Summary::new(job);
     let mut trajectory = figures::Trajectory::wanted_by(job);
-    sweep.run(|records, text| -> Result<(), CliError> {
-        file.append(text.as_bytes()).map_err(cannot_write)?;
-        summary.add(records);
-        if let Some(trajectory) = &mut trajectory {
-            trajectory.add(records);
+    let render = |chunk: &mut _| Table::render(args.format, chunk);
+    sweep.run(pool, render, |chunk| -> Result<(), CliError> {
+        if let Some(refused) = chunk.refused.take() {
+            return Err(refused.into());
         }
-        bar.inc(records.len() as u64);
+        table.append(chunk).map_err(cannot_write)?;
+        summary.add(&chunk.records);
+        if let Some(trajectory) = &mut trajectory {
+            // Figures are of the first design.
+            let more = job.len().saturating_sub(chunk.rows.start);
+            trajectory.add(&chunk.records[..more.min(chunk.records.len())]);
+        }
+        bar.inc(chunk.records.len() as u64);
         Ok(())
     })?;
-    file.commit().map_err(cannot_write)?;
+    table.commit().map_err(cannot_write)?;
     summary.wrote(path.clone());
     bar.set_message(format!("{}: figures", job.name));
-    figures::draw(job, trajectory.as_ref(), folder, &mut summary)?;
+    pool.install(|| figures::draw(job, trajectory.as_ref(), &args.out, &mut summary))?;
     Ok(summary)
 }
 
@@ -97,7 +112,48 @@ const TEMPLATE: &str = "{msg} {wide_bar} {human_pos}/{human_len} poses, {eta} le
 
 #[cfg(test)]
 mod tests {
-    use indicatif::ProgressStyle;
+    use std::path::Path;
+
+    use hyperstat_mechanisms::{Registry, batch_from_str};
+    use indicatif::{ProgressBar, ProgressStyle};
+    use rayon::ThreadPoolBuilder;
+
+    use super::{prepare, run_job};
+    use crate::args::{Run, TableFormat};
+
+    const BATCH: &str = r#"(jobs: [(
+        name: "line",
+        mechanism: Delta(
+            base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60,
+            rod_spacing: 0.12,
+            arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
+            bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3)),
+            rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3)),
+        ),
+        poses: Grid(x: (-1.0, 1.0, 2100), y: (0.0, 0.0, 1), z: (0.45, 0.45, 1)),
+    )])"#;
+
+    #[test]
+    fn the_bar_ends_at_the_number_of_poses() {
+        let batch = batch_from_str(BATCH, Path::new("."), &Registry::builtin()).unwrap();
+        let sweeps = prepare(&batch).unwrap();
+        let out = std::env::temp_dir().join(format!("hyperstat-bar-{}", std::process::id()));
+        std::fs::create_dir_all(&out).unwrap();
+        let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+        let bar = ProgressBar::hidden();
+        bar.set_length(sweeps[0].len() as u64);
+        let args = Run {
+            file: "line.ron".into(),
+            out: out.clone(),
+            format: TableFormat::Parquet,
+            threads: 3,
+        };
+        let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
+        assert!(!summary.is_complete());
+        assert_eq!(bar.position(), 2100);
+        assert_eq!(bar.length(), Some(2100));
+        std::fs::remove_dir_all(out).unwrap();
+    }
 
     #[test]
     fn the_template_of_the_bar_can_be_read() {

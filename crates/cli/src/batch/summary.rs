@@ -6,13 +6,18 @@ use std::path::PathBuf;
 use hyperstat_mechanisms::Job;
 use nalgebra::Matrix6;
 
-use super::row::Record;
+use super::record::Record;
 use crate::report::{rows, stiffness_table};
 
 /// The outcome of a job.
 #[derive(Debug)]
 pub(crate) struct Summary {
     job: String,
+    /// Number of designs of a job that varies.
+    designs: Option<usize>,
+    /// Poses of a design.
+    of_design: usize,
+    /// Poses of all designs.
     poses: usize,
     failures: Vec<Failures>,
     /// Of the last pose that has one; told where it is the only pose.
@@ -37,6 +42,8 @@ impl Summary {
     pub(crate) fn new(job: &Job) -> Self {
         Self {
             job: job.name.clone(),
+            designs: (!job.varied().is_empty()).then(|| job.designs()),
+            of_design: job.len(),
             poses: 0,
             failures: Vec::new(),
             stiffness: None,
@@ -93,10 +100,14 @@ impl Summary {
 
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let poses = match self.poses {
-            1 => "1 pose".to_string(),
-            count => format!("{count} poses"),
+        let count = |count: usize, what: &str| match count {
+            1 => format!("1 {what}"),
+            count => format!("{count} {what}s"),
         };
+        let mut poses = count(self.poses, "pose");
+        if let Some(designs) = self.designs {
+            poses = format!("{}, {poses}", count(designs, "design"));
+        }
         let failed: usize = self.failures.iter().map(|failures| failures.count).sum();
         match failed {
             0 => writeln!(f, "{}: {poses}, all solved", self.job)?,
@@ -109,9 +120,14 @@ impl fmt::Display for Summary {
             why,
         } in &self.failures
         {
+            let (design, pose) = (first_pose / self.of_design, first_pose % self.of_design);
+            let design = match self.designs {
+                Some(_) => format!("design {design}, "),
+                None => String::new(),
+            };
             writeln!(
                 f,
-                "  {count} {status}, the first of them pose {first_pose}: {why}"
+                "  {count} {status}, the first of them {design}pose {pose}: {why}"
             )?;
         }
         for path in &self.files {

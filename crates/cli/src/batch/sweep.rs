@@ -1,38 +1,78 @@
 //! A job's poses, solved on all threads, with their results handed out in order.
 
+use std::collections::VecDeque;
 use std::ops::Range;
+use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
 
-use hyperstat_assembly::{Geometry, Model, Plan, SolveError, Workspace};
-use hyperstat_mechanisms::{Job, PoseError};
-use rayon::prelude::*;
+use hyperstat_assembly::{LANES, Lanes, Model, Plan, SolveError};
+use hyperstat_mechanisms::{Design, Job, LoadError, Value};
+use rayon::{Scope, ThreadPool};
 
-use super::row::{self, Failure, Found, Record};
+use super::record::{Failure, Found, Record};
 
-/// Most poses that a thread solves before results are handed out.
-const PART: usize = 256;
+/// Rows that a thread solves at a time.
+const CHUNK: usize = 32 * LANES;
 
 /// A job whose topology is worked out.
 #[derive(Debug)]
 pub(crate) struct Sweep<'a> {
     job: &'a Job,
-    /// The model in some configuration and its plan; an error where no pose can be reached.
-    ready: Result<(Model, Plan), PoseError>,
+    /// The first design.
+    first: Result<Arc<Planned>, Failure>,
 }
 
-/// One thread's solver, and what it found in its part of a block.
-struct Worker<'a> {
-    /// An error where no pose can be reached.
-    solver: Result<Solver<'a>, PoseError>,
-    records: Vec<Record>,
-    text: String,
+/// A model in some configuration and its plan.
+#[derive(Debug)]
+struct Planned {
+    model: Model,
+    plan: Plan,
 }
 
-/// The sweep's model and plan with one thread's own buffers.
-struct Solver<'a> {
-    model: &'a Model,
-    plan: &'a Plan,
-    geometry: Geometry,
-    workspace: Workspace,
+/// Neighbouring rows of a job's table. Used again and again, so that nothing is allocated for it.
+#[derive(Debug, Default)]
+pub(crate) struct Chunk {
+    /// The rows, counted from 0 over the whole table.
+    pub(crate) rows: Range<usize>,
+    /// A record for each of them.
+    pub(crate) records: Vec<Record>,
+    /// Their lines, where the table is one of text.
+    pub(crate) text: String,
+    /// Rows of a design.
+    pub(crate) poses: usize,
+    /// Of a job that varies the designs, by number, that the rows are of, and their values.
+    pub(crate) designs: Vec<(usize, Vec<Value>)>,
+    /// Why a design cannot be made; the records end before it.
+    pub(crate) refused: Option<LoadError>,
+}
+
+/// A row of a job's table.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row<'c> {
+    /// Number of the pose in its design.
+    pub(crate) pose: usize,
+    pub(crate) record: &'c Record,
+    /// Number of the design and its values, in a job that varies.
+    pub(crate) design: Option<(usize, &'c [Value])>,
+}
+
+impl Chunk {
+    /// The rows in order.
+    pub(crate) fn table_rows(&self) -> impl Iterator<Item = Row<'_>> {
+        let first = self.rows.start.checked_div(self.poses).unwrap_or(0);
+        self.rows
+            .clone()
+            .zip(&self.records)
+            .map(move |(row, record)| {
+                let design = row.checked_div(self.poses).unwrap_or(0);
+                let of_design = self.designs.get(design - first);
+                Row {
+                    pose: row - design * self.poses,
+                    record,
+                    design: of_design.map(|(number, values)| (*number, values.as_slice())),
+                }
+            })
+    }
 }
 
 impl<'a> Sweep<'a> {
@@ -41,14 +81,14 @@ impl<'a> Sweep<'a> {
     /// # Errors
     /// The model, and why no pose of it can be solved.
     pub(crate) fn new(job: &'a Job) -> Result<Self, Box<(Model, SolveError)>> {
-        let ready = match job.model() {
-            Err(error) => Err(error),
+        let first = match job.model() {
+            Err(error) => Err(error.into()),
             Ok(model) => match Plan::new(&model) {
                 Err(error) => return Err(Box::new((model, error))),
-                Ok(plan) => Ok((model, plan)),
+                Ok(plan) => Ok(Arc::new(Planned { model, plan })),
             },
         };
-        Ok(Self { job, ready })
+        Ok(Self { job, first })
     }
 
     /// The job.
@@ -56,70 +96,164 @@ impl<'a> Sweep<'a> {
         self.job
     }
 
-    /// Solves all poses. `take` gets, in the order of the poses, a few poses' records and their
-    /// lines of CSV at a time; memory does not grow with the number of poses.
+    /// Number of rows of the job's table: a row a pose, design by design.
+    pub(crate) fn len(&self) -> usize {
+        self.job.designs() * self.job.len()
+    }
+
+    /// Solves all rows on the threads of `pool`, which also `render` each chunk; `take` gets the
+    /// chunks on the calling thread, in the order of the rows, while the next are computed. The
+    /// number of chunks under way is bounded: memory does not grow with the number of rows.
     ///
     /// # Errors
     /// The first error of `take`, which ends the sweep.
     pub(crate) fn run<E>(
         &self,
-        mut take: impl FnMut(&[Record], &str) -> Result<(), E>,
+        pool: &ThreadPool,
+        render: impl Fn(&mut Chunk) + Sync,
+        mut take: impl FnMut(&mut Chunk) -> Result<(), E>,
     ) -> Result<(), E> {
-        let count = self.job.len();
-        let threads = rayon::current_num_threads();
-        let part = count.div_ceil(threads).clamp(1, PART);
-        let mut workers: Vec<_> = (0..threads).map(|_| self.worker()).collect();
-        for start in (0..count).step_by(part * threads) {
-            workers.par_iter_mut().enumerate().for_each(|(k, worker)| {
-                let first = (start + k * part).min(count);
-                let last = (first + part).min(count);
-                worker.solve(self.job, first..last);
-            });
-            for worker in &workers {
-                take(&worker.records, &worker.text)?;
+        let threads = pool.current_num_threads();
+        let solvers: Vec<_> = (0..threads).map(|_| Mutex::new(None)).collect();
+        let compute = |chunk: &mut Chunk| {
+            // A thread of the pool has its own solver: nobody waits.
+            let thread = pool.current_thread_index().unwrap_or(0);
+            let mut solver = solvers[thread]
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
+            chunk.records.clear();
+            chunk.designs.clear();
+            chunk.refused = self.solve(&mut solver, chunk).err();
+            drop(solver);
+            chunk.text.clear();
+            render(chunk);
+        };
+        let chunks = (0..self.len()).step_by(CHUNK);
+        let mut ranges = chunks.map(|first| first..(first + CHUNK).min(self.len()));
+        pool.in_place_scope(|scope| {
+            let ahead = ranges.by_ref().take(2 * threads + 2);
+            let mut under_way: VecDeque<_> = ahead
+                .map(|rows| {
+                    let chunk = Chunk {
+                        rows,
+                        poses: self.job.len(),
+                        ..Chunk::default()
+                    };
+                    start(scope, &compute, chunk)
+                })
+                .collect();
+            // Nothing arrives where a thread has panicked; the scope then goes on with its panic.
+            while let Some(Ok(mut chunk)) = under_way.pop_front().map(|chunk| chunk.recv()) {
+                take(&mut chunk)?;
+                if let Some(rows) = ranges.next() {
+                    chunk.rows = rows;
+                    under_way.push_back(start(scope, &compute, chunk));
+                }
             }
+            Ok(())
+        })
+    }
+
+    /// Solves the rows of a chunk with a thread's solver, which is left at their last design.
+    fn solve(&self, solver: &mut Option<Solver>, chunk: &mut Chunk) -> Result<(), LoadError> {
+        let poses = self.job.len();
+        let mut rows = chunk.rows.clone();
+        while !rows.is_empty() {
+            let number = rows.start / poses;
+            let own = match solver {
+                Some(own) if own.design.number() == number => own,
+                _ => solver.insert(self.solver(number)?),
+            };
+            if !self.job.varied().is_empty() {
+                let values = own.design.values().to_vec();
+                chunk.designs.push((number, values));
+            }
+            let first = number * poses;
+            let end = rows.end.min(first + poses);
+            own.solve(rows.start - first..end - first, &mut chunk.records);
+            rows.start = end;
         }
         Ok(())
     }
 
-    fn worker(&self) -> Worker<'_> {
-        let solver = self.ready.as_ref().map(|(model, plan)| Solver {
-            model,
-            plan,
-            geometry: model.geometry().clone(),
-            workspace: plan.workspace(),
+    /// A thread's solver of a design.
+    fn solver(&self, number: usize) -> Result<Solver, LoadError> {
+        let design = self.job.design(number)?;
+        let planned = match number {
+            0 => self.first.clone(),
+            _ => Planned::new(&design).map(Arc::new),
+        };
+        let ready = planned.map(|planned| {
+            let lanes = planned.plan.lanes(&planned.model);
+            (planned, lanes)
         });
-        Worker {
-            solver: solver.map_err(PoseError::clone),
-            records: Vec::new(),
-            text: String::new(),
-        }
+        Ok(Solver { design, ready })
     }
 }
 
-impl Worker<'_> {
-    fn solve(&mut self, job: &Job, poses: Range<usize>) {
-        self.records.clear();
-        self.text.clear();
-        for pose in poses {
-            let record = self.solve_pose(job, pose).unwrap_or_else(|error| Record {
-                pose: job.target(pose),
-                result: Err(Failure::Pose(error)),
-            });
-            row::append(&mut self.text, pose, &record);
-            self.records.push(record);
-        }
+impl Planned {
+    fn new(design: &Design) -> Result<Self, Failure> {
+        let model = design.model()?;
+        let plan = Plan::new(&model)?;
+        Ok(Self { model, plan })
     }
+}
 
-    fn solve_pose(&mut self, job: &Job, pose: usize) -> Result<Record, PoseError> {
-        let solver = self.solver.as_mut().map_err(|error| error.clone())?;
-        let placed = job.place(pose, &mut solver.geometry)?;
-        let result = solver
-            .plan
-            .sweep(solver.model, &solver.geometry, &mut solver.workspace);
-        Ok(Record {
-            pose: placed,
-            result: result.map_err(Failure::Solve).and_then(Found::try_from),
-        })
+/// Has a thread compute a chunk, which then arrives at the end that is returned.
+fn start<'s>(
+    scope: &Scope<'s>,
+    compute: &'s (impl Fn(&mut Chunk) + Sync),
+    mut chunk: Chunk,
+) -> Receiver<Chunk> {
+    let (done, arrives) = sync_channel(1);
+    scope.spawn(move |_| {
+        compute(&mut chunk);
+        // Nobody waits for it where the sweep has ended.
+        let _ = done.send(chunk);
+    });
+    arrives
+}
+
+/// A design with one thread's own poses and buffers.
+struct Solver {
+    design: Design,
+    /// Why no pose of it can be solved, where none can.
+    ready: Result<(Arc<Planned>, Lanes), Failure>,
+}
+
+impl Solver {
+    /// Appends a record for each of these poses. What is found at a pose does not depend on the
+    /// poses that are solved with it, nor on those that were solved before.
+    fn solve(&mut self, poses: Range<usize>, records: &mut Vec<Record>) {
+        let Self { design, ready } = self;
+        let unreached = |pose, failure| Record {
+            pose: design.target(pose),
+            result: Err(failure),
+        };
+        let (planned, lanes) = match ready {
+            Ok((planned, lanes)) => (planned, lanes),
+            Err(failure) => {
+                records.extend(poses.map(|pose| unreached(pose, failure.clone())));
+                return;
+            }
+        };
+        for first in poses.clone().step_by(LANES) {
+            let mut placed = [const { None }; LANES];
+            for (lane, pose) in (first..poses.end).take(LANES).enumerate() {
+                placed[lane] = Some(design.place(pose, lanes.geometry_mut(lane)));
+            }
+            let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
+            let mut found = planned.plan.sweep_lanes(&planned.model, lanes, filled);
+            for (lane, placed) in placed.into_iter().enumerate() {
+                match (placed, found[lane].take()) {
+                    (Some(Ok(pose)), Some(result)) => records.push(Record {
+                        pose,
+                        result: result.map_err(Failure::Solve).and_then(Found::try_from),
+                    }),
+                    (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),
+                    _ => {}
+                }
+            }
+        }
     }
 }

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Kinematics, Solution};
+use hyperstat_assembly::{Kinematics, Solution, describe_motions};
 use serde::Serialize;
 
-use super::{list, redundancies, solve::in_words};
+use super::{list, redundancies};
 use crate::case::Case;
 use crate::error::CliError;
 
@@ -16,6 +16,8 @@ pub(crate) struct CheckReport {
     name: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     job: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    design: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pose: Option<usize>,
     /// Whether `solve` would end with 0.
@@ -63,19 +65,20 @@ impl CheckReport {
         let mut report = Self {
             name: Some(model.name.clone()),
             job: case.job().map(|(job, _)| job.into()),
+            design: case.design(),
             pose: case.job().map(|(_, pose)| pose),
             solvable: error.is_none(),
             mobility: Some(kinematics.mobility),
             overconstraint: Some(kinematics.overconstraint),
             redundant_constraints: redundancies(model),
-            free_motions: in_words(&kinematics.motions, model),
+            free_motions: describe_motions(&kinematics.motions, model),
             problem: error.map(CliError::problem),
             ..Self::default()
         };
         let idle = solution.map(|solution| solution.idle.clone());
         if let Some(idle) = idle.or_else(|| case.idle_motions()) {
             report.idle_modes = Some(idle.len());
-            report.idle_motions = in_words(&idle, model);
+            report.idle_motions = describe_motions(&idle, model);
         }
         if let Some(solution) = solution {
             report.unknowns = Some(solution.unknowns);
@@ -91,11 +94,8 @@ impl CheckReport {
 
     /// The report as text. What is wrong is not in it: that goes to standard error.
     pub(crate) fn text(&self) -> String {
-        let mut text = self.name.clone().unwrap_or_default();
-        if let (Some(job), Some(pose)) = (&self.job, self.pose) {
-            // Writing to a String cannot fail.
-            let _ = write!(text, " (job {job}, pose {pose})");
-        }
+        let name = self.name.as_deref().unwrap_or_default();
+        let mut text = super::title(name, self.job.as_deref(), self.design, self.pose);
         text += "\n\n";
         let counts = [
             ("mobility", self.mobility),
@@ -117,9 +117,16 @@ impl CheckReport {
                 &self.free_motions,
             );
         }
-        let groups: Vec<_> = (self.redundant_constraints.iter())
+        let mut groups: Vec<_> = (self.redundant_constraints.iter())
             .map(|group| group.join(" "))
             .collect();
+        let more = self
+            .overconstraint
+            .unwrap_or(0)
+            .saturating_sub(groups.len());
+        if more > 0 {
+            groups.push(format!("… and {more} more"));
+        }
         list(
             &mut text,
             "Redundant constraints (of each line any one direction can be freed, and nothing moves)",

@@ -1,6 +1,7 @@
 //! What `solve` and `check` print: plain data that JSON and the tables are both made from.
 
 mod check;
+mod inner;
 mod solve;
 mod table;
 
@@ -12,8 +13,18 @@ use serde::{Serialize, Serializer};
 
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
+pub(crate) use inner::inner_displacements;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
+
+/// The name of a mechanism and, where it is from a batch, of which job, design and pose.
+fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {
+    let design = design.map_or_else(String::new, |design| format!(", design {design}"));
+    match (job, pose) {
+        (Some(job), Some(pose)) => format!("{name} (job {job}{design}, pose {pose})"),
+        _ => name.into(),
+    }
+}
 
 /// Components of a displacement, as table heads.
 const DISPLACEMENT: [&str; 6] = ["Δx", "Δy", "Δz", "φx", "φy", "φz"];

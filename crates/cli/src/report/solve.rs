@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, Motion, Segment, SegmentForces, Solution};
+use hyperstat_assembly::{Model, Segment, SegmentForces, Solution, describe_motions};
 use hyperstat_elements::stress::{largest_stress, section_stress};
 use serde::Serialize;
 
@@ -19,6 +19,8 @@ pub(crate) struct SolveReport {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     job: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    design: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pose: Option<usize>,
     unknowns: usize,
@@ -89,13 +91,14 @@ impl SolveReport {
         Self {
             name: model.name.clone(),
             job: case.job().map(|(job, _)| job.into()),
+            design: case.design(),
             pose: case.job().map(|(_, pose)| pose),
             unknowns: solution.unknowns,
             mobility: solution.mobility,
             overconstraint: solution.overconstraint,
             redundant_constraints: redundancies(model),
             idle_modes: solution.idle.len(),
-            idle_motions: in_words(&solution.idle, model),
+            idle_motions: describe_motions(&solution.idle, model),
             output: OutputReport::new(model, solution),
             displacements: nodes
                 .map(hyperstat_assembly::NodeId)
@@ -123,13 +126,15 @@ impl SolveReport {
         }
     }
 
+    /// Adds displacements of nodes that the model does not name.
+    pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
+        self.displacements.0.extend(displacements.0);
+    }
+
     /// The report as tables.
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
-        let title = match (&self.job, self.pose) {
-            (Some(job), Some(pose)) => format!("{} (job {job}, pose {pose})", self.name),
-            _ => self.name.clone(),
-        };
+        let title = super::title(&self.name, self.job.as_deref(), self.design, self.pose);
         // Writing to a String cannot fail.
         let _ = write!(
             text,
@@ -315,14 +320,6 @@ impl StressReport {
             von_mises: first.von_mises.max(second.von_mises),
         })
     }
-}
-
-/// Motions in words.
-pub(super) fn in_words(motions: &[Motion], model: &Model) -> Vec<String> {
-    motions
-        .iter()
-        .map(|motion| motion.describe(model))
-        .collect()
 }
 
 fn twists(twists: &[[f64; 6]]) -> Table {

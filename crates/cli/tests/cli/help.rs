@@ -45,7 +45,18 @@ fn every_command_has_help_with_an_example() {
         ),
         ("check", &["--format", "--job", "--pose", "Ends with 2"]),
         ("export", &["--job", "--pose", "--out", "FILE.ron"]),
-        ("run", &["--out", "k11,k12", "unreachable", "BATCH.ron"]),
+        (
+            "run",
+            &[
+                "--out",
+                "--format",
+                "--threads",
+                "parquet",
+                "k11,k12",
+                "unreachable",
+                "BATCH.ron",
+            ],
+        ),
     ];
     for (command, parts) in expected {
         let outcome = bench.hyperstat(&[command, "--help"]).ends_with(0);

@@ -1,6 +1,7 @@
 //! The binary as a user meets it: files in, reports, files and exit statuses out.
 
 mod check;
+mod designs;
 mod diagnosis;
 mod export;
 mod help;
@@ -8,3 +9,4 @@ mod messages;
 mod run;
 mod solve;
 mod support;
+mod tables;

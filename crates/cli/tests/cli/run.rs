@@ -321,3 +321,42 @@ fn an_older_result_stays_until_the_new_one_is_complete() {
     assert!(bench.read("out/bar.csv").starts_with(HEADER));
     assert_eq!(bench.names("out"), ["bar.csv"]);
 }
+
+#[test]
+fn a_disk_that_is_full_on_the_way_ends_with_3_and_leaves_the_older_result() {
+    let bench = Bench::new("run-full");
+    let poses = "Grid(x: (-0.05, 0.05, 1500), y: (0.0, 0.0, 1), z: (0.45, 0.45, 1))";
+    bench.file("line.ron", &delta_batch("line", poses, ""));
+    for format in ["csv", "parquet"] {
+        let name = format!("line.{format}");
+        let _ = fs::remove_dir_all(bench.path("out"));
+        fs::create_dir(bench.path("out")).unwrap();
+        bench.file(&format!("out/{name}"), "old");
+        let arguments = ["run", "line.ron", "--out", "out", "--format", format];
+        let Some(outcome) = bench.hyperstat_on_a_small_disk(&arguments) else {
+            println!("this system has no shell that limits the size of files");
+            return;
+        };
+        outcome.ends_with(3).says(&["cannot write", &name]);
+        assert_eq!(bench.names("out"), [name.as_str()]);
+        assert_eq!(bench.read(&format!("out/{name}")), "old");
+    }
+}
+
+#[test]
+fn a_number_of_threads_that_is_none_ends_with_2() {
+    let bench = Bench::new("run-threads");
+    bench.file("cantilever.ron", CANTILEVER);
+    bench.file(
+        "batch.ron",
+        r#"(jobs: [(name: "bar", mechanism: File("cantilever.ron"))])"#,
+    );
+    for threads in ["many", "1.5"] {
+        let arguments = ["run", "batch.ron", "--out", "out", "--threads", threads];
+        bench
+            .hyperstat(&arguments)
+            .ends_with(2)
+            .says(&["--threads"]);
+    }
+    assert!(!bench.path("out").exists());
+}

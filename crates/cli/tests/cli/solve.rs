@@ -286,3 +286,32 @@ fn every_reference_file_is_solved() {
 fn rows(matrix: &Value) -> Vec<Vec<f64>> {
     matrix.as_array().unwrap().iter().map(numbers).collect()
 }
+
+#[test]
+fn all_nodes_adds_those_inside_segments_and_changes_nothing_else() {
+    let bench = Bench::new("solve-all-nodes");
+    let divided = CANTILEVER.replace("material: \"steel\")", "material: \"steel\", elements: 4)");
+    bench.file("cantilever.ron", &divided);
+    let plain = bench.hyperstat(&["solve", "cantilever.ron", "--format", "json"]);
+    let plain = plain.ends_with(0).json();
+    let outcome = bench.hyperstat(&["solve", "cantilever.ron", "--all-nodes", "--format", "json"]);
+    let mut all = outcome.ends_with(0).json();
+
+    let (force, length) = (100.0, 0.5);
+    let rigidity = 2.1e11 * PI * 0.01_f64.powi(4) / 4.0;
+    for k in 1..=3 {
+        let found = numbers(&all["displacements"][format!("bar.A-B.{k}")]);
+        let x = length * f64::from(k) / 4.0;
+        let sag = -force * x * x * (3.0 * length - x) / (6.0 * rigidity);
+        assert_near(found[2], sag, EXACT, sag.abs());
+    }
+    let names = all["displacements"].as_object_mut().unwrap();
+    assert_eq!(names.len(), 5);
+    names.retain(|name, _| !name.contains('-'));
+    assert_eq!(all, plain);
+
+    let outcome = bench.hyperstat(&["solve", "cantilever.ron", "--all-nodes"]);
+    assert!(outcome.ends_with(0).out().contains("  bar.A-B.3  "));
+    let outcome = bench.hyperstat(&["solve", "cantilever.ron"]);
+    assert!(!outcome.ends_with(0).out().contains("A-B."));
+}

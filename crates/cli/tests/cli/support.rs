@@ -52,8 +52,27 @@ impl Bench {
 
     /// Runs the binary in the folder with its standard output in `out`.
     pub fn hyperstat_into(&self, arguments: &[&str], out: impl Into<Stdio>) -> Outcome {
-        let child = Command::new(env!("CARGO_BIN_EXE_hyperstat"))
-            .args(arguments)
+        let mut command = Command::new(env!("CARGO_BIN_EXE_hyperstat"));
+        command.args(arguments);
+        self.output_of(command, out)
+    }
+
+    /// Runs the binary where no file can grow beyond 32 or 64 kB: writing on fails, as on a full
+    /// disk. `None` where the system has no such limit.
+    pub fn hyperstat_on_a_small_disk(&self, arguments: &[&str]) -> Option<Outcome> {
+        if !cfg!(unix) {
+            return None;
+        }
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", "trap '' XFSZ; ulimit -f 64; exec \"$@\"", "sh"])
+            .arg(env!("CARGO_BIN_EXE_hyperstat"))
+            .args(arguments);
+        Some(self.output_of(command, Stdio::piped()))
+    }
+
+    fn output_of(&self, mut command: Command, out: impl Into<Stdio>) -> Outcome {
+        let child = command
             .current_dir(&self.folder)
             .stdin(Stdio::null())
             .stdout(out)

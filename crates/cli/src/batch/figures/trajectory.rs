@@ -5,7 +5,7 @@ use hyperstat_mechanisms::{Figure, Job, Scale};
 use rayon::prelude::*;
 
 use super::{SECOND, difference, figure_scale, linear};
-use crate::batch::row::Record;
+use crate::batch::record::Record;
 use crate::case::job_model;
 
 /// Most poses that a figure shows: more cannot be told apart, and the reference solver is slow.

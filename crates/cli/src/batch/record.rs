@@ -1,0 +1,91 @@
+//! What a sweep finds at one pose.
+
+use hyperstat_assembly::{PoseResult, SolveError};
+use hyperstat_mechanisms::PoseError;
+use nalgebra::{Matrix6, Vector6};
+use thiserror::Error;
+
+/// Why a pose has no result.
+#[derive(Debug, Clone, Error)]
+pub(crate) enum Failure {
+    /// The mechanism cannot take the pose.
+    #[error(transparent)]
+    Pose(#[from] PoseError),
+    /// The mechanism has no solution there.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+    /// The output moves without energy.
+    #[error("the output moves freely, drives locked")]
+    Free,
+    /// The output is held rigidly in some direction.
+    #[error("the output is rigidly held in some direction: it has no finite stiffness")]
+    Rigid,
+}
+
+impl Failure {
+    /// The word for it in a table.
+    pub(crate) fn status(&self) -> &'static str {
+        match self {
+            Self::Pose(PoseError::Unreachable { .. }) => "unreachable",
+            Self::Solve(SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. })
+            | Self::Free => "unrestrained",
+            Self::Pose(PoseError::Singular { .. }) => "singular",
+            Self::Pose(PoseError::Branch { .. }) => "branch",
+            Self::Rigid => "rigid",
+            Self::Pose(_) | Self::Solve(_) => "failed",
+        }
+    }
+}
+
+/// What a sweep found at one pose.
+#[derive(Debug)]
+pub(crate) struct Record {
+    /// Pose of the output: x y z \[m\], rotation vector \[rad\].
+    pub(crate) pose: [f64; 6],
+    pub(crate) result: Result<Found, Failure>,
+}
+
+impl Record {
+    /// The word for the outcome in a table.
+    pub(crate) fn status(&self) -> &'static str {
+        match &self.result {
+            Ok(_) => "ok",
+            Err(failure) => failure.status(),
+        }
+    }
+}
+
+/// The output at one pose, in global axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Found {
+    pub(crate) stiffness: Matrix6<f64>,
+    pub(crate) displacement: Vector6<f64>,
+}
+
+impl Found {
+    /// Displacement, then the upper triangle of the stiffness by rows.
+    pub(crate) fn numbers(&self) -> [f64; NUMBERS] {
+        let mut numbers = [0.0; NUMBERS];
+        let upper = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
+        let stiffness = upper.map(|place| self.stiffness[place]);
+        let found = self.displacement.iter().copied().chain(stiffness);
+        for (number, value) in numbers.iter_mut().zip(found) {
+            *number = value;
+        }
+        numbers
+    }
+}
+
+/// Six components of the displacement and the upper triangle of the stiffness.
+pub(crate) const NUMBERS: usize = 6 + 21;
+
+impl TryFrom<PoseResult> for Found {
+    type Error = Failure;
+
+    fn try_from(result: PoseResult) -> Result<Self, Failure> {
+        Ok(Self {
+            displacement: result.displacement.ok_or(Failure::Free)?,
+            stiffness: result.stiffness.ok_or(Failure::Rigid)?,
+        })
+    }
+}

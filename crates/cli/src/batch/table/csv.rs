@@ -1,0 +1,151 @@
+//! A table of comma-separated values: a line of column names, then a line a pose.
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::path::Path;
+
+use hyperstat_mechanisms::{Value, Varied};
+
+use crate::atomic::AtomicFile;
+use crate::batch::record::NUMBERS;
+use crate::batch::sweep::{Chunk, Row};
+
+/// A CSV file being written.
+pub(crate) struct Csv(AtomicFile);
+
+impl Csv {
+    pub(super) fn create(path: &Path, varied: &[Varied]) -> io::Result<Self> {
+        let mut file = AtomicFile::create(path)?;
+        let names: Vec<_> = super::columns(varied).map(quoted).collect();
+        writeln!(file, "{}", names.join(","))?;
+        Ok(Self(file))
+    }
+
+    pub(super) fn append(&mut self, chunk: &Chunk) -> io::Result<()> {
+        self.0.write_all(chunk.text.as_bytes())
+    }
+
+    pub(super) fn commit(self) -> io::Result<()> {
+        self.0.commit()
+    }
+}
+
+/// Writes the lines of a chunk into its text.
+pub(super) fn render(chunk: &mut Chunk) {
+    let mut text = std::mem::take(&mut chunk.text);
+    for row in chunk.table_rows() {
+        append(&mut text, &row);
+    }
+    chunk.text = text;
+}
+
+/// Appends the line of a row to `text`.
+fn append(text: &mut String, row: &Row<'_>) {
+    let record = row.record;
+    // Writing to a String cannot fail.
+    let _ = write!(text, "{}", row.pose);
+    append_numbers(text, &record.pose);
+    text.push(',');
+    text.push_str(record.status());
+    match &record.result {
+        Ok(found) => append_numbers(text, &found.numbers()),
+        Err(_) => text.extend([','; NUMBERS]),
+    }
+    if let Some((number, values)) = row.design {
+        let _ = write!(text, ",{number}");
+        for value in values {
+            match value {
+                Value::Number(number) => append_numbers(text, &[*number]),
+                Value::Text(words) => {
+                    text.push(',');
+                    text.push_str(&quoted(words.clone()));
+                }
+            }
+        }
+    }
+    text.push('\n');
+}
+
+/// A cell that holds `text`: in quotes, and its quotes doubled, where it would not be one cell.
+fn quoted(text: String) -> String {
+    if text.contains(['"', ',', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text
+    }
+}
+
+/// Appends each number, with a comma before it, as the shortest decimal number that reads back to
+/// the same double.
+fn append_numbers(text: &mut String, numbers: &[f64]) {
+    let mut buffer = zmij::Buffer::new();
+    for number in numbers {
+        text.push(',');
+        text.push_str(buffer.format(*number));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hyperstat_mechanisms::PoseError;
+    use nalgebra::{Matrix6, Vector6};
+
+    use super::append;
+    use crate::batch::record::{Failure, Found, Record};
+    use crate::batch::sweep::Row;
+    use crate::batch::table::columns;
+
+    fn row(pose: usize, record: &Record) -> Row<'_> {
+        Row {
+            pose,
+            record,
+            design: None,
+        }
+    }
+
+    #[test]
+    fn numbers_read_back_to_the_same_double() {
+        let found = Found {
+            stiffness: Matrix6::from_fn(|r, c| 1e8 / (1.0 + (r.min(c) * 6 + r.max(c)) as f64)),
+            displacement: Vector6::new(0.1 + 0.2, -1.0 / 3.0, 5e-324, 1e300, -0.0, 1e-7),
+        };
+        let mut text = String::new();
+        let record = Record {
+            pose: [1.0 / 7.0, 0.0, 0.5, 0.0, 0.0, -1e-20],
+            result: Ok(found.clone()),
+        };
+        append(&mut text, &row(12, &record));
+        let cells: Vec<_> = text.trim_end().split(',').collect();
+        let names: Vec<_> = columns(&[]).collect();
+        assert_eq!(cells.len(), names.len());
+        let cell = |name: &str| cells[names.iter().position(|n| *n == name).unwrap()];
+        let number = |name: &str| cell(name).parse::<f64>().unwrap();
+        assert_eq!(cell("pose"), "12");
+        assert_eq!(cell("status"), "ok");
+        assert_eq!(number("x"), record.pose[0]);
+        assert_eq!(number("rz"), record.pose[5]);
+        for (k, name) in ["dx", "dy", "dz", "drx", "dry", "drz"].iter().enumerate() {
+            assert_eq!(number(name).to_bits(), found.displacement[k].to_bits());
+        }
+        for row in 0..6 {
+            for column in row..6 {
+                let name = format!("k{}{}", row + 1, column + 1);
+                assert_eq!(number(&name), found.stiffness[(row, column)]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pose_without_result_has_empty_numbers() {
+        let what = "too far".to_string();
+        let record = Record {
+            pose: [9.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            result: Err(Failure::Pose(PoseError::Unreachable { what })),
+        };
+        let mut text = String::new();
+        append(&mut text, &row(0, &record));
+        assert!(text.starts_with("0,9.0,0.0,0.0,0.0,0.0,0.0,unreachable,,"));
+        assert_eq!(text.matches(',').count() + 1, columns(&[]).count());
+        assert!(text.trim_end().ends_with(&",".repeat(27)));
+    }
+}

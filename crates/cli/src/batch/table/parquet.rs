@@ -1,0 +1,245 @@
+//! A table in Apache Parquet: columns of doubles, without a detour through decimal numbers.
+//!
+//! Rows are gathered and written in groups of a fixed size, so that memory stays flat (only the
+//! index at the end of the file holds a line for each group) and the bytes do not depend on how the
+//! rows arrive.
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+
+use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::{ColumnPath, Type};
+
+use hyperstat_mechanisms::{Value, Varied};
+
+use super::STATUS;
+use crate::atomic::AtomicFile;
+use crate::batch::record::NUMBERS;
+use crate::batch::sweep::Chunk;
+
+/// Rows of a group: 16 MB of numbers.
+const GROUP: usize = 1 << 16;
+
+/// A Parquet file being written.
+pub(crate) struct Parquet {
+    writer: SerializedFileWriter<AtomicFile>,
+    group: Group,
+}
+
+/// The rows that are not written yet, by columns.
+#[derive(Default)]
+struct Group {
+    pose: Vec<i64>,
+    coordinates: [Vec<f64>; 6],
+    status: Vec<ByteArray>,
+    /// 1 where a row has numbers, 0 where it has none.
+    levels: Vec<i16>,
+    /// Of the rows that have them.
+    numbers: [Vec<f64>; NUMBERS],
+    /// A copy of every status met, which others share.
+    statuses: Vec<(&'static str, ByteArray)>,
+    /// Of a job that varies.
+    design: Vec<i64>,
+    values: Vec<Values>,
+}
+
+/// A column of varied values.
+enum Values {
+    Numbers(Vec<f64>),
+    /// Where some are no numbers, all are text.
+    Texts(Vec<ByteArray>),
+}
+
+impl Values {
+    fn of(varied: &Varied) -> Self {
+        match varied.numeric {
+            true => Self::Numbers(Vec::new()),
+            false => Self::Texts(Vec::new()),
+        }
+    }
+
+    fn push(&mut self, value: &Value) {
+        match (self, value) {
+            (Self::Numbers(column), Value::Number(number)) => column.push(*number),
+            // A column of numbers has no texts.
+            (Self::Numbers(column), Value::Text(_)) => column.push(f64::NAN),
+            (Self::Texts(column), value) => column.push(value.to_string().as_str().into()),
+        }
+    }
+
+    fn clear(&mut self) {
+        match self {
+            Self::Numbers(column) => column.clear(),
+            Self::Texts(column) => column.clear(),
+        }
+    }
+}
+
+impl Parquet {
+    pub(super) fn create(path: &Path, varied: &[Varied]) -> io::Result<Self> {
+        let file = AtomicFile::create(path)?;
+        let properties = WriterProperties::builder()
+            .set_dictionary_enabled(false)
+            .set_column_dictionary_enabled(ColumnPath::from(STATUS), true)
+            .set_statistics_enabled(EnabledStatistics::Chunk)
+            .set_offset_index_disabled(true)
+            .build();
+        let schema = schema(varied).map_err(io_error)?;
+        let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties));
+        Ok(Self {
+            writer: writer.map_err(io_error)?,
+            group: Group {
+                values: varied.iter().map(Values::of).collect(),
+                ..Group::default()
+            },
+        })
+    }
+
+    pub(super) fn append(&mut self, chunk: &Chunk) -> io::Result<()> {
+        self.group.add(chunk);
+        if self.group.len() >= GROUP {
+            self.write_group().map_err(io_error)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn commit(mut self) -> io::Result<()> {
+        if self.group.len() > 0 {
+            self.write_group().map_err(io_error)?;
+        }
+        self.writer.into_inner().map_err(io_error)?.commit()
+    }
+
+    fn write_group(&mut self) -> Result<(), ParquetError> {
+        let group = &mut self.group;
+        let mut writer = self.writer.next_row_group()?;
+        write::<Int64Type>(&mut writer, &group.pose, None)?;
+        for column in &group.coordinates {
+            write::<DoubleType>(&mut writer, column, None)?;
+        }
+        write::<ByteArrayType>(&mut writer, &group.status, None)?;
+        for column in &group.numbers {
+            write::<DoubleType>(&mut writer, column, Some(&group.levels))?;
+        }
+        if !group.values.is_empty() {
+            write::<Int64Type>(&mut writer, &group.design, None)?;
+        }
+        for column in &group.values {
+            match column {
+                Values::Numbers(column) => write::<DoubleType>(&mut writer, column, None)?,
+                Values::Texts(column) => write::<ByteArrayType>(&mut writer, column, None)?,
+            }
+        }
+        writer.close()?;
+        group.clear();
+        Ok(())
+    }
+}
+
+impl Group {
+    fn len(&self) -> usize {
+        self.pose.len()
+    }
+
+    fn add(&mut self, chunk: &Chunk) {
+        for row in chunk.table_rows() {
+            let record = row.record;
+            self.pose.push(row.pose as i64);
+            if let Some((number, values)) = row.design {
+                self.design.push(number as i64);
+                for (column, value) in self.values.iter_mut().zip(values) {
+                    column.push(value);
+                }
+            }
+            for (column, value) in self.coordinates.iter_mut().zip(record.pose) {
+                column.push(value);
+            }
+            let status = self.status(record.status());
+            self.status.push(status);
+            self.levels.push(i16::from(record.result.is_ok()));
+            if let Ok(found) = &record.result {
+                for (column, value) in self.numbers.iter_mut().zip(found.numbers()) {
+                    column.push(value);
+                }
+            }
+        }
+    }
+
+    fn status(&mut self, word: &'static str) -> ByteArray {
+        if let Some((_, shared)) = self.statuses.iter().find(|(known, _)| *known == word) {
+            return shared.clone();
+        }
+        let shared = ByteArray::from(word);
+        self.statuses.push((word, shared.clone()));
+        shared
+    }
+
+    fn clear(&mut self) {
+        self.pose.clear();
+        self.coordinates.iter_mut().for_each(Vec::clear);
+        self.status.clear();
+        self.levels.clear();
+        self.numbers.iter_mut().for_each(Vec::clear);
+        self.design.clear();
+        self.values.iter_mut().for_each(Values::clear);
+    }
+}
+
+/// Writes the next column of a group. `levels` says which rows have a value; all, where not given.
+fn write<T: DataType>(
+    group: &mut SerializedRowGroupWriter<'_, AtomicFile>,
+    values: &[T::T],
+    levels: Option<&[i16]>,
+) -> Result<(), ParquetError> {
+    if let Some(mut column) = group.next_column()? {
+        column.typed::<T>().write_batch(values, levels, None)?;
+        column.close()?;
+    }
+    Ok(())
+}
+
+/// The columns: what is found is null where a pose has no result.
+fn schema(varied: &[Varied]) -> Result<Type, ParquetError> {
+    let mut columns = Vec::new();
+    let design = 8 + NUMBERS;
+    for (place, name) in super::columns(varied).enumerate() {
+        let text = match place.checked_sub(design + 1) {
+            None => name == STATUS,
+            Some(value) => !varied[value].numeric,
+        };
+        let (kind, meaning) = match place {
+            _ if text => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
+            _ if place == 0 || place == design => (PhysicalType::INT64, None),
+            _ => (PhysicalType::DOUBLE, None),
+        };
+        let found = 8..design;
+        let repetition = match found.contains(&place) {
+            true => Repetition::OPTIONAL,
+            false => Repetition::REQUIRED,
+        };
+        let column = Type::primitive_type_builder(&name, kind)
+            .with_logical_type(meaning)
+            .with_repetition(repetition)
+            .build()?;
+        columns.push(Arc::new(column));
+    }
+    Type::group_type_builder("poses")
+        .with_fields(columns)
+        .build()
+}
+
+/// The disk's own error, where it is one.
+fn io_error(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(source) => match source.downcast() {
+            Ok(error) => *error,
+            Err(source) => io::Error::other(source),
+        },
+        error => io::Error::other(error),
+    }
+}

@@ -1,0 +1,213 @@
+//! The tables of `hyperstat run`: CSV and Parquet hold the same doubles, and the number of threads
+//! changes no byte.
+
+use std::fs::{self, File};
+
+use parquet2::encoding::Encoding;
+use parquet2::encoding::hybrid_rle::HybridRleDecoder;
+use parquet2::metadata::{ColumnChunkMetaData, FileMetaData};
+use parquet2::page::{Page, split_buffer};
+use parquet2::read::{decompress, get_page_iterator, read_metadata};
+use parquet2::schema::Repetition;
+use parquet2::schema::types::{ParquetType, PhysicalType};
+
+use crate::support::{Bench, delta_batch};
+
+/// Poses of the delta of which about a third are out of reach, here and there.
+const MIXED: &str = "Grid(x: (-0.6, 0.6, 37), y: (-0.5, 0.5, 9), z: (0.3, 0.7, 5))";
+const ROWS: usize = 37 * 9 * 5;
+
+#[test]
+fn the_number_of_threads_changes_no_byte() {
+    let bench = Bench::new("tables-threads");
+    bench.file("mixed.ron", &delta_batch("mixed", MIXED, ""));
+    for format in ["csv", "parquet"] {
+        let mut expected = Vec::new();
+        for threads in ["1", "2", "3", "7", "0"] {
+            let out = format!("{format}-{threads}");
+            let arguments = [
+                "run",
+                "mixed.ron",
+                "--out",
+                &out,
+                "--format",
+                format,
+                "--threads",
+                threads,
+            ];
+            let outcome = bench.hyperstat(&arguments).ends_with(1);
+            assert!(outcome.out().contains("unreachable"), "{}", outcome.out());
+            let name = format!("mixed.{format}");
+            assert_eq!(bench.names(&out), [name.as_str()]);
+            let content = fs::read(bench.path(&out).join(name)).unwrap();
+            if threads == "1" {
+                expected = content;
+            } else {
+                assert!(content == expected, "{format}, {threads} threads");
+            }
+        }
+        assert!(expected.len() > 100 * ROWS);
+    }
+}
+
+#[test]
+fn a_pose_is_the_same_alone_and_among_others() {
+    let bench = Bench::new("tables-alone");
+    bench.file("mixed.ron", &delta_batch("mixed", MIXED, ""));
+    let run = |file: &str| {
+        let arguments = ["run", file, "--out", "out"];
+        assert!(bench.hyperstat(&arguments).status() < 2);
+    };
+    run("mixed.ron");
+    let table = bench.read("out/mixed.csv");
+    let lines: Vec<&str> = table.lines().skip(1).collect();
+    assert_eq!(lines.len(), ROWS);
+    // Neighbours on the edge of the reachable, at every place among them.
+    let mut without = 0;
+    for (row, line) in lines.iter().enumerate().skip(784).take(36).step_by(3) {
+        let (number, rest) = line.split_once(',').unwrap();
+        assert_eq!(number, row.to_string());
+        let cells: Vec<&str> = rest.split(',').collect();
+        without += usize::from(cells[6] != "ok");
+        let pose = format!("List([({}, {}, {})])", cells[0], cells[1], cells[2]);
+        bench.file("alone.ron", &delta_batch("alone", &pose, ""));
+        run("alone.ron");
+        let alone = bench.read("out/alone.csv");
+        assert_eq!(alone.lines().nth(1), Some(format!("0,{rest}").as_str()));
+    }
+    assert!((1..12).contains(&without), "{without}");
+}
+
+#[test]
+fn parquet_holds_the_doubles_of_the_csv() {
+    let bench = Bench::new("tables-parquet");
+    bench.file("mixed.ron", &delta_batch("mixed", MIXED, ""));
+    for format in ["csv", "parquet"] {
+        let arguments = ["run", "mixed.ron", "--out", "out", "--format", format];
+        bench.hyperstat(&arguments).ends_with(1);
+    }
+    assert_eq!(bench.names("out"), ["mixed.csv", "mixed.parquet"]);
+    let csv = bench.read("out/mixed.csv");
+    let mut lines = csv.lines();
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), ROWS);
+
+    let mut file = File::open(bench.path("out/mixed.parquet")).unwrap();
+    let metadata = read_metadata(&mut file).unwrap();
+    assert_eq!(metadata.num_rows, ROWS);
+    let fields: Vec<&str> = metadata
+        .schema()
+        .fields()
+        .iter()
+        .map(|f| f.name())
+        .collect();
+    assert_eq!(fields, names);
+    let mut nulls = 0;
+    for (place, name) in names.iter().enumerate() {
+        let column = read(&metadata, &mut file, place);
+        assert_eq!(column.len(), ROWS, "{name}");
+        for (row, cell) in rows.iter().zip(column) {
+            let expected = match row[place] {
+                "" => Cell::Null,
+                text if *name == "status" => Cell::Text(text.into()),
+                text if *name == "pose" => Cell::Whole(text.parse().unwrap()),
+                text => Cell::Double(text.parse::<f64>().unwrap().to_bits()),
+            };
+            nulls += usize::from(cell == Cell::Null);
+            assert_eq!(cell, expected, "{name} of pose {}", row[0]);
+        }
+    }
+    let unreachable = csv.matches("unreachable").count();
+    assert!(unreachable > ROWS / 10 && unreachable < ROWS / 2);
+    assert_eq!(nulls, 27 * unreachable);
+}
+
+/// A value of a table; doubles as their bits.
+#[derive(Debug, Clone, PartialEq)]
+enum Cell {
+    Null,
+    Whole(i64),
+    Double(u64),
+    Text(String),
+}
+
+/// A column of a Parquet file, read by a library that has nothing in common with the one that wrote
+/// it.
+fn read(metadata: &FileMetaData, file: &mut File, place: usize) -> Vec<Cell> {
+    let groups = metadata.row_groups.iter();
+    groups
+        .flat_map(|group| read_chunk(&group.columns()[place], file))
+        .collect()
+}
+
+fn read_chunk(column: &ColumnChunkMetaData, file: &mut File) -> Vec<Cell> {
+    let ParquetType::PrimitiveType(kind) = &column.descriptor().base_type else {
+        panic!("a column of columns");
+    };
+    let plain = |values: &[u8]| -> Vec<Cell> {
+        match kind.physical_type {
+            PhysicalType::Int64 => eights(values)
+                .map(|bytes| Cell::Whole(i64::from_le_bytes(bytes)))
+                .collect(),
+            PhysicalType::Double => eights(values)
+                .map(|bytes| Cell::Double(u64::from_le_bytes(bytes)))
+                .collect(),
+            PhysicalType::ByteArray => texts(values),
+            other => panic!("{other:?}"),
+        }
+    };
+    let pages = get_page_iterator(column, file, None, Vec::new(), usize::MAX).unwrap();
+    let mut dictionary = Vec::new();
+    let mut cells = Vec::new();
+    for page in pages {
+        let page = match decompress(page.unwrap(), &mut Vec::new()).unwrap() {
+            Page::Dict(page) => {
+                dictionary = plain(&page.buffer);
+                continue;
+            }
+            Page::Data(page) => page,
+        };
+        let (_, levels, values) = split_buffer(&page).unwrap();
+        let mut found = match page.encoding() {
+            Encoding::Plain => plain(values),
+            _ => indices(&values[1..], values[0], page.num_values())
+                .map(|index| dictionary[index as usize].clone())
+                .collect(),
+        }
+        .into_iter();
+        if kind.field_info.repetition == Repetition::Required {
+            cells.extend(found);
+            continue;
+        }
+        for level in indices(levels, 1, page.num_values()) {
+            cells.push(match level {
+                0 => Cell::Null,
+                _ => found.next().unwrap(),
+            });
+        }
+        assert_eq!(found.next(), None);
+    }
+    cells
+}
+
+fn eights(values: &[u8]) -> impl Iterator<Item = [u8; 8]> {
+    values.chunks(8).map(|bytes| bytes.try_into().unwrap())
+}
+
+/// Texts, each after its length in four bytes.
+fn texts(mut values: &[u8]) -> Vec<Cell> {
+    let mut texts = Vec::new();
+    while let Some((length, rest)) = values.split_first_chunk() {
+        let (text, rest) = rest.split_at(u32::from_le_bytes(*length) as usize);
+        texts.push(Cell::Text(String::from_utf8(text.into()).unwrap()));
+        values = rest;
+    }
+    texts
+}
+
+/// Small whole numbers of so many bits.
+fn indices(values: &[u8], bits: u8, count: usize) -> impl Iterator<Item = u32> {
+    let decoder = HybridRleDecoder::try_new(values, u32::from(bits), count).unwrap();
+    decoder.map(|index| index.unwrap())
+}
