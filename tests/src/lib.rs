@@ -2,6 +2,8 @@
 
 pub mod agreement;
 pub mod build;
+pub mod lattice;
+pub mod prebuilt;
 pub mod random;
 pub mod runner;
 

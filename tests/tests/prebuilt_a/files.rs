@@ -1,17 +1,14 @@
 //! Files: batches that name the mechanisms, and examples that write them out.
 
-use std::path::Path;
-
-use hyperstat_assembly::solve;
 use hyperstat_mechanisms::prebuilt::{
     CarriageSide, FootJoint, Hexapod, LinearDelta, Prebuilt, Rails, TelescopicLeg, ThreePrs,
     ThreeRps, Tricept,
 };
-use hyperstat_mechanisms::{Registry, batch_from_str, load_batch, load_mechanism};
-use hyperstat_tests::{stiffness, stiffness_difference};
-
-use crate::mechanisms::{
-    BEARINGS, cubic, flat, hexapod, leg, linear_delta, round, three_prs, three_rps, tricept,
+use hyperstat_tests::prebuilt::legs::{
+    cubic, hexapod, leg, linear_delta, three_prs, three_rps, tricept,
+};
+use hyperstat_tests::prebuilt::{
+    BEARINGS, assert_batch_reads, assert_book_is_read, assert_example_is_prebuilt, flat, round,
 };
 
 const LEG: &str =
@@ -133,23 +130,12 @@ fn batch_files_are_read_as_their_mechanisms() {
     let round = format!("(section: Circle(diameter: 0.02), {steel})");
     for (mechanism, text, pose, pose_text) in cases {
         let text = text.replace("FLAT", &flat).replace("ROUND", &round);
-        let text =
-            format!("(jobs: [(name: \"j\", mechanism: {text}, poses: List([{pose_text}]))])");
-        let batch = batch_from_str(&text, Path::new("j.ron"), &Registry::builtin());
-        let batch = batch.unwrap_or_else(|error| panic!("{error}"));
-        let found = batch.jobs[0].model().expect("in reach");
-        let expected = mechanism.model(pose).expect("in reach");
-        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        assert_batch_reads(&text, pose_text, &*mechanism, pose);
     }
 }
 
-/// The examples that are written out are the prebuilt ones of `prebuilt.ron`, at pose 1.
 #[test]
 fn the_written_out_examples_are_the_prebuilt_mechanisms() {
-    let examples = Path::new("../examples");
-    let registry = Registry::builtin();
-    let batch = load_batch(&examples.join("prebuilt.ron"), &registry);
-    let batch = batch.unwrap_or_else(|error| panic!("{error}"));
     for name in [
         "hexapod",
         "cubic-hexapod",
@@ -158,31 +144,12 @@ fn the_written_out_examples_are_the_prebuilt_mechanisms() {
         "three-rps",
         "three-prs",
     ] {
-        let job = batch.jobs.iter().find(|job| job.name == name);
-        let job = job.expect("the job");
-        let mut model = job.model().expect("in reach");
-        let mut geometry = model.geometry().clone();
-        job.place(1, &mut geometry).expect("in reach");
-        model.set_geometry(geometry);
-        let expected = solve(&model).expect("a solution");
-
-        let file = examples.join(name.replace('-', "_")).with_extension("ron");
-        let written = load_mechanism(&file, &registry).unwrap_or_else(|error| panic!("{error}"));
-        let found = solve(&written.model).expect("a solution");
-        let difference = stiffness_difference(&stiffness(&found), &stiffness(&expected));
-        assert!(difference < 1e-12, "{name}: K_o {difference:e}");
-        let difference = found.output.displacement - expected.output.displacement;
-        let largest = expected.output.displacement.amax();
-        assert!(difference.amax() < 1e-12 * largest, "{name}: {difference}");
+        assert_example_is_prebuilt(name);
     }
 }
 
-/// What the book says of a mechanism is read as the mechanism of a job.
 #[test]
 fn the_book_s_mechanisms_are_read() {
-    let page = std::fs::read_to_string("../docs/src/prebuilt.md").expect("the page");
-    let blocks = page.split("```ron,fragment\n").skip(1);
-    let blocks: Vec<_> = blocks.filter_map(|rest| rest.split("```").next()).collect();
     for kind in [
         "Hexapod",
         "CubicHexapod",
@@ -191,11 +158,6 @@ fn the_book_s_mechanisms_are_read() {
         "ThreeRps",
         "ThreePrs",
     ] {
-        let block = blocks.iter().find(|block| block.starts_with(kind));
-        let block = block.unwrap_or_else(|| panic!("the page has no {kind}"));
-        let text =
-            format!("(jobs: [(name: \"j\", mechanism: {block}, poses: List([(0.0, 0.0, 0.7)]))])");
-        let batch = batch_from_str(&text, Path::new("prebuilt.md"), &Registry::builtin());
-        batch.unwrap_or_else(|error| panic!("{error}"));
+        assert_book_is_read(kind, "(0.0, 0.0, 0.7)");
     }
 }

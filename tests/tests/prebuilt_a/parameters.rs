@@ -1,35 +1,15 @@
 //! Parameters that are refused.
 
-use hyperstat_mechanisms::PoseError;
-use hyperstat_mechanisms::prebuilt::{Hexapod, ParameterError, Prebuilt};
-
-use crate::mechanisms::{EDGE, cubic, hexapod, leg, linear_delta, three_prs, three_rps, tricept};
-
-/// Puts a wrong value into a field.
-type Spoil<M> = fn(&mut M);
-
-/// Asserts that `check` and `model` name the field, once it is spoilt, and its value.
-fn assert_refused<M: Prebuilt + Clone>(
-    mechanism: M,
-    check: fn(&M) -> Result<(), ParameterError>,
-    pose: &[f64],
-    cases: &[(&str, Spoil<M>)],
-) {
-    assert_eq!(check(&mechanism), Ok(()));
-    for (field, spoil) in cases {
-        let mut spoilt = mechanism.clone();
-        spoil(&mut spoilt);
-        let error = check(&spoilt).expect_err(field);
-        assert_eq!(error.field, *field);
-        let model = spoilt.model(pose).map(drop);
-        assert_eq!(model, Err(PoseError::Parameter(error)), "{field}");
-    }
-}
+use hyperstat_mechanisms::prebuilt::Hexapod;
+use hyperstat_tests::prebuilt::assert_refused;
+use hyperstat_tests::prebuilt::legs::{
+    EDGE, cubic, hexapod, leg, linear_delta, three_prs, three_rps, tricept,
+};
 
 #[test]
 fn of_the_hexapod_and_of_telescopic_legs() {
     assert_refused(
-        hexapod(),
+        &hexapod(),
         Hexapod::check,
         &[0.0, 0.0, 0.8, 0.0, 0.0, 0.0],
         &[
@@ -65,7 +45,7 @@ fn of_the_linear_delta_and_of_rails() {
         assert_eq!(level.check(), Ok(()));
     }
     assert_refused(
-        linear_delta(),
+        &linear_delta(),
         |m| m.check(),
         &[0.0, 0.0, 0.7],
         &[
@@ -86,7 +66,7 @@ fn of_the_linear_delta_and_of_rails() {
 #[test]
 fn of_the_tricept() {
     assert_refused(
-        tricept(),
+        &tricept(),
         |m| m.check(),
         &[0.0, 0.0, 0.9],
         &[
@@ -104,7 +84,7 @@ fn of_the_tricept() {
 #[test]
 fn of_the_three_rps_and_the_three_prs() {
     assert_refused(
-        three_rps(),
+        &three_rps(),
         |m| m.check(),
         &[0.7, 0.0, 0.0],
         &[
@@ -117,7 +97,7 @@ fn of_the_three_rps_and_the_three_prs() {
         ],
     );
     assert_refused(
-        three_prs(),
+        &three_prs(),
         |m| m.check(),
         &[0.9, 0.0, 0.0],
         &[

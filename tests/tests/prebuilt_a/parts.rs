@@ -5,10 +5,8 @@ use hyperstat_joints::Dof;
 use hyperstat_mechanisms::prebuilt::{
     Hexapod, LinearDelta, Link, Prebuilt, TelescopicLeg, ThreePrs, ThreeRps, Tricept,
 };
-
-use crate::mechanisms::{
-    BEARINGS, flat, hexapod, leg, linear_delta, round, three_prs, three_rps, tricept, tube,
-};
+use hyperstat_tests::prebuilt::legs::{hexapod, leg, linear_delta, three_prs, three_rps, tricept};
+use hyperstat_tests::prebuilt::{BEARINGS, flat, round, tube};
 
 const DRIVE: Option<f64> = Some(4e7);
 

@@ -2,8 +2,7 @@
 
 use hyperstat_mechanisms::PoseError;
 use hyperstat_mechanisms::prebuilt::Prebuilt;
-
-use crate::mechanisms::{hexapod, linear_delta, three_prs, three_rps, tricept};
+use hyperstat_tests::prebuilt::legs::{hexapod, linear_delta, three_prs, three_rps, tricept};
 
 #[test]
 fn poses_out_of_reach_and_singular_ones_are_told() {

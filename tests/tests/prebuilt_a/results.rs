@@ -2,61 +2,21 @@
 
 use hyperstat_assembly::{Model, solve};
 use hyperstat_mechanisms::prebuilt::{Hexapod, LinearDelta, Rails};
-use hyperstat_tests::{
-    reference_text, stiffness, stiffness_difference, turned_matrix, vector_differences,
+use hyperstat_tests::prebuilt::legs::{EDGE, cases, cubic, hexapod, linear_delta, tricept};
+use hyperstat_tests::prebuilt::{
+    assert_counts, assert_solved_as_by_reference, loaded, position, solved,
 };
+use hyperstat_tests::{reference_text, stiffness, stiffness_difference, turned_matrix};
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3, Vector6};
-
-use crate::FLOOR;
-use crate::mechanisms::{
-    EDGE, cases, cubic, hexapod, linear_delta, loaded, position, solved, tricept,
-};
-
-/// Between the two solvers, both of which refine.
-const AGREEMENT: f64 = 1e-9;
 
 #[test]
 fn mobility_and_over_constraint_are_those_of_the_literature() {
-    for case in cases() {
-        for pose in &case.poses {
-            let what = format!("{} {pose:?}", case.mechanism.kind());
-            let found = solved(&*case.mechanism, pose);
-            let counts = [found.mobility, found.overconstraint, found.idle.len()];
-            assert_eq!(counts, case.counts, "{what}");
-            assert!(found.warnings.is_empty(), "{what}: {:?}", found.warnings);
-        }
-    }
+    cases().iter().for_each(assert_counts);
 }
 
 #[test]
 fn stiffness_and_displacement_are_the_independent_solver_s() {
-    for case in cases() {
-        for pose in &case.poses {
-            let what = format!("{} {pose:?}", case.mechanism.kind());
-            let model = loaded(&*case.mechanism, pose);
-            let found = solve(&model).expect(&what);
-            let expected = hyperstat_reference::solve(&model).expect(&what);
-            let wanted = expected.stiffness.expect(&what);
-            let difference = stiffness_difference(&stiffness(&found), &wanted);
-            assert!(difference <= AGREEMENT, "{what}: K_o {difference:e}");
-            let output = expected.displacement.expect(&what);
-            let difference = vector_differences([(&found.output.displacement, &output)], FLOOR);
-            assert!(
-                difference.iter().all(|d| *d <= AGREEMENT),
-                "{what}: output {difference:?}"
-            );
-            if !found.idle.is_empty() {
-                // Displacements of spinning legs and rods are defined only up to the spin.
-                continue;
-            }
-            let nodes = found.displacements.iter().zip(&expected.displacements);
-            let difference = vector_differences(nodes, FLOOR);
-            assert!(
-                difference.iter().all(|d| *d <= AGREEMENT),
-                "{what}: displacements {difference:?}"
-            );
-        }
-    }
+    cases().iter().for_each(assert_solved_as_by_reference);
 }
 
 /// The Tricept in the 60-digit results of `tests/reference`: there leg 1 stands over +x, and the

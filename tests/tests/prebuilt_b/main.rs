@@ -4,10 +4,6 @@
 
 mod files;
 mod kinematics;
-mod mechanisms;
 mod parameters;
 mod reach;
 mod results;
-
-/// Displacements (m, rad) below this are zero to rounding under the loads here.
-const FLOOR: [f64; 2] = [1e-9; 2];

@@ -1,31 +1,16 @@
 //! Parameters out of their physical range.
 
-use hyperstat_mechanisms::PoseError;
 use hyperstat_mechanisms::prebuilt::{
-    Exechon, Orthoglide, ParameterError, PlanarThreeRrr, Prebuilt, SphericalThreeRrr, Tripteron,
+    Exechon, Orthoglide, PlanarThreeRrr, SphericalThreeRrr, Tripteron,
 };
+use hyperstat_tests::prebuilt::assert_refused;
+use hyperstat_tests::prebuilt::links::{exechon, orthoglide, planar, spherical, tripteron};
 
-use crate::mechanisms::{exechon, orthoglide, planar, spherical, tripteron};
+/// A pose, whether in reach or not: parameters are looked at first.
+const POSE: [f64; 3] = [0.0, 0.0, 0.5];
 
 /// A field and what puts it out of its range.
 type Spoilt<M> = (&'static str, fn(&mut M));
-
-/// Each of `cases` is refused by `check` with the field's name, and by `model` with the same.
-fn assert_refused<M: Prebuilt + Clone>(
-    good: &M,
-    check: fn(&M) -> Result<(), ParameterError>,
-    cases: &[Spoilt<M>],
-) {
-    assert_eq!(check(good), Ok(()));
-    for (field, spoil) in cases {
-        let mut mechanism = good.clone();
-        spoil(&mut mechanism);
-        let error = check(&mechanism).expect_err(field);
-        assert_eq!(error.field, *field);
-        let refused = mechanism.model(&[0.0, 0.0, 0.5]).map(drop);
-        assert_eq!(refused, Err(PoseError::Parameter(error)));
-    }
-}
 
 /// Cases that all five mechanisms share.
 macro_rules! common {
@@ -49,7 +34,7 @@ fn planar_three_rrr() {
         ("proximal_length", |m| m.proximal_length = 0.0),
         ("distal_length", |m| m.distal_length = f64::INFINITY),
     ];
-    assert_refused(&planar(), PlanarThreeRrr::check, cases);
+    assert_refused(&planar(), PlanarThreeRrr::check, &POSE, cases);
 }
 
 #[test]
@@ -61,7 +46,7 @@ fn spherical_three_rrr() {
         ("proximal_angle", |m| m.proximal_angle = 90.0),
         ("distal_angle", |m| m.distal_angle = std::f64::consts::PI),
     ];
-    assert_refused(&spherical(), SphericalThreeRrr::check, cases);
+    assert_refused(&spherical(), SphericalThreeRrr::check, &POSE, cases);
 }
 
 #[test]
@@ -73,7 +58,7 @@ fn tripteron_parameters() {
         ("proximal_length", |m| m.proximal_length = -0.3),
         ("distal_length", |m| m.distal_length = 0.0),
     ];
-    assert_refused(&tripteron(), Tripteron::check, cases);
+    assert_refused(&tripteron(), Tripteron::check, &POSE, cases);
 }
 
 #[test]
@@ -83,7 +68,7 @@ fn orthoglide_parameters() {
         ("rod_length", |m| m.rod_length = f64::NAN),
         ("rod_spacing", |m| m.rod_spacing = 0.0),
     ];
-    assert_refused(&orthoglide(), Orthoglide::check, cases);
+    assert_refused(&orthoglide(), Orthoglide::check, &POSE, cases);
 }
 
 #[test]
@@ -94,5 +79,5 @@ fn exechon_parameters() {
         ("platform_width", |m| m.platform_width = f64::NAN),
         ("platform_depth", |m| m.platform_depth = f64::INFINITY),
     ];
-    assert_refused(&exechon(), Exechon::check, cases);
+    assert_refused(&exechon(), Exechon::check, &POSE, cases);
 }

@@ -2,8 +2,7 @@
 
 use hyperstat_mechanisms::PoseError;
 use hyperstat_mechanisms::prebuilt::{PlanarThreeRrr, Prebuilt, SphericalThreeRrr};
-
-use crate::mechanisms::{exechon, orthoglide, planar, spherical, tripteron};
+use hyperstat_tests::prebuilt::links::{exechon, orthoglide, planar, spherical, tripteron};
 
 #[test]
 fn poses_out_of_reach_and_singular_ones_are_told() {

@@ -1,33 +1,14 @@
-//! The mechanisms under test.
+//! Mechanisms of links of fixed length: planar and spherical 3-RRR, Tripteron, Orthoglide and
+//! Exechon.
 
-use hyperstat_assembly::Model;
-use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_mechanisms::prebuilt::{
-    ElbowSide, Exechon, Link, Orthoglide, PlanarThreeRrr, Prebuilt, SphericalThreeRrr, Tripteron,
+    ElbowSide, Exechon, Orthoglide, PlanarThreeRrr, Prebuilt, SphericalThreeRrr, Tripteron,
 };
-use nalgebra::Vector6;
 
-pub(crate) fn steel(diameter: f64) -> Link {
-    link(SectionShape::Circle { diameter })
-}
+use super::{BEARINGS, Case, flat, round};
 
-/// A section that is not alike in all directions, so that a wrong local y shows.
-pub(crate) fn flat(width: f64, height: f64) -> Link {
-    link(SectionShape::Rectangle { width, height })
-}
-
-pub(crate) fn link(shape: SectionShape) -> Link {
-    Link {
-        section: Section::new(shape, None, None).expect("a valid section"),
-        material: Material::new(2.1e11, Elasticity::Poisson(0.3), None).expect("steel"),
-    }
-}
-
-/// Elastic joints, each direction with another stiffness.
-pub(crate) const BEARINGS: [Option<f64>; 6] =
-    [Some(1e8), Some(2e8), Some(3e8), Some(1e5), None, Some(2e5)];
-
-pub(crate) fn planar() -> PlanarThreeRrr {
+/// A planar 3-RRR.
+pub fn planar() -> PlanarThreeRrr {
     PlanarThreeRrr {
         base_radius: 0.30,
         platform_radius: 0.08,
@@ -35,14 +16,15 @@ pub(crate) fn planar() -> PlanarThreeRrr {
         distal_length: 0.25,
         elbow: ElbowSide::Left,
         proximal: flat(0.03, 0.02),
-        distal: steel(0.018),
+        distal: round(0.018),
         joint_stiffness: [None; 6],
         drive_stiffness: None,
         elements: 1,
     }
 }
 
-pub(crate) fn spherical() -> SphericalThreeRrr {
+/// A spherical 3-RRR.
+pub fn spherical() -> SphericalThreeRrr {
     SphericalThreeRrr {
         radius: 0.12,
         base_angle: 0.9,
@@ -51,14 +33,15 @@ pub(crate) fn spherical() -> SphericalThreeRrr {
         distal_angle: 1.5,
         elbow: ElbowSide::Left,
         proximal: flat(0.02, 0.012),
-        distal: steel(0.014),
+        distal: round(0.014),
         joint_stiffness: [None; 6],
         drive_stiffness: None,
         elements: 1,
     }
 }
 
-pub(crate) fn agile_eye() -> SphericalThreeRrr {
+/// The agile eye of Gosselin and Hamel.
+pub fn agile_eye() -> SphericalThreeRrr {
     let cone = (1.0 / 3.0_f64.sqrt()).acos();
     let right = std::f64::consts::FRAC_PI_2;
     SphericalThreeRrr {
@@ -71,7 +54,8 @@ pub(crate) fn agile_eye() -> SphericalThreeRrr {
     }
 }
 
-pub(crate) fn tripteron() -> Tripteron {
+/// A Tripteron.
+pub fn tripteron() -> Tripteron {
     Tripteron {
         rail: (0.5, 0.3),
         platform_radius: 0.06,
@@ -79,53 +63,58 @@ pub(crate) fn tripteron() -> Tripteron {
         distal_length: 0.40,
         elbow: ElbowSide::Left,
         proximal: flat(0.03, 0.05),
-        distal: steel(0.03),
+        distal: round(0.03),
         joint_stiffness: [None; 6],
         drive_stiffness: None,
         elements: 1,
     }
 }
 
-pub(crate) fn orthoglide() -> Orthoglide {
+/// An Orthoglide.
+pub fn orthoglide() -> Orthoglide {
     Orthoglide {
         platform_radius: 0.05,
         rod_length: 0.31,
         rod_spacing: 0.08,
         bar: flat(0.02, 0.03),
-        rod: steel(0.014),
+        rod: round(0.014),
         joint_stiffness: [None; 6],
         drive_stiffness: None,
         elements: 1,
     }
 }
 
-pub(crate) fn exechon() -> Exechon {
+/// An Exechon.
+pub fn exechon() -> Exechon {
     Exechon {
         base_width: 0.9,
         base_depth: 0.5,
         platform_width: 0.3,
         platform_depth: 0.18,
         housing: flat(0.08, 0.06),
-        ram: steel(0.05),
+        ram: round(0.05),
         joint_stiffness: [None; 6],
         drive_stiffness: None,
         elements: 1,
     }
 }
 
-/// A mechanism with some of its poses and the counts that the literature gives it.
-pub(crate) struct Case {
-    pub(crate) mechanism: Box<dyn Prebuilt>,
-    pub(crate) poses: Vec<[f64; 3]>,
-    /// Mobility and degree of over-constraint.
-    pub(crate) counts: [usize; 2],
-}
-
-pub(crate) fn cases() -> Vec<Case> {
-    let case = |mechanism: Box<dyn Prebuilt>, poses: &[[f64; 3]], counts| Case {
-        mechanism,
-        poses: poses.to_vec(),
-        counts,
+/// The mechanisms, rigid and elastic, with poses and counts.
+pub fn cases() -> Vec<Case> {
+    let case = |mechanism: Box<dyn Prebuilt>, poses: &[[f64; 3]; 3], counts: [usize; 2]| {
+        let (middle, span) = match mechanism.kind() {
+            "PlanarThreeRrr" => ([0.0; 3], [0.06, 0.06, 0.4]),
+            "SphericalThreeRrr" => ([0.0, 0.0, 0.4], [0.3; 3]),
+            "Exechon" => ([0.0, 0.0, poses[0][2]], [0.3; 3]),
+            _ => ([0.0; 3], [0.1; 3]),
+        };
+        Case {
+            mechanism,
+            poses: poses.iter().map(|pose| pose.to_vec()).collect(),
+            middle: middle.to_vec(),
+            span: span.to_vec(),
+            counts: [counts[0], counts[1], 0],
+        }
     };
     let in_plane = [[0.0, 0.0, 0.0], [0.03, -0.02, 0.3], [-0.05, 0.04, -0.25]];
     let turns = [[0.0, 0.0, 0.5], [0.2, -0.1, 0.3], [-0.3, 0.25, 0.6]];
@@ -191,15 +180,4 @@ pub(crate) fn cases() -> Vec<Case> {
             [3, 2],
         ),
     ]
-}
-
-/// The mechanism in a pose, with a load on its output.
-pub(crate) fn loaded(mechanism: &dyn Prebuilt, pose: &[f64]) -> Model {
-    let mut model = mechanism
-        .model(pose)
-        .unwrap_or_else(|error| panic!("{} {pose:?}: {error}", mechanism.kind()));
-    let output = model.output().expect("an output");
-    let wrench = Vector6::new(-20.0, 10.0, 100.0, 5.0, 5.0, 8.0);
-    model.add_load(output, wrench).expect("a finite load");
-    model
 }

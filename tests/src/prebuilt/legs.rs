@@ -1,37 +1,14 @@
-//! The mechanisms under test, with some of their poses.
+//! Mechanisms with telescopic legs and driven carriages: hexapods, linear deltas, Tricepts, 3-RPS
+//! and 3-PRS.
 
-use hyperstat_assembly::{Model, Solution, solve};
-use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_mechanisms::prebuilt::{
-    CarriageSide, FootJoint, Hexapod, LinearDelta, Link, Prebuilt, Rails, TelescopicLeg, ThreePrs,
+    CarriageSide, FootJoint, Hexapod, LinearDelta, Prebuilt, Rails, TelescopicLeg, ThreePrs,
     ThreeRps, Tricept,
 };
-use nalgebra::{Point3, Vector6};
 
-/// Elastic joints, each direction with another stiffness.
-pub const BEARINGS: [Option<f64>; 6] =
-    [Some(1e8), Some(2e8), Some(3e8), Some(1e5), None, Some(2e5)];
+use super::{BEARINGS, Case, flat, round, tube};
 
-fn link(shape: SectionShape) -> Link {
-    Link {
-        section: Section::new(shape, None, None).expect("a valid section"),
-        material: Material::new(2.1e11, Elasticity::Poisson(0.3), None).expect("steel"),
-    }
-}
-
-pub fn round(diameter: f64) -> Link {
-    link(SectionShape::Circle { diameter })
-}
-
-pub fn tube(outer: f64, inner: f64) -> Link {
-    link(SectionShape::Tube { outer, inner })
-}
-
-/// A section that is not alike in all directions, so that a wrong local y shows.
-pub fn flat(width: f64, height: f64) -> Link {
-    link(SectionShape::Rectangle { width, height })
-}
-
+/// A leg of 0.5 m to 1.3 m.
 pub fn leg() -> TelescopicLeg {
     TelescopicLeg {
         cylinder: flat(0.03, 0.05),
@@ -41,6 +18,7 @@ pub fn leg() -> TelescopicLeg {
     }
 }
 
+/// A hexapod with universal base joints.
 pub fn hexapod() -> Hexapod {
     Hexapod {
         base_radius: 0.5,
@@ -55,8 +33,13 @@ pub fn hexapod() -> Hexapod {
     }
 }
 
+/// Edge of the cube of [`cubic`] (m).
 pub const EDGE: f64 = 0.6;
 
+/// The cubic hexapod with legs of [`EDGE`] at home.
+///
+/// # Panics
+/// Never.
 pub fn cubic() -> Hexapod {
     let leg = TelescopicLeg {
         cylinder_length: 0.3,
@@ -66,6 +49,7 @@ pub fn cubic() -> Hexapod {
     Hexapod::cubic(EDGE, leg).expect("a cube")
 }
 
+/// A linear delta on upright rails.
 pub fn linear_delta() -> LinearDelta {
     LinearDelta {
         rails: Rails {
@@ -104,6 +88,7 @@ pub fn tricept() -> Tricept {
     }
 }
 
+/// A 3-RPS.
 pub fn three_rps() -> ThreeRps {
     ThreeRps {
         base_radius: 0.4,
@@ -115,6 +100,7 @@ pub fn three_rps() -> ThreeRps {
     }
 }
 
+/// A 3-PRS on upright rails.
 pub fn three_prs() -> ThreePrs {
     ThreePrs {
         rails: Rails {
@@ -130,16 +116,6 @@ pub fn three_prs() -> ThreePrs {
     }
 }
 
-/// A mechanism with some of its poses and the counts that the literature gives it.
-pub struct Case {
-    pub mechanism: Box<dyn Prebuilt>,
-    pub poses: Vec<Vec<f64>>,
-    /// How far from the first pose others are in reach.
-    pub span: f64,
-    /// Mobility, degree of over-constraint and idle motions.
-    pub counts: [usize; 3],
-}
-
 fn case<const N: usize>(
     mechanism: impl Prebuilt + 'static,
     poses: &[[f64; N]],
@@ -149,11 +125,13 @@ fn case<const N: usize>(
     Case {
         mechanism: Box::new(mechanism),
         poses: poses.iter().map(|pose| pose.to_vec()).collect(),
-        span,
+        middle: poses[0].to_vec(),
+        span: vec![span; N],
         counts,
     }
 }
 
+/// The mechanisms, rigid and elastic, with poses and counts.
 pub fn cases() -> Vec<Case> {
     let full = [
         [0.0, 0.0, 0.8, 0.0, 0.0, 0.0],
@@ -255,25 +233,4 @@ pub fn cases() -> Vec<Case> {
             [3, 0, 0],
         ),
     ]
-}
-
-pub fn loaded(mechanism: &dyn Prebuilt, pose: &[f64]) -> Model {
-    let mut model = mechanism
-        .model(pose)
-        .unwrap_or_else(|error| panic!("{} {pose:?}: {error}", mechanism.kind()));
-    let output = model.output().expect("an output");
-    let wrench = Vector6::new(-20.0, 10.0, 100.0, 5.0, 5.0, 8.0);
-    model.add_load(output, wrench).expect("a finite load");
-    model
-}
-
-pub fn solved(mechanism: &dyn Prebuilt, pose: &[f64]) -> Solution {
-    let model = loaded(mechanism, pose);
-    solve(&model).unwrap_or_else(|error| panic!("{} {pose:?}: {error}", mechanism.kind()))
-}
-
-/// Position of a point of a body (m).
-pub fn position(model: &Model, body: &str, point: &str) -> Point3<f64> {
-    let node = model.node(body, point).expect("a node");
-    model.geometry().positions[node.0]
 }
