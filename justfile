@@ -25,9 +25,14 @@ doc:
 book:
     mdbook build docs
 
-# Benches, the reference solver beside ours
+# Benches, each beside its baseline, and what they measured as tables
 bench:
     cargo bench -p hyperstat-benches
+    cargo run --release -p hyperstat-benches --bin ratios
+
+# What one core of this machine can do at most
+peak:
+    cargo run --release -p hyperstat-benches --bin peak
 
 # The README's main command
 paper:

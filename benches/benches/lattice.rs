@@ -1,0 +1,38 @@
+//! Lattices of welded beams: cubes, whose factors fill in as everything in space does, and towers,
+//! which grow along one axis as mechanisms do. Some thousand unknowns; with
+//! `HYPERSTAT_BENCH_LARGE=1` up to 1e5.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use hyperstat_tests::lattice::lattice;
+
+/// Nodes along x, y and z; the last two of each family are large.
+const FAMILIES: [(&str, [[usize; 3]; 4]); 2] = [
+    ("cube", [[5, 5, 5], [7, 7, 7], [12, 12, 12], [26, 26, 26]]),
+    ("tower", [[5, 5, 5], [5, 5, 14], [5, 5, 68], [5, 5, 668]]),
+];
+
+fn sizes(c: &mut Criterion) {
+    let large = std::env::var_os("HYPERSTAT_BENCH_LARGE").is_some();
+    let mut group = c.benchmark_group("lattice");
+    group
+        .sample_size(10)
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_secs(1));
+    for (family, sizes) in FAMILIES {
+        let count = if large { sizes.len() } else { 2 };
+        for [nx, ny, nz] in sizes.into_iter().take(count) {
+            let model = lattice(nx, ny, nz);
+            let unknowns = 6 * nx * ny * (nz - 1);
+            group.bench_function(format!("{family}, {unknowns} unknowns"), |b| {
+                b.iter(|| hyperstat_assembly::solve(black_box(&model)));
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, sizes);
+criterion_main!(benches);

@@ -1,0 +1,140 @@
+//! A job's poses by every method that there is.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Plan, Workspace};
+use hyperstat_mechanisms::Job;
+use hyperstat_reference::{TraditionalOptions, traditional};
+
+/// Springs for what is rigid or free, as good as they get on the delta.
+const SPRINGS: TraditionalOptions = TraditionalOptions {
+    joint_stiffness: 1e13,
+    angular_stiffness: 1e13,
+    free_stiffness: 1e-7,
+};
+
+/// A job made ready. Every method starts from the pose's numbers and ends with the output's
+/// stiffness and displacement; inverse kinematics is a part of it.
+pub struct Sweep<'a> {
+    job: &'a Job,
+    model: Model,
+    plan: Plan,
+    geometry: Geometry,
+    workspace: Workspace,
+    lanes: Lanes,
+}
+
+impl<'a> Sweep<'a> {
+    /// Works out the topology.
+    ///
+    /// # Panics
+    /// Where the job has no model or no plan.
+    pub fn new(job: &'a Job) -> Self {
+        let model = job.model().expect("a pose within reach");
+        let plan = Plan::new(&model).expect("a plan");
+        Self {
+            job,
+            geometry: model.geometry().clone(),
+            workspace: plan.workspace(),
+            lanes: plan.lanes(&model),
+            model,
+            plan,
+        }
+    }
+
+    /// Number of independent coordinates.
+    pub fn unknowns(&self) -> usize {
+        self.plan.unknowns()
+    }
+
+    /// Multiplications with an addition of the factorization of a pose in the lanes; zero where
+    /// the mechanism goes one by one.
+    pub fn factor_operations(&self) -> usize {
+        self.lanes.factor_operations()
+    }
+
+    /// How many of the job's poses the lanes hand on to the one-by-one path.
+    ///
+    /// # Panics
+    /// Where a pose has no result.
+    pub fn handed_on(&mut self) -> u64 {
+        let before = self.lanes.one_by_one();
+        for first in (0..self.job.len()).step_by(LANES) {
+            self.in_lanes(first);
+        }
+        self.lanes.one_by_one() - before
+    }
+
+    /// [`LANES`] poses from `first` on together, by `Plan::sweep_lanes`.
+    ///
+    /// # Panics
+    /// Where a pose has no result.
+    pub fn in_lanes(&mut self, first: usize) {
+        self.place_lanes(first);
+        self.solve_lanes();
+    }
+
+    /// What [`Sweep::in_lanes`] does first: inverse kinematics into the lanes.
+    ///
+    /// # Panics
+    /// As there.
+    pub fn place_lanes(&mut self, first: usize) {
+        for lane in 0..LANES {
+            let placed = self.job.place(first + lane, self.lanes.geometry_mut(lane));
+            black_box(placed.expect("a pose within reach"));
+        }
+    }
+
+    /// What [`Sweep::in_lanes`] does then.
+    ///
+    /// # Panics
+    /// As there.
+    pub fn solve_lanes(&mut self) {
+        let results = self
+            .plan
+            .sweep_lanes(&self.model, &mut self.lanes, [true; LANES]);
+        for result in results {
+            black_box(result.expect("a filled lane").expect("a result"));
+        }
+    }
+
+    /// One pose by `Plan::sweep`, faer's sparse Cholesky in it.
+    ///
+    /// # Panics
+    /// Where the pose has no result.
+    pub fn one_by_one(&mut self, pose: usize) {
+        let placed = self.job.place(pose, &mut self.geometry);
+        black_box(placed.expect("a pose within reach"));
+        let found = self
+            .plan
+            .sweep(&self.model, &self.geometry, &mut self.workspace);
+        black_box(found.expect("a result"));
+    }
+
+    /// One pose by the traditional method: all nodes' coordinates, rigid bodies by Lagrange
+    /// multipliers, joints by springs, one dense LU.
+    ///
+    /// # Panics
+    /// Where the pose has no result.
+    pub fn dense(&mut self, pose: usize) {
+        let placed = self.job.place(pose, &mut self.geometry);
+        black_box(placed.expect("a pose within reach"));
+        self.model.set_geometry(self.geometry.clone());
+        let found = traditional(&self.model, &SPRINGS);
+        black_box(found.expect("a result"));
+    }
+
+    /// Time that `poses` poses take, [`LANES`] at a time through `solve`, which is given the
+    /// number of the first: a multiple of [`LANES`]. The job's poses come in turn.
+    pub fn time(&mut self, poses: u64, mut solve: impl FnMut(&mut Self, usize)) -> Duration {
+        let groups = poses.div_ceil(LANES as u64);
+        let own = (self.job.len() / LANES) as u64;
+        let start = Instant::now();
+        for group in 0..groups {
+            solve(self, (group % own) as usize * LANES);
+        }
+        let solved = groups * LANES as u64;
+        start.elapsed().mul_f64(poses as f64 / solved as f64)
+    }
+}
