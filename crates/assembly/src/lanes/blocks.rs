@@ -13,8 +13,6 @@ use super::program::{Axes, BeamElement, HeldElement};
 
 /// A `y_axis` closer than this to the beam (sine of the angle) counts as along it.
 const ALONG: f64 = 1e-6;
-/// The global z axis serves as local z unless the beam is closer to it than this (cosine).
-const UPRIGHT: f64 = 0.9;
 
 /// Place of block (r, s), r ≤ s.
 #[inline(always)]
@@ -46,26 +44,16 @@ fn unit<S: Simd>(v: &Vec3<S>) -> Vec3<S> {
     scaled(v, dot(v, v).sqrt().recip())
 }
 
-/// Unit vectors of an element frame as rows, by the rules of
-/// [`element_frame`](hyperstat_elements::element_frame); not numbers where it has none.
+/// Unit vectors of an element frame as rows, as
+/// [`element_frame`](hyperstat_elements::element_frame) has them; not numbers where it has none.
 #[inline(always)]
-fn element_axes<S: Simd>(x: &Vec3<S>, y_axis: Option<Vec3<S>>) -> Mat3<S> {
-    let zero = x[0].constant(0.0);
-    let one = x[0].constant(1.0);
-    if let Some(given) = y_axis {
-        let part = normal_part(&unit(&given), x);
-        let (size, nan) = (dot(&part, &part), x[0].constant(f64::NAN));
-        let size = size.if_above(x[0].constant(ALONG * ALONG), size, nan);
-        let part = scaled(&part, size.sqrt().recip());
-        let y = unit(&normal_part(&part, x));
-        [*x, y, cross(x, &y)]
-    } else {
-        let steep = x[0].constant(UPRIGHT);
-        let up_x = x[2].abs().if_above(steep, one, zero);
-        let up = [up_x, zero, one - up_x];
-        let z = unit(&normal_part(&unit(&normal_part(&up, x)), x));
-        [*x, cross(&z, x), z]
-    }
+fn element_axes<S: Simd>(x: &Vec3<S>, y_axis: &Vec3<S>) -> Mat3<S> {
+    let part = normal_part(&unit(y_axis), x);
+    let (size, nan) = (dot(&part, &part), x[0].constant(f64::NAN));
+    let size = size.if_above(x[0].constant(ALONG * ALONG), size, nan);
+    let part = scaled(&part, size.sqrt().recip());
+    let y = unit(&normal_part(&part, x));
+    [*x, y, cross(x, &y)]
 }
 
 /// `Σ cₖ aₖ aₖᵀ` over rows aₖ.
@@ -150,20 +138,8 @@ pub(super) fn beam<S: Simd>(
     let tension = Lane::splat(simd, beam.axial) * per_length;
     let torsion = Lane::splat(simd, beam.torsional) * per_length;
     let (t, b, c, d);
-    if beam.is_round() {
-        let [deflection, moment, same, other] = bending(beam.bending[0], beam.shear[0], per_length);
-        t = axial(&x, deflection, tension);
-        c = axial(&x, same, torsion);
-        d = axial(&x, other, -torsion);
-        let [x0, x1, x2] = scaled(&x, moment);
-        let zero = Lane::splat(simd, 0.0);
-        b = [[zero, x2, -x1], [-x2, zero, x0], [x1, -x0, zero]];
-    } else {
-        let y_axis = match beam.y_axis {
-            Some(place) => Some(vector(simd, inputs, place)),
-            None => None,
-        };
-        let axes = element_axes(&x, y_axis);
+    if let Some(y_axis) = beam.y_axis {
+        let axes = element_axes(&x, &vector(simd, inputs, y_axis));
         let [dz, mz, same_y, other_y] = bending(beam.bending[0], beam.shear[0], per_length);
         let [dy, my, same_z, other_z] = bending(beam.bending[1], beam.shear[1], per_length);
         t = spectral(&axes, [tension, dy, dz]);
@@ -171,6 +147,14 @@ pub(super) fn beam<S: Simd>(
         d = spectral(&axes, [-torsion, other_y, other_z]);
         let (y, z) = (scaled(&axes[1], my), scaled(&axes[2], mz));
         b = three!(i => three!(j => y[i].mul_add(axes[2][j], -(z[i] * axes[1][j]))));
+    } else {
+        let [deflection, moment, same, other] = bending(beam.bending[0], beam.shear[0], per_length);
+        t = axial(&x, deflection, tension);
+        c = axial(&x, same, torsion);
+        d = axial(&x, other, -torsion);
+        let [x0, x1, x2] = scaled(&x, moment);
+        let zero = Lane::splat(simd, 0.0);
+        b = [[zero, x2, -x1], [-x2, zero, x0], [x1, -x0, zero]];
     }
     let minus_b = negated(&b);
     let minus_b_t = transposed(&minus_b);
@@ -187,11 +171,7 @@ pub(super) fn held_axes<S: Simd>(simd: S, held: &HeldElement, inputs: &[S::f64s]
         Axes::Segment(y_axis) => {
             let span = arm(simd, inputs, [held.points[0], held.points[1]]);
             let x = scaled(&span, dot(&span, &span).sqrt().recip());
-            let y_axis = match y_axis {
-                Some(place) => Some(vector(simd, inputs, place)),
-                None => None,
-            };
-            element_axes(&x, y_axis)
+            element_axes(&x, &vector(simd, inputs, y_axis))
         }
     };
     transposed(&rows)

@@ -1,5 +1,6 @@
 //! What the lanes read of a geometry, three numbers at a time.
 
+use hyperstat_elements::element_frame;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::kinematics::characteristic_length;
@@ -13,7 +14,7 @@ pub(super) type Point = usize;
 enum Source {
     Position(NodeId),
     FrameColumn(JointId, usize),
-    YAxis(SegmentId),
+    YAxis(SegmentId, [NodeId; 2]),
     RotationColumn(FlexibleId, usize),
 }
 
@@ -86,9 +87,9 @@ impl Inputs {
         self.place(Source::FrameColumn(joint, column))
     }
 
-    /// Place of the direction of a segment's local y.
-    pub fn y_axis(&mut self, segment: SegmentId) -> usize {
-        self.place(Source::YAxis(segment))
+    /// Place of the direction of local y of a segment, run through from one node to the other.
+    pub fn y_axis(&mut self, segment: SegmentId, ends: [NodeId; 2]) -> usize {
+        self.place(Source::YAxis(segment, ends))
     }
 
     /// Place of a column of a flexible body's rotation.
@@ -106,7 +107,10 @@ impl Inputs {
             let vector = match *source {
                 Source::Position(node) => geometry.positions[node.0].coords,
                 Source::FrameColumn(joint, c) => column(&geometry.frames[joint.0], c),
-                Source::YAxis(segment) => geometry.y_axes[segment.0].unwrap_or(Vector3::zeros()),
+                Source::YAxis(segment, ends) => match geometry.y_axes[segment.0] {
+                    Some(given) => given,
+                    None => upright(geometry, ends),
+                },
                 Source::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
             };
             out[lane] = vector.x;
@@ -114,4 +118,13 @@ impl Inputs {
             out[2 * width + lane] = vector.z;
         }
     }
+}
+
+/// Local y of a segment whose section stands upright; zero, which no lane takes, where it has none.
+fn upright(geometry: &Geometry, [from, to]: [NodeId; 2]) -> Vector3<f64> {
+    let span = geometry.positions[to.0] - geometry.positions[from.0];
+    let frame = element_frame(&span, None);
+    frame.map_or(Vector3::zeros(), |frame| {
+        frame.matrix().column(1).into_owned()
+    })
 }

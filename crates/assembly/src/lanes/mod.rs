@@ -22,6 +22,8 @@ mod lane;
 mod pass;
 mod program;
 mod scatter;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -80,7 +82,10 @@ impl Plan {
     /// Poses and buffers for one thread, for a model of the topology that the plan was made for.
     /// The poses are in the model's configuration.
     pub fn lanes(&self, model: &Model) -> Lanes {
-        let arch = Arch::new();
+        self.lanes_on(model, Arch::new())
+    }
+
+    fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
         let engine = Program::new(self, model, model.geometry()).map(|program| {
             let buffers = Buffers::new(&program, width);

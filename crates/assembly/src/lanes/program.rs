@@ -14,7 +14,7 @@ use hyperstat_joints::Dof;
 use nalgebra::{DVector, Matrix6, Vector6};
 
 use crate::cluster::{cluster_frame, local_joints, prismatic_beam};
-use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
+use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId};
 use crate::numeric::evaluate;
 use crate::plan::{Plan, Source};
 use crate::restraint::{Restraint, scaled};
@@ -26,7 +26,7 @@ use super::inputs::{Inputs, Point};
 use super::scatter::Scatter;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
-const MOST_COORDINATES: usize = 2000;
+const MOST_COORDINATES: usize = 600;
 /// Nodes of a joint farther apart than this share of the mechanism's size are no one point.
 const APART: f64 = 1e-9;
 /// Entries of idle motions below this are none.
@@ -111,7 +111,7 @@ pub(super) enum Kind {
 #[derive(Debug)]
 pub(super) struct BeamElement {
     pub ends: [Point; 2],
-    /// Direction of local y (a place in the inputs); `None`: the section stands upright.
+    /// Direction of local y (a place in the inputs); `None` where it bends alike in all directions.
     pub y_axis: Option<usize>,
     pub axial: f64,
     pub torsional: f64,
@@ -119,13 +119,6 @@ pub(super) struct BeamElement {
     pub bending: [f64; 2],
     /// `12 E I / G A_s` of deflection along z and y.
     pub shear: [f64; 2],
-}
-
-impl BeamElement {
-    /// Whether it bends alike in all directions.
-    pub fn is_round(&self) -> bool {
-        self.bending[0] == self.bending[1] && self.shear[0] == self.shear[1]
-    }
 }
 
 /// A body's stiffness as it is in the plan's own configuration, and what it depends on.
@@ -149,7 +142,7 @@ pub(super) struct HeldElement {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Axes {
     /// Those of the segment from point 0 to point 1, with the place of its local y's direction.
-    Segment(Option<usize>),
+    Segment(usize),
     /// The rotation of a flexible body (places of its columns).
     Flexible([usize; 3]),
 }
@@ -445,16 +438,11 @@ fn beam_element(cluster: &Cluster, model: &Model, inputs: &mut Inputs) -> Option
         bending,
         shear: [12.0 * bending[0] * shear_z, 12.0 * bending[1] * shear_y],
     };
-    if !element.is_round() {
-        element.y_axis = y_axis(*id, model, inputs);
+    let [across, upwards] = element.bending;
+    if across != upwards || element.shear[0] != element.shear[1] {
+        element.y_axis = Some(inputs.y_axis(*id, [cluster.nodes[0], cluster.nodes[1]]));
     }
     Some(element)
-}
-
-/// Place of the direction of a segment's local y, where one is given.
-fn y_axis(segment: SegmentId, model: &Model, inputs: &mut Inputs) -> Option<usize> {
-    let given = model.geometry().y_axes[segment.0].is_some();
-    given.then(|| inputs.y_axis(segment))
 }
 
 /// A cluster about to become a held element.
@@ -497,7 +485,10 @@ impl Held<'_> {
             points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
             axes: match cluster.flexible {
                 Some(id) => Axes::Flexible(rotation(id, inputs)),
-                None => Axes::Segment(y_axis(cluster.segments[0].0, model, inputs)),
+                None => {
+                    let ends = [cluster.nodes[0], cluster.nodes[1]];
+                    Axes::Segment(inputs.y_axis(cluster.segments[0].0, ends))
+                }
             },
             stiffness,
             stiffness_start,
