@@ -128,6 +128,20 @@ pub(crate) fn prismatic_beam(model: &Model, id: SegmentId) -> Option<Beam> {
     }
 }
 
+/// Writes the arms of a cluster; returns the turn to its axes.
+fn place_cluster(
+    cluster: &Cluster,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<Rotation3<f64>, SolveError> {
+    let to_local = cluster_frame(cluster, geometry)?.inverse();
+    let base = geometry.positions[cluster.nodes[0].0];
+    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
+        *arm = geometry.positions[node.0] - base;
+    }
+    Ok(to_local)
+}
+
 /// Forms the operator and the stiffness of a cluster's element, and its initial deformations.
 pub(crate) fn cluster_element(
     plan: &Plan,
@@ -137,11 +151,7 @@ pub(crate) fn cluster_element(
     geometry: &Geometry,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
-    let to_local = cluster_frame(cluster, geometry)?.inverse();
-    let base = geometry.positions[cluster.nodes[0].0];
-    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
-        *arm = geometry.positions[node.0] - base;
-    }
+    let to_local = place_cluster(cluster, geometry, workspace)?;
     operator(plan, element, &to_local, workspace);
     stiffness(
         plan, element, cluster, &to_local, model, geometry, workspace,
@@ -157,11 +167,7 @@ pub(crate) fn cluster_stiffness(
     geometry: &Geometry,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
-    let to_local = cluster_frame(cluster, geometry)?.inverse();
-    let base = geometry.positions[cluster.nodes[0].0];
-    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
-        *arm = geometry.positions[node.0] - base;
-    }
+    let to_local = place_cluster(cluster, geometry, workspace)?;
     stiffness(
         plan, element, cluster, &to_local, model, geometry, workspace,
     )

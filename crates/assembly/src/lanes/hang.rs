@@ -22,13 +22,16 @@ use crate::model::NodeId;
 /// An element is much stiffer than others below this share of its stiffness.
 const DOMINATED: f64 = 0.3;
 
+/// Coordinates of a root.
+const ROOT: usize = 6;
+
 /// A component that hangs on a neighbour, within a front.
 #[derive(Debug)]
 pub(super) struct Hang {
     /// Places of its root's coordinates.
     pub places: [usize; 6],
     /// Places of the neighbour's root's coordinates.
-    pub root: Option<[usize; 6]>,
+    pub root: [usize; 6],
     /// Its screws, with their places.
     pub screws: Vec<(usize, usize)>,
     /// From the neighbour's reference point to its own, where they differ.
@@ -129,7 +132,7 @@ pub(super) fn hang(
             hung_elements[stiffest] = true;
             front.hangs.push(Hang {
                 places,
-                root: Some(target_places),
+                root: target_places,
                 screws,
                 arm: inputs.arm(reference, references[&root]),
                 part,
@@ -191,26 +194,11 @@ pub(super) fn make_relative<S: Simd>(
     // Gains of every row and target: A_P T.
     for (own, gains) in places.own.iter().zip(gains.chunks_exact_mut(count)) {
         let row: Column<S> = six!(q => Lane::new(simd, matrix.entries[own[q] as usize]));
-        let (turns, screws) = if hang.root.is_some() {
-            let turned = match &arm {
-                Some(arm) => add(
-                    &[row[3], row[4], row[5]],
-                    &cross(arm, &[row[0], row[1], row[2]]),
-                ),
-                None => [row[3], row[4], row[5]],
-            };
-            let (root, screws) = gains.split_at_mut(6);
-            for k in 0..3 {
-                root[k] = row[k].value;
-            }
-            (Some((root, turned)), screws)
-        } else {
-            (None, gains)
-        };
-        if let Some((root, turned)) = turns {
-            for k in 0..3 {
-                root[3 + k] = turned[k].value;
-            }
+        let turned = turned(&row, &arm);
+        let (root, screws) = gains.split_at_mut(6);
+        for k in 0..3 {
+            root[k] = row[k].value;
+            root[3 + k] = turned[k].value;
         }
         for ((screw, _), gain) in hang.screws.iter().zip(screws) {
             *gain = work_of(&twist(simd, *screw, motion, &arm), &row).value;
@@ -219,17 +207,10 @@ pub(super) fn make_relative<S: Simd>(
     // Between targets: A_CP T and its transpose, and Tᵀ A_PP T.
     for (b, &column) in places.targets.iter().enumerate() {
         let inner: Column<S> = six!(q => Lane::new(simd, gains[hang.places[q] * count + b]));
-        let turned = match &arm {
-            Some(arm) => add(
-                &[inner[3], inner[4], inner[5]],
-                &cross(arm, &[inner[0], inner[1], inner[2]]),
-            ),
-            None => [inner[3], inner[4], inner[5]],
-        };
-        let roots = if hang.root.is_some() { 6 } else { 0 };
+        let turned = turned(&inner, &arm);
         for (a, &row) in places.targets.iter().enumerate().skip(b) {
-            let energy = if a >= roots {
-                let (screw, _) = hang.screws[a - roots];
+            let energy = if a >= ROOT {
+                let (screw, _) = hang.screws[a - ROOT];
                 work_of(&twist(simd, screw, motion, &arm), &inner)
             } else if a < 3 {
                 inner[a]
@@ -244,8 +225,8 @@ pub(super) fn make_relative<S: Simd>(
         // The entries' errors, as if the component's were the target's own.
         let mut error = Lane::new(simd, matrix.errors[column]);
         let own: Column<S> = six!(q => Lane::new(simd, matrix.errors[hang.places[q]]));
-        if b >= roots {
-            let (screw, _) = hang.screws[b - roots];
+        if b >= ROOT {
+            let (screw, _) = hang.screws[b - ROOT];
             let twist = twist(simd, screw, motion, &arm);
             for q in 0..6 {
                 error = (twist[q] * twist[q]).mul_add(own[q], error);
@@ -272,6 +253,16 @@ pub(super) fn make_relative<S: Simd>(
 
 /// Six numbers of one row, or of one twist.
 type Column<S> = [Lane<S>; 6];
+
+/// The angular part of a row, for turns about the neighbour's reference point.
+#[inline(always)]
+fn turned<S: Simd>(row: &Column<S>, arm: &Option<Vec3<S>>) -> Vec3<S> {
+    let angular = [row[3], row[4], row[5]];
+    match arm {
+        Some(arm) => add(&angular, &cross(arm, &[row[0], row[1], row[2]])),
+        None => angular,
+    }
+}
 
 /// A screw of the neighbour at the component's reference point.
 #[inline(always)]

@@ -342,7 +342,7 @@ impl Program {
                 loads.push(NodeLoad { node, wrench });
             }
         }
-        let idle = idle_coordinates(plan, model, geometry, &screws, &placed)?;
+        let idle = idle_coordinates(plan, model, geometry, &placed)?;
         let output = topology.output_start..topology.output_start + 6;
         let inner_load = elements.iter().any(has_inner_load)
             || loads
@@ -532,7 +532,6 @@ fn idle_coordinates(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
-    screws: &[Screw],
     placed: &[Option<Placed>],
 ) -> Option<Vec<usize>> {
     if !plan.has_idle {
@@ -567,6 +566,5 @@ fn idle_coordinates(
         }
         columns.push(column);
     }
-    debug_assert!(screws.len() <= topology.coordinates);
     Some(crate::restraint::largest_minor(columns, STILL))
 }

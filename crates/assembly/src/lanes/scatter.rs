@@ -67,8 +67,11 @@ impl Scatter {
         }
         for hang in &front.hangs {
             let own = (0..size).map(|i| hang.places.map(|p| entry(size, i, p) as u32));
-            let root = hang.root.into_iter().flatten();
-            let targets: Vec<usize> = root.chain(hang.screws.iter().map(|(_, p)| *p)).collect();
+            let targets: Vec<usize> = hang
+                .root
+                .into_iter()
+                .chain(hang.screws.iter().map(|(_, p)| *p))
+                .collect();
             let entries = (0..size).flat_map(|i| targets.iter().map(move |t| (i, *t)));
             scatter.hangs.push(HangPlaces {
                 own: own.collect(),
