@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-#[path = "../../crates/mechanisms/tests/fuzzing/mod.rs"]
+#[path = "../../crates/mechanisms/tests/all/fuzzing/mod.rs"]
 mod fuzzing;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {

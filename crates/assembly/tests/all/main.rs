@@ -1,0 +1,4 @@
+//! The tests of the assembly crate: one program, so that they are linked once.
+
+mod output;
+mod semidefinite;

@@ -1,0 +1,6 @@
+//! The tests of loop closure: one program, so that they are linked once.
+
+mod joints;
+mod loops;
+mod planar;
+mod support;

@@ -1,0 +1,12 @@
+//! The tests of the elements crate: one program, so that they are linked once.
+
+mod beam;
+mod delta;
+mod flexible;
+mod frequencies;
+mod loads;
+mod mass;
+mod stress;
+mod subassembly;
+mod support;
+mod taper;

@@ -1,0 +1,10 @@
+//! The tests of the mechanisms crate: one program, so that they are linked once.
+
+mod batches;
+mod broken;
+mod corpus;
+mod designs;
+mod fuzzing;
+mod loading;
+mod mutations;
+mod writing;
