@@ -19,6 +19,7 @@ mod error;
 mod jacobian;
 mod kinematics;
 mod lanes;
+mod modal;
 mod model;
 mod numeric;
 mod parts;
@@ -35,6 +36,7 @@ mod topology;
 pub use error::{ModelError, SolveError};
 pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
+pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
 pub use model::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
     Load, Member, Model, Node, NodeId, NodeMass, Segment, SegmentId,

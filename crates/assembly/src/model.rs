@@ -1,5 +1,8 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
+mod divided;
+mod turn;
+
 use std::collections::{HashMap, HashSet};
 
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
@@ -277,7 +280,8 @@ impl Model {
         self.loads.clear();
     }
 
-    /// Adds a mass at a node, beside the mass that beams have by their density.
+    /// Adds a mass at a node, beside the mass that beams have by their density: its inertia in
+    /// global axes, the model being in the configuration it is in now.
     pub fn add_mass(&mut self, node: NodeId, mass: RigidMass) {
         self.masses.push(NodeMass { node, mass });
     }
@@ -289,8 +293,10 @@ impl Model {
 
     /// Puts the mechanism into another configuration of the same topology: `geometry` has as
     /// many positions, directions and frames as the model's own.
+    /// Masses of nodes turn with their bodies.
     pub fn set_geometry(&mut self, geometry: Geometry) {
         debug_assert_eq!(geometry.positions.len(), self.nodes.len());
+        self.masses = self.masses_at(&geometry);
         self.geometry = geometry;
     }
 

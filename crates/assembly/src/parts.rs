@@ -163,7 +163,7 @@ pub struct Load {
     pub wrench: Vector6<f64>,
 }
 
-/// Mass and inertia at a node, in global axes at the configuration the model was built in.
+/// Mass and inertia at a node, in global axes at the model's configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodeMass {
     /// Node that is the centre of mass; the mass moves with the node's body.
