@@ -37,7 +37,7 @@ pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
 pub use model::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Model, Node, NodeId, Segment, SegmentId,
+    Load, Member, Model, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;

@@ -2,14 +2,14 @@
 
 use std::collections::{HashMap, HashSet};
 
-use hyperstat_elements::{FlexibleBody, Material, Section, element_frame};
+use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
 use crate::parts::change_of_section;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Node, NodeId, Segment, SegmentId,
+    Load, Member, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 
 /// A mechanism in one configuration.
@@ -23,6 +23,7 @@ pub struct Model {
     flexibles: Vec<Flexible>,
     joints: Vec<Connection>,
     loads: Vec<Load>,
+    masses: Vec<NodeMass>,
     output: Option<NodeId>,
     geometry: Geometry,
     body_names: HashMap<String, BodyId>,
@@ -42,6 +43,7 @@ impl Model {
             flexibles: Vec::new(),
             joints: Vec::new(),
             loads: Vec::new(),
+            masses: Vec::new(),
             output: None,
             geometry: Geometry {
                 positions: Vec::new(),
@@ -275,6 +277,11 @@ impl Model {
         self.loads.clear();
     }
 
+    /// Adds a mass at a node, beside the mass that beams have by their density.
+    pub fn add_mass(&mut self, node: NodeId, mass: RigidMass) {
+        self.masses.push(NodeMass { node, mass });
+    }
+
     /// Makes `node` the output.
     pub fn set_output(&mut self, node: NodeId) {
         self.output = Some(node);
@@ -310,6 +317,10 @@ impl Model {
     /// All loads.
     pub fn loads(&self) -> &[Load] {
         &self.loads
+    }
+    /// All masses of nodes.
+    pub fn masses(&self) -> &[NodeMass] {
+        &self.masses
     }
     /// The output node, once it is set.
     pub fn output(&self) -> Option<NodeId> {
