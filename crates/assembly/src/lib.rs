@@ -19,6 +19,7 @@ mod error;
 mod jacobian;
 mod kinematics;
 mod lanes;
+pub mod measures;
 mod modal;
 mod model;
 mod numeric;
