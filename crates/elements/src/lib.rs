@@ -21,6 +21,7 @@ mod material;
 mod quadrature;
 mod rigid_mass;
 mod section;
+mod sensitivity;
 mod straight;
 pub mod stress;
 pub mod subassembly;
