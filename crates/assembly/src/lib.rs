@@ -10,6 +10,7 @@
 //! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
 //! full solve, which also refines, recovers and diagnoses.
 
+mod acting;
 mod cluster;
 mod condense;
 mod coordinates;
@@ -19,10 +20,12 @@ mod error;
 mod jacobian;
 mod kinematics;
 mod lanes;
+mod loads;
 pub mod measures;
 mod modal;
 mod model;
 mod numeric;
+mod orientation;
 mod parts;
 mod plan;
 mod recover;
@@ -39,11 +42,12 @@ pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
 pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
 pub use model::{
-    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Model, Node, NodeId, NodeMass, Segment, SegmentId,
+    Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
+    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
+    Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;
 pub use redundancy::{Redundancy, redundant_constraints};
-pub use solution::{Motion, Output, SegmentForces, Solution, Warning};
+pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
 pub use solve::{PoseResult, solve};

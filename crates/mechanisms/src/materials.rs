@@ -31,8 +31,8 @@ impl Profile {
 
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
-    let known = ["young", "poisson", "shear", "density"];
-    let fields = Fields::read(fragment, owner, &known, &["expansion", "yield"])?;
+    let known = ["young", "poisson", "shear", "density", "expansion", "yield"];
+    let fields = Fields::read(fragment, owner, &known, &[])?;
     let young = fields.number("young")?;
     let poisson = fields.optional_number("poisson")?;
     let shear = fields.optional_number("shear")?;
@@ -50,8 +50,20 @@ pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, 
                 .with_help("add one of them, such as `poisson: 0.3`"));
         }
     };
-    Material::new(young, elasticity, fields.optional_number("density")?)
-        .map_err(|error| fields.element_error(&error))
+    let density = fields.optional_number("density")?;
+    let expansion = fields.optional_number("expansion")?;
+    let yield_strength = fields.optional_number("yield")?;
+    let read = || -> Result<Material, ElementError> {
+        let mut material = Material::new(young, elasticity, density)?;
+        if let Some(expansion) = expansion {
+            material = material.with_expansion(expansion)?;
+        }
+        if let Some(yield_strength) = yield_strength {
+            material = material.with_yield_strength(yield_strength)?;
+        }
+        Ok(material)
+    };
+    read().map_err(|error| fields.element_error(&error))
 }
 
 /// Reads a section, or `Tapered(from: …, to: …)` with two sections.

@@ -90,8 +90,12 @@ pub(crate) struct Columns<'a> {
 impl<'a> Columns<'a> {
     /// Those of a job.
     pub(crate) fn of(job: &'a Job) -> Self {
+        let components = ["dx", "dy", "dz", "drx", "dry", "drz"];
+        let cases = job.cases().into_iter();
         Self {
-            further: Vec::new(),
+            further: cases
+                .flat_map(|case| components.map(|component| format!("{case}.{component}")))
+                .collect(),
             varied: job.varied(),
         }
     }
@@ -107,7 +111,7 @@ impl TryFrom<PoseResult> for Found {
         Ok(Self {
             displacement: result.displacement.ok_or(Failure::Free)?,
             stiffness: result.stiffness.ok_or(Failure::Rigid)?,
-            further: Vec::new(),
+            further: result.cases.iter().flatten().copied().map(Some).collect(),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! What `solve` and `check` print: plain data that JSON and the tables are both made from.
 
+mod cases;
 mod check;
 mod inner;
 mod solve;
@@ -14,6 +15,7 @@ use serde::{Serialize, Serializer};
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
+use inner::inner_displacements_of;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
 
@@ -38,6 +40,12 @@ pub(crate) struct Entries<T>(Vec<(String, T)>);
 impl<T> FromIterator<(String, T)> for Entries<T> {
     fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
         Self(entries.into_iter().collect())
+    }
+}
+
+impl<T> Entries<T> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 }
 
