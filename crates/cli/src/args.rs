@@ -64,6 +64,7 @@ Examples:
   hyperstat solve portal.ron --format json > portal.json
   hyperstat solve portal.ron --verify
   hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
+  hyperstat solve portal.ron --modes 6       Natural frequencies and modes too
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -84,7 +85,8 @@ DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no resul
   rigid          the output is rigidly held in some direction: it has no finite stiffness
   failed         the numbers could not be found
 A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
-one for every path that varies, with its value.
+one for every path that varies, with its value. A job with `modes: N` has its natural frequencies
+in columns f1, f2, ... [Hz] after k66.
 A pose without a result does not end the run; the exit status is then 1.
 A file is put in place when it is complete, never half written.
 
@@ -130,9 +132,22 @@ pub(crate) struct Solve {
     /// Report the displacements of the nodes between a segment's elements too, as `body.A-B.k`
     #[arg(long)]
     pub(crate) all_nodes: bool,
+    /// Find the N lowest natural frequencies and their modes [default: a job's `modes`]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    modes: Option<u16>,
+    /// With lumped masses: half of every element's at each of its ends, in translation only
+    #[arg(long)]
+    pub(crate) lumped: bool,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
+}
+
+impl Solve {
+    /// Number of natural frequencies that are asked for.
+    pub(crate) fn modes(&self) -> Option<usize> {
+        self.modes.map(usize::from)
+    }
 }
 
 /// `hyperstat run`

@@ -150,6 +150,14 @@ impl CliError {
                  in mm, a modulus in MPa or a stiffness far above all others is a slip"
                     .into(),
             ),
+            Self::Unsolvable {
+                source: SolveError::NoDensity { .. },
+                ..
+            } => Some("give its material a `density` in kg/m³; 0.0 is one without mass".into()),
+            Self::Unsolvable {
+                source: SolveError::NoMass,
+                ..
+            } => Some("give a material a `density`, or the mechanism `masses`".into()),
             Self::FreeOutput { drives, .. } => Some(format!(
                 "{}; `solve --allow-free` takes it as it is",
                 drives.help()

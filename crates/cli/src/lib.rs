@@ -23,7 +23,7 @@ use args::{Cli, Command, Format};
 use atomic::AtomicFile;
 use case::Case;
 use error::CliError;
-use report::{CheckReport, SolveReport, json};
+use report::{CheckReport, ModesReport, SolveReport, json};
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -76,6 +76,16 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut report = SolveReport::new(&case, &solution, verification);
     if args.all_nodes {
         report.add_displacements(case.inner_displacements(&solution)?);
+    }
+    if let Some(options) = case.modal_options(args) {
+        let found = case.modes(&options)?;
+        let wanted = options.count;
+        report.add_modes(ModesReport::new(
+            &case.model,
+            &found,
+            wanted,
+            args.all_nodes,
+        ));
     }
     print(&match args.format {
         Format::Text => report.text(),

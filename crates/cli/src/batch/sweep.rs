@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hyperstat_assembly::{LANES, Lanes, Model, Plan, SolveError};
+use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Model, Plan, SolveError};
 use hyperstat_mechanisms::{Design, Job, LoadError, Value};
 use rayon::{Scope, ThreadPool};
 
@@ -13,6 +13,9 @@ use super::record::{Columns, Failure, Found, Record};
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
+
+/// The same where natural frequencies make a row take long.
+const SHORT_CHUNK: usize = LANES;
 
 /// A job whose topology is worked out.
 #[derive(Debug)]
@@ -27,6 +30,8 @@ pub(crate) struct Sweep<'a> {
 struct Planned {
     model: Model,
     plan: Plan,
+    /// Where natural frequencies are asked for.
+    modal: Option<ModalPlan>,
 }
 
 /// Neighbouring rows of a job's table. Used again and again, so that nothing is allocated for it.
@@ -88,9 +93,9 @@ impl<'a> Sweep<'a> {
     pub(crate) fn new(job: &'a Job) -> Result<Self, Box<(Model, SolveError)>> {
         let first = match job.model() {
             Err(error) => Err(error.into()),
-            Ok(model) => match Plan::new(&model) {
+            Ok(model) => match Planned::of(&model, job) {
                 Err(error) => return Err(Box::new((model, error))),
-                Ok(plan) => Ok(Arc::new(Planned { model, plan })),
+                Ok(planned) => Ok(Arc::new(planned)),
             },
         };
         Ok(Self { job, first })
@@ -134,8 +139,12 @@ impl<'a> Sweep<'a> {
             render(chunk);
         };
         let further = Columns::of(self.job).further.len();
-        let chunks = (0..self.len()).step_by(CHUNK);
-        let mut ranges = chunks.map(|first| first..(first + CHUNK).min(self.len()));
+        let size = match self.job.modes {
+            Some(_) => SHORT_CHUNK,
+            None => CHUNK,
+        };
+        let chunks = (0..self.len()).step_by(size);
+        let mut ranges = chunks.map(|first| first..(first + size).min(self.len()));
         pool.in_place_scope(|scope| {
             let ahead = ranges.by_ref().take(2 * threads + 2);
             let mut under_way: VecDeque<_> = ahead
@@ -188,7 +197,7 @@ impl<'a> Sweep<'a> {
         let design = self.job.design(number)?;
         let planned = match number {
             0 => self.first.clone(),
-            _ => Planned::new(&design).map(Arc::new),
+            _ => Planned::new(&design, self.job).map(Arc::new),
         };
         let ready = planned.map(|planned| {
             let lanes = planned.plan.lanes(&planned.model);
@@ -199,10 +208,28 @@ impl<'a> Sweep<'a> {
 }
 
 impl Planned {
-    fn new(design: &Design) -> Result<Self, Failure> {
-        let model = design.model()?;
-        let plan = Plan::new(&model)?;
-        Ok(Self { model, plan })
+    fn new(design: &Design, job: &Job) -> Result<Self, Failure> {
+        Ok(Self::of(&design.model()?, job)?)
+    }
+
+    fn of(model: &Model, job: &Job) -> Result<Self, SolveError> {
+        let modal = job.modes.as_ref();
+        let modal = modal.map(|options| ModalPlan::new(model, options));
+        Ok(Self {
+            plan: Plan::new(model)?,
+            modal: modal.transpose()?,
+            model: model.clone(),
+        })
+    }
+
+    /// Numbers of a table's further columns in a configuration.
+    fn further(&self, geometry: &Geometry) -> Result<Vec<Option<f64>>, SolveError> {
+        let Some(modal) = &self.modal else {
+            return Ok(Vec::new());
+        };
+        let mut found: Vec<_> = modal.frequencies(geometry)?.into_iter().map(Some).collect();
+        found.resize(modal.count(), None);
+        Ok(found)
     }
 }
 
@@ -253,10 +280,16 @@ impl Solver {
             let mut found = planned.plan.sweep_lanes(&planned.model, lanes, filled);
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
-                    (Some(Ok(pose)), Some(result)) => records.push(Record {
-                        pose,
-                        result: result.map_err(Failure::Solve).and_then(Found::try_from),
-                    }),
+                    (Some(Ok(pose)), Some(result)) => {
+                        let mut result = result.map_err(Failure::Solve).and_then(Found::try_from);
+                        if let Ok(found) = &mut result {
+                            match planned.further(lanes.geometry_mut(lane)) {
+                                Ok(further) => found.further = further,
+                                Err(error) => result = Err(error.into()),
+                            }
+                        }
+                        records.push(Record { pose, result });
+                    }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),
                     _ => {}
                 }

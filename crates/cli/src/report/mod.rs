@@ -2,6 +2,7 @@
 
 mod check;
 mod inner;
+mod modes;
 mod solve;
 mod table;
 
@@ -14,6 +15,7 @@ use serde::{Serialize, Serializer};
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
+pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
 

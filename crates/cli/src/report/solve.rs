@@ -7,8 +7,8 @@ use hyperstat_elements::stress::{largest_stress, section_stress};
 use serde::Serialize;
 
 use super::{
-    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -37,6 +37,8 @@ pub(crate) struct SolveReport {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
+    #[serde(flatten)]
+    modes: Option<ModesReport>,
 }
 
 #[derive(Debug, Serialize)]
@@ -123,12 +125,19 @@ impl SolveReport {
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,
+            modes: None,
         }
     }
 
     /// Adds displacements of nodes that the model does not name.
     pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
         self.displacements.0.extend(displacements.0);
+    }
+
+    /// Adds natural frequencies and modes.
+    pub(crate) fn add_modes(&mut self, modes: ModesReport) {
+        self.warnings.extend_from_slice(modes.remarks());
+        self.modes = Some(modes);
     }
 
     /// The report as tables.
@@ -158,6 +167,9 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        if let Some(modes) = &self.modes {
+            modes.write(&mut text);
+        }
         self.write_verification(&mut text);
         text
     }
