@@ -77,6 +77,9 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     if args.all_nodes {
         report.add_displacements(case.inner_displacements(&solution)?);
     }
+    if args.why {
+        report.add_why(case.why(&solution, args.along)?);
+    }
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

@@ -2,10 +2,12 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, Segment, SegmentForces, Solution, describe_motions};
+use hyperstat_assembly::{Model, Segment, SegmentForces, SegmentId, Solution, describe_motions};
 use hyperstat_elements::stress::{largest_stress, section_stress};
 use serde::Serialize;
 
+use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
     rows, section, stiffness_table,
@@ -37,6 +39,9 @@ pub(crate) struct SolveReport {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
+    bodies: Entries<BodyReport>,
+    #[serde(flatten)]
+    why: Option<Why>,
 }
 
 #[derive(Debug, Serialize)]
@@ -54,6 +59,8 @@ struct OutputReport {
 struct JointReport {
     /// On the second body of `between`, at the joint, in the joint frame.
     wrench: Option<[f64; 6]>,
+    /// The same on the first body.
+    first: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -67,6 +74,7 @@ struct SegmentReport {
     /// Wrench on the segment at its first and second node, in the element frame.
     end_forces: [[f64; 6]; 2],
     stress: Option<StressReport>,
+    section_forces: Vec<SectionForces>,
 }
 
 /// Largest stresses over the segment [Pa].
@@ -107,8 +115,10 @@ impl SolveReport {
                 .collect(),
             joints: joints
                 .map(|(joint, wrench)| {
-                    let wrench = wrench.as_ref().map(numbers);
-                    (joint.name.clone(), JointReport { wrench })
+                    let second = wrench.as_ref().map(numbers);
+                    let first = wrench.as_ref().map(|wrench| numbers(&-wrench));
+                    let wrench = second;
+                    (joint.name.clone(), JointReport { wrench, first })
                 })
                 .collect(),
             undetermined: solution
@@ -117,13 +127,23 @@ impl SolveReport {
                 .map(|joint| model.joints()[joint.0].name.clone())
                 .collect(),
             segments: segments
-                .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
+                .enumerate()
+                .map(|(k, (segment, forces))| {
+                    SegmentReport::new(model, SegmentId(k), segment, forces)
+                })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,
+            bodies: bodies(model, solution),
+            why: None,
         }
+    }
+
+    /// Adds what is soft and why.
+    pub(crate) fn add_why(&mut self, why: Why) {
+        self.why = Some(why);
     }
 
     /// Adds displacements of nodes that the model does not name.
@@ -158,6 +178,10 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        write_worst(&self.bodies, &mut text);
+        if let Some(why) = &self.why {
+            why.write(&mut text);
+        }
         self.write_verification(&mut text);
         text
     }
@@ -285,7 +309,7 @@ impl OutputReport {
 }
 
 impl SegmentReport {
-    fn new(model: &Model, segment: &Segment, forces: &SegmentForces) -> Self {
+    fn new(model: &Model, id: SegmentId, segment: &Segment, forces: &SegmentForces) -> Self {
         let frame = forces.frame.matrix();
         Self {
             body: model.bodies()[segment.body.0].name.clone(),
@@ -294,6 +318,7 @@ impl SegmentReport {
             axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
             end_forces: forces.ends.each_ref().map(numbers),
             stress: StressReport::new(segment, forces),
+            section_forces: section_forces(model, id, forces),
         }
     }
 }
