@@ -133,9 +133,18 @@ impl Plan {
 
     /// Plan of a model in another configuration.
     pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        Self::absorbing(model, geometry, true)
+    }
+
+    /// [`Self::at`] with (`absorbs`) or without elastic joints inside subassemblies.
+    pub(crate) fn absorbing(
+        model: &Model,
+        geometry: &Geometry,
+        absorbs: bool,
+    ) -> Result<Self, SolveError> {
         let output = model.output().ok_or(SolveError::NoOutput)?;
         check_held(model, output)?;
-        let topology = Topology::new(model, geometry, output);
+        let topology = Topology::new(model, geometry, output, absorbs);
         for (joint, role) in model.joints().iter().zip(&topology.joints) {
             if !role.springs.is_empty() && !role.directions.has_stiffness {
                 return Err(SolveError::SingularCompliance {

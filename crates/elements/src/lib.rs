@@ -39,4 +39,4 @@ pub use rigid_mass::RigidMass;
 pub use section::{Section, SectionShape};
 pub use straight::StraightBeam;
 pub use taper::Taper;
-pub use tapered_beam::TaperedBeam;
+pub use tapered_beam::{PlaneFlexibility, TaperedBeam};

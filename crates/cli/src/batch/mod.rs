@@ -18,6 +18,7 @@ use crate::atomic::AtomicFile;
 use crate::case::Source;
 use crate::error::CliError;
 use crate::report::json;
+use record::Columns;
 use statistics::Statistics;
 use summary::Summary;
 use sweep::{Chunk, Sweep};
@@ -77,7 +78,7 @@ fn run_job(
         path: path.clone(),
         source,
     };
-    let mut table = Table::create(&path, args.format, job.varied()).map_err(cannot_write)?;
+    let mut table = Table::create(&path, args.format, &Columns::of(job)).map_err(cannot_write)?;
     let mut summary = Summary::new(job);
     let mut statistics = Statistics::default();
     let mut trajectory = figures::Trajectory::wanted_by(job);
