@@ -1,6 +1,7 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -65,6 +66,8 @@ Examples:
   hyperstat solve portal.ron --verify
   hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
   hyperstat solve portal.ron --modes 6       Natural frequencies and modes too
+  hyperstat solve portal.ron --why           What is soft, and which dimension should grow
+  hyperstat solve portal.ron --why --along z
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -96,6 +99,7 @@ where a pose has no result.
 Examples:
   hyperstat run paper.ron --out results
   hyperstat run map.ron --out results --format parquet --threads 4
+  hyperstat run map.ron --out results --summary
 
 A batch file, for the mechanism file of `hyperstat solve --help`:
 
@@ -138,6 +142,20 @@ pub(crate) struct Solve {
     /// With lumped masses: half of every element's at each of its ends, in translation only
     #[arg(long)]
     pub(crate) lumped: bool,
+    /// Say what is soft and why: the share of every part in the deflection, what more of every
+    /// dimension would change, stiffness measures
+    #[arg(long)]
+    pub(crate) why: bool,
+    /// Direction that `--why` is asked about: `displacement` (of the output under the loads), `x`,
+    /// `y`, `z`, a rotation `rx`, `ry`, `rz`, or three numbers `a,b,c`
+    #[arg(
+        long,
+        value_name = "DIRECTION",
+        requires = "why",
+        default_value = "displacement",
+        allow_hyphen_values = true
+    )]
+    pub(crate) along: Along,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -147,6 +165,50 @@ impl Solve {
     /// Number of natural frequencies that are asked for.
     pub(crate) fn modes(&self) -> Option<usize> {
         self.modes.map(usize::from)
+    }
+}
+
+/// A direction that the output gives along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Along {
+    /// Of its displacement under the loads.
+    Displacement,
+    /// Of a unit wrench on it, global axes.
+    Wrench([f64; 6]),
+}
+
+impl FromStr for Along {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "displacement" {
+            return Ok(Self::Displacement);
+        }
+        let mut wrench = [0.0; 6];
+        if let Some(k) = ["x", "y", "z", "rx", "ry", "rz"]
+            .iter()
+            .position(|name| *name == text)
+        {
+            wrench[k] = 1.0;
+            return Ok(Self::Wrench(wrench));
+        }
+        let numbers: Result<Vec<f64>, _> = text
+            .split(',')
+            .map(|number| number.trim().parse())
+            .collect();
+        let right =
+            "`displacement`, `x`, `y`, `z`, `rx`, `ry`, `rz` or three numbers such as `0,1,-1`";
+        match numbers.as_deref() {
+            Ok([a, b, c]) => {
+                let size = a.hypot(*b).hypot(*c);
+                if !(size.is_finite() && size > 0.0) {
+                    return Err(format!("a direction has a length; give {right}"));
+                }
+                wrench[..3].copy_from_slice(&[a / size, b / size, c / size]);
+                Ok(Self::Wrench(wrench))
+            }
+            _ => Err(format!("give {right}")),
+        }
     }
 }
 
@@ -165,6 +227,10 @@ pub(crate) struct Run {
     /// Number of threads that solve; 0 is one a core. The results are the same with any number
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,
+    /// Write DIR/<job>-summary.json too, and print it: least, mean, percentiles, most of deflection
+    /// and stiffness measures over all poses, and where
+    #[arg(long)]
+    pub(crate) summary: bool,
 }
 
 /// `hyperstat check`

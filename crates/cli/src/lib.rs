@@ -87,6 +87,9 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
             args.all_nodes,
         ));
     }
+    if args.why {
+        report.add_why(case.why(&solution, args.along)?);
+    }
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

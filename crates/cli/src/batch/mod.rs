@@ -2,6 +2,7 @@
 
 mod figures;
 mod record;
+mod statistics;
 mod summary;
 mod sweep;
 mod table;
@@ -13,11 +14,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
+use crate::atomic::AtomicFile;
 use crate::case::Source;
 use crate::error::CliError;
+use crate::report::json;
 use record::Columns;
+use statistics::Statistics;
 use summary::Summary;
-use sweep::Sweep;
+use sweep::{Chunk, Sweep};
 use table::Table;
 
 /// Runs a batch. `tell` gets the summary of every job.
@@ -76,14 +80,28 @@ fn run_job(
     };
     let mut table = Table::create(&path, args.format, &Columns::of(job)).map_err(cannot_write)?;
     let mut summary = Summary::new(job);
+    let mut statistics = Statistics::default();
     let mut trajectory = figures::Trajectory::wanted_by(job);
-    let render = |chunk: &mut _| Table::render(args.format, chunk);
+    let render = |chunk: &mut Chunk| {
+        Table::render(args.format, chunk);
+        chunk.measures.clear();
+        if args.summary {
+            let measures = chunk.records.iter().map(statistics::measure);
+            chunk.measures.extend(measures);
+        }
+    };
     sweep.run(pool, render, |chunk| -> Result<(), CliError> {
         if let Some(refused) = chunk.refused.take() {
             return Err(refused.into());
         }
         table.append(chunk).map_err(cannot_write)?;
         summary.add(&chunk.records);
+        for (k, values) in chunk.measures.iter().enumerate() {
+            if let Some(values) = values {
+                let row = chunk.rows.start + k;
+                statistics.add(row, &chunk.records[k].pose, values);
+            }
+        }
         if let Some(trajectory) = &mut trajectory {
             // Figures are of the first design.
             let more = job.len().saturating_sub(chunk.rows.start);
@@ -94,6 +112,16 @@ fn run_job(
     })?;
     table.commit().map_err(cannot_write)?;
     summary.wrote(path.clone());
+    if let Some(found) = args.summary.then(|| statistics.report()).flatten() {
+        let path = args.out.join(format!("{}-summary.json", job.name));
+        let text = json(&found)?;
+        AtomicFile::write(&path, text.as_bytes()).map_err(|source| CliError::Write {
+            path: path.clone(),
+            source,
+        })?;
+        summary.wrote(path);
+        summary.measured(found);
+    }
     bar.set_message(format!("{}: figures", job.name));
     pool.install(|| figures::draw(job, trajectory.as_ref(), &args.out, &mut summary))?;
     Ok(summary)
@@ -148,6 +176,7 @@ mod tests {
             out: out.clone(),
             format: TableFormat::Parquet,
             threads: 3,
+            summary: false,
         };
         let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
         assert!(!summary.is_complete());

@@ -7,6 +7,7 @@ use hyperstat_mechanisms::Job;
 use nalgebra::Matrix6;
 
 use super::record::Record;
+use super::statistics::{Report, Told};
 use crate::report::{rows, stiffness_table};
 
 /// The outcome of a job.
@@ -25,6 +26,7 @@ pub(crate) struct Summary {
     files: Vec<PathBuf>,
     figures_left_out: Vec<String>,
     largest_difference: Option<f64>,
+    measures: Vec<Report>,
 }
 
 /// The poses of one status.
@@ -50,6 +52,7 @@ impl Summary {
             files: Vec::new(),
             figures_left_out: Vec::new(),
             largest_difference: None,
+            measures: Vec::new(),
         }
     }
 
@@ -90,6 +93,11 @@ impl Summary {
     pub(crate) fn compared(&mut self, difference: f64) {
         let largest = self.largest_difference.unwrap_or(0.0);
         self.largest_difference = Some(largest.max(difference));
+    }
+
+    /// Notes the measures over the workspace.
+    pub(crate) fn measured(&mut self, measures: Vec<Report>) {
+        self.measures = measures;
     }
 
     /// Whether every pose has a result.
@@ -142,6 +150,9 @@ impl fmt::Display for Summary {
                 "  largest difference from the reference solver in the figures: {difference:.1e} \
                  of the largest displacement"
             )?;
+        }
+        if !self.measures.is_empty() {
+            write!(f, "{}", Told(&self.measures))?;
         }
         if let (1, Some(stiffness)) = (self.poses, &self.stiffness) {
             write!(

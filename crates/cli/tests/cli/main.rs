@@ -10,3 +10,4 @@ mod run;
 mod solve;
 mod support;
 mod tables;
+mod why;
