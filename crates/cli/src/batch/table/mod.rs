@@ -19,7 +19,7 @@ const DESIGN: &str = "design";
 
 /// Names of the columns: the number of the pose, the pose, the status, and the numbers found; of a
 /// job that varies the number of the design and its values after them.
-fn columns(varied: &[Varied]) -> impl Iterator<Item = String> {
+pub(crate) fn columns(varied: &[Varied]) -> impl Iterator<Item = String> {
     let pose = ["pose", "x", "y", "z", "rx", "ry", "rz"];
     let displacement = ["dx", "dy", "dz", "drx", "dry", "drz"];
     let first = pose.into_iter().chain([STATUS]).chain(displacement);
