@@ -9,7 +9,7 @@ use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, R
 use crate::args;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{Entries, inner_displacements};
+use crate::report::{Entries, Why, inner_displacements};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -144,6 +144,20 @@ impl Case {
     ) -> Result<Entries<[f64; 6]>, CliError> {
         inner_displacements(&self.model, solution)
             .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// What is soft and why, along a direction.
+    pub(crate) fn why(&self, solution: &Solution, along: args::Along) -> Result<Why, CliError> {
+        Why::new(self, solution, along)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// The mechanism file that it is from, where it is from one.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { design, .. } => design.mechanism(),
+        }
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even

@@ -9,6 +9,7 @@ mod case;
 mod diagnostic;
 mod drives;
 mod error;
+mod plot;
 mod report;
 mod verification;
 
@@ -50,6 +51,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
         Command::Run(args) => batch::run(args, registry, print),
+        Command::Plot(args) => plot::run(args, print),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -86,6 +88,9 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
             wanted,
             args.all_nodes,
         ));
+    }
+    if args.why {
+        report.add_why(case.why(&solution, args.along)?);
     }
     print(&match args.format {
         Format::Text => report.text(),

@@ -1,5 +1,6 @@
 //! The tests that need two crates or more, or reference data: one program, so that they are linked once.
 
+mod answers;
 mod axis_parallel;
 mod bodies;
 mod book;

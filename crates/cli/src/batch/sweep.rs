@@ -10,6 +10,7 @@ use hyperstat_mechanisms::{Design, Job, LoadError, Value};
 use rayon::{Scope, ThreadPool};
 
 use super::record::{Columns, Failure, Found, Record};
+use super::statistics::Values;
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
@@ -41,6 +42,8 @@ pub(crate) struct Chunk {
     pub(crate) rows: Range<usize>,
     /// A record for each of them.
     pub(crate) records: Vec<Record>,
+    /// Their measures, where a summary is wanted.
+    pub(crate) measures: Vec<Option<Values>>,
     /// Their lines, where the table is one of text.
     pub(crate) text: String,
     /// Rows of a design.
