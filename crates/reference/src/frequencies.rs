@@ -16,11 +16,9 @@ const SHIFT: f64 = 1e3;
 /// An eigenvalue of stiffness and mass together, on a unit diagonal, that is zero: what moves so
 /// has neither.
 const NOTHING: f64 = 1e-13;
-/// A share of the largest inverse eigenvalue that is zero: what moves so has no mass.
+/// A share of the largest inverse eigenvalue, or of that of the shift, that is zero: what moves so
+/// has no mass.
 const MASSLESS: f64 = 1e-13;
-
-/// An inverse eigenvalue [s²/rad²] below which nothing of a mechanism is.
-const FASTEST: f64 = 1e-12;
 
 /// The squares ω² [rad²/s²] of all finite natural angular frequencies of a model, lowest first;
 /// zero to rounding for every motion without energy that has mass. Consistent masses of cubic
@@ -114,7 +112,7 @@ fn eigenvalues(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Vec<f64> {
     }
     let kept = DMatrix::from_columns(&kept);
     let inverse = kept.tr_mul(&(unit(mass) * &kept)).symmetric_eigenvalues();
-    let largest = inverse.amax().max(FASTEST);
+    let largest = inverse.amax().max(1.0 / SHIFT);
     let finite = inverse.iter().filter(|mu| **mu > MASSLESS * largest);
     let mut found: Vec<f64> = finite.map(|mu| 1.0 / mu - SHIFT).collect();
     found.sort_by(f64::total_cmp);

@@ -362,3 +362,57 @@ fn inertia_turns_with_its_body() {
         }
     }
 }
+
+/// Equal frequencies, more of them than vectors of a block: eleven equal bodies, each on springs
+/// that are the same in all directions.
+#[test]
+fn many_equal_frequencies() {
+    let bodies = 11;
+    let mut model = Model::new("equal");
+    for k in 0..bodies {
+        let name = format!("body{k}");
+        let at = Point3::new(k as f64, 0.0, 0.0);
+        model.add_rigid(&name, &[("C", at)]).unwrap();
+        let centre = node(&model, &name, "C");
+        model.add_mass(centre, RigidMass::with_moments(2.0, [0.1; 3]).unwrap());
+        let mut mount = connection(&format!("mount{k}"), [None, Some(centre)], Fixed);
+        mount.stiffness = JointStiffness::Directions([2e4, 2e4, 2e4, 4e3, 4e3, 4e3].map(Some));
+        model.add_joint(mount, Rotation3::identity()).unwrap();
+        model.set_output(centre);
+    }
+    let found = modes(&model, &ModalOptions::lowest(40)).unwrap();
+    assert!(found.complete);
+    assert_eq!(found.modes.len(), 40);
+    for (k, mode) in found.modes.iter().enumerate() {
+        let eigenvalue: f64 = if k < 3 * bodies { 1e4 } else { 4e4 };
+        let expected = eigenvalue.sqrt() / std::f64::consts::TAU;
+        assert!(
+            (mode.frequency / expected - 1.0).abs() < 1e-12,
+            "{k}: {}",
+            mode.frequency
+        );
+    }
+}
+
+/// No digits are lost to many elements: a cantilever of 400 has the first frequency of the closed
+/// form to 1e-9, where the stiffness is conditioned as 400⁴ = 3e10.
+#[test]
+fn many_elements() {
+    let material = Material::new(2.1e11, Elasticity::Poisson(0.3), Some(7850.0)).unwrap();
+    let section = circle(0.02);
+    let points = [("A", Point3::origin()), ("B", Point3::new(0.0, 0.5, 0.0))];
+    let mut model = Model::new("cantilever");
+    model
+        .add_beam("bar", &points, &material, &section, None, 400)
+        .unwrap();
+    weld_to_ground(&mut model, "bar", "A");
+    model.set_output(node(&model, "bar", "B"));
+    let found = modes(&model, &ModalOptions::lowest(2)).unwrap();
+    let unit = 2.1e11 * section.iz() / (7850.0 * section.area() * 0.5_f64.powi(4));
+    let expected = unit.sqrt() * 1.875_104_068_711_961_f64.powi(2) / std::f64::consts::TAU;
+    assert!(found.complete);
+    for mode in &found.modes {
+        let error = mode.frequency / expected - 1.0;
+        assert!(error.abs() < 1e-9, "{error:e}");
+    }
+}
