@@ -14,6 +14,7 @@ mod cluster;
 mod condense;
 mod coordinates;
 mod directions;
+mod dissection;
 mod elimination;
 mod error;
 mod jacobian;

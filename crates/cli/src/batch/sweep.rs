@@ -181,7 +181,7 @@ impl<'a> Sweep<'a> {
         let design = self.job.design(number)?;
         let planned = match number {
             0 => self.first.clone(),
-            _ => Planned::new(&design).map(Arc::new),
+            _ => Planned::new(&design, &self.first).map(Arc::new),
         };
         let ready = planned.map(|planned| {
             let lanes = planned.plan.lanes(&planned.model);
@@ -192,9 +192,14 @@ impl<'a> Sweep<'a> {
 }
 
 impl Planned {
-    fn new(design: &Design) -> Result<Self, Failure> {
+    /// A design, whose plan shares with the first's what it can: never with that of the design
+    /// before it, which differs from thread to thread.
+    fn new(design: &Design, first: &Result<Arc<Self>, Failure>) -> Result<Self, Failure> {
         let model = design.model()?;
-        let plan = Plan::new(&model)?;
+        let plan = match first {
+            Ok(first) => first.plan.for_design(&model)?,
+            Err(_) => Plan::new(&model)?,
+        };
         Ok(Self { model, plan })
     }
 }
