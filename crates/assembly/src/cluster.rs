@@ -119,12 +119,17 @@ fn seen_from(to_local: &Rotation3<f64>, joint: &ElasticJoint) -> ElasticJoint {
     }
 }
 
-/// The beam of a segment, by its rigidities, where it is prismatic; of any length.
-pub(crate) fn prismatic_beam(model: &Model, id: SegmentId) -> Option<Beam> {
+/// The beam of a segment as if it were of unit length.
+pub(crate) fn unit_beam(model: &Model, id: SegmentId) -> Option<SegmentBeam> {
     let segment = &model.segments()[id.0];
-    match segment.change_of_section() {
-        Ok(None) => Beam::new(&segment.material, &segment.section, 1.0).ok(),
-        _ => None,
+    let material = &segment.material;
+    match segment.change_of_section().ok()? {
+        None => Beam::new(material, &segment.section, 1.0)
+            .ok()
+            .map(SegmentBeam::Prismatic),
+        Some(taper) => TaperedBeam::new(material, &taper, 1.0)
+            .ok()
+            .map(SegmentBeam::Tapered),
     }
 }
 
@@ -153,21 +158,6 @@ pub(crate) fn cluster_element(
 ) -> Result<(), SolveError> {
     let to_local = place_cluster(cluster, geometry, workspace)?;
     operator(plan, element, &to_local, workspace);
-    stiffness(
-        plan, element, cluster, &to_local, model, geometry, workspace,
-    )
-}
-
-/// Forms the stiffness of a cluster's element alone.
-pub(crate) fn cluster_stiffness(
-    plan: &Plan,
-    element: &ElementPlan,
-    cluster: &Cluster,
-    model: &Model,
-    geometry: &Geometry,
-    workspace: &mut Workspace,
-) -> Result<(), SolveError> {
-    let to_local = place_cluster(cluster, geometry, workspace)?;
     stiffness(
         plan, element, cluster, &to_local, model, geometry, workspace,
     )

@@ -88,7 +88,7 @@ impl Plan {
         let places = n * which.start..n * which.end;
         residuals[places.clone()].copy_from_slice(&loads[places]);
         energies[which.clone()].fill(0.0);
-        for element in self.elements.iter() {
+        for element in &self.elements {
             let (rows, count) = (element.rows, element.columns.len());
             let d = &operators[element.operator_start..element.operator_start + rows * count];
             let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
@@ -175,7 +175,7 @@ impl Plan {
             ..
         } = workspace;
         let mut stiffness = Matrix6::zeros();
-        for element in self.elements.iter() {
+        for element in &self.elements {
             let (rows, count) = (element.rows, element.columns.len());
             let d = &operators[element.operator_start..element.operator_start + rows * count];
             let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];

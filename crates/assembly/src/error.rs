@@ -134,6 +134,21 @@ pub enum SolveError {
         /// Number of unknowns.
         unknowns: usize,
     },
+    /// An elastic body whose mass is not known.
+    #[error("the material of body `{body}` has no density, which natural frequencies need")]
+    NoDensity {
+        /// Name of the body.
+        body: String,
+    },
+    /// Natural frequencies of what has no mass.
+    #[error("nothing has mass, so there are no natural frequencies")]
+    NoMass,
+    /// Natural modes that do not converge.
+    #[error("the natural modes do not converge: {found} were found")]
+    ModesNotFound {
+        /// Number of those that have converged.
+        found: usize,
+    },
     /// An element that cannot be formed.
     #[error(transparent)]
     Element(#[from] hyperstat_elements::ElementError),

@@ -20,6 +20,8 @@ mod error;
 mod jacobian;
 mod kinematics;
 mod lanes;
+pub mod measures;
+mod modal;
 mod model;
 mod numeric;
 mod parts;
@@ -36,9 +38,10 @@ mod topology;
 pub use error::{ModelError, SolveError};
 pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
+pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
 pub use model::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Model, Node, NodeId, Segment, SegmentId,
+    Load, Member, Model, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;

@@ -1,15 +1,18 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
+mod divided;
+mod turn;
+
 use std::collections::{HashMap, HashSet};
 
-use hyperstat_elements::{FlexibleBody, Material, Section, element_frame};
+use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
 use crate::parts::change_of_section;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Node, NodeId, Segment, SegmentId,
+    Load, Member, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 
 /// A mechanism in one configuration.
@@ -23,6 +26,7 @@ pub struct Model {
     flexibles: Vec<Flexible>,
     joints: Vec<Connection>,
     loads: Vec<Load>,
+    masses: Vec<NodeMass>,
     output: Option<NodeId>,
     geometry: Geometry,
     body_names: HashMap<String, BodyId>,
@@ -42,6 +46,7 @@ impl Model {
             flexibles: Vec::new(),
             joints: Vec::new(),
             loads: Vec::new(),
+            masses: Vec::new(),
             output: None,
             geometry: Geometry {
                 positions: Vec::new(),
@@ -275,6 +280,12 @@ impl Model {
         self.loads.clear();
     }
 
+    /// Adds a mass at a node, beside the mass that beams have by their density: its inertia in
+    /// global axes, the model being in the configuration it is in now.
+    pub fn add_mass(&mut self, node: NodeId, mass: RigidMass) {
+        self.masses.push(NodeMass { node, mass });
+    }
+
     /// Makes `node` the output.
     pub fn set_output(&mut self, node: NodeId) {
         self.output = Some(node);
@@ -282,8 +293,10 @@ impl Model {
 
     /// Puts the mechanism into another configuration of the same topology: `geometry` has as
     /// many positions, directions and frames as the model's own.
+    /// Masses of nodes turn with their bodies.
     pub fn set_geometry(&mut self, geometry: Geometry) {
         debug_assert_eq!(geometry.positions.len(), self.nodes.len());
+        self.masses = self.masses_at(&geometry);
         self.geometry = geometry;
     }
 
@@ -310,6 +323,10 @@ impl Model {
     /// All loads.
     pub fn loads(&self) -> &[Load] {
         &self.loads
+    }
+    /// All masses of nodes.
+    pub fn masses(&self) -> &[NodeMass] {
+        &self.masses
     }
     /// The output node, once it is set.
     pub fn output(&self) -> Option<NodeId> {

@@ -41,7 +41,7 @@ pub(crate) fn evaluate(
     }
     close_loops(plan, model, geometry, workspace)?;
     workspace.initial.fill(0.0);
-    for element in plan.elements.iter() {
+    for element in &plan.elements {
         match element.source {
             Source::Cluster(k) => {
                 let cluster = &plan.topology.clusters[k];
@@ -177,7 +177,7 @@ fn assemble(plan: &Plan, workspace: &mut Workspace) {
         ..
     } = workspace;
     values.fill(0.0);
-    for element in plan.elements.iter() {
+    for element in &plan.elements {
         let (rows, count) = (element.rows, element.inner);
         let d = &operators[element.operator_start..element.operator_start + rows * count];
         let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];

@@ -3,7 +3,7 @@
 //! Names are kept for reports; everything refers to everything else by index. What a pose
 //! changes stands apart in [`Geometry`].
 
-use hyperstat_elements::{ElementError, FlexibleBody, Material, Section, Taper};
+use hyperstat_elements::{ElementError, FlexibleBody, Material, RigidMass, Section, Taper};
 use hyperstat_joints::{DofSet, Joint};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
@@ -161,6 +161,15 @@ pub struct Load {
     pub node: NodeId,
     /// Force (N) and moment (N·m).
     pub wrench: Vector6<f64>,
+}
+
+/// Mass and inertia at a node, in global axes at the model's configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NodeMass {
+    /// Node that is the centre of mass; the mass moves with the node's body.
+    pub node: NodeId,
+    /// Mass and inertia about the node.
+    pub mass: RigidMass,
 }
 
 /// What a pose changes: positions, section directions and joint frames, in global axes.

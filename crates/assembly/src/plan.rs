@@ -41,7 +41,7 @@ pub struct Plan {
     pub(crate) unknowns: usize,
     /// Number of IDCs that are factored: all but the output's, where those are independent.
     pub(crate) inner: usize,
-    pub(crate) elements: Arc<[ElementPlan]>,
+    pub(crate) elements: Vec<ElementPlan>,
     pub(crate) pattern: Arc<Pattern>,
     /// Places of every element's upper triangle in the assembled values.
     pub(crate) places: Arc<[usize]>,
@@ -68,7 +68,7 @@ pub(crate) enum Source {
 }
 
 /// An element: deformations `δ = D U + δ₀` over its IDCs, and their stiffness.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ElementPlan {
     pub source: Source,
     /// Number of deformations.
@@ -135,9 +135,18 @@ impl Plan {
 
     /// Plan of a model in another configuration.
     pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        Self::absorbing(model, geometry, true)
+    }
+
+    /// [`Self::at`] with (`absorbs`) or without elastic joints inside subassemblies.
+    pub(crate) fn absorbing(
+        model: &Model,
+        geometry: &Geometry,
+        absorbs: bool,
+    ) -> Result<Self, SolveError> {
         let output = model.output().ok_or(SolveError::NoOutput)?;
         check_held(model, output)?;
-        let topology = Topology::new(model, geometry, output);
+        let topology = Topology::new(model, geometry, output, absorbs);
         check_stiffness(model, &topology)?;
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, model, geometry)?;
@@ -242,7 +251,7 @@ impl Plan {
             inner_groups.push(inner_columns.collect());
         }
         let groups = inner_groups.iter().map(Vec::as_slice);
-        let pattern = Pattern::new(inner, groups, &nodes, &geometry.positions)
+        let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))
             .ok_or(SolveError::TooLarge { unknowns })?;
         let places = places(&mut elements, &pattern);
         Ok(Self {
@@ -257,7 +266,7 @@ impl Plan {
                 < 6 * model.bodies().len(),
             unknowns,
             inner,
-            elements: elements.into(),
+            elements,
             pattern: Arc::new(pattern),
             places: places.into(),
         })
@@ -276,7 +285,7 @@ impl Plan {
             return Self::new(model);
         }
         let geometry = model.geometry();
-        let topology = Topology::new(model, geometry, self.output);
+        let topology = Topology::new(model, geometry, self.output, true);
         if !topology.is_like(&self.topology) {
             return Self::new(model);
         }

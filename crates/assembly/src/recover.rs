@@ -102,7 +102,7 @@ fn element_forces(plan: &Plan, workspace: &Workspace) -> Vec<Vec<f64>> {
     let n = plan.unknowns;
     let solution = &workspace.solutions[LOADS * n..(LOADS + 1) * n];
     let mut all = Vec::with_capacity(plan.elements.len());
-    for element in plan.elements.iter() {
+    for element in &plan.elements {
         let (rows, count) = (element.rows, element.columns.len());
         let start = element.operator_start;
         let d = &workspace.operators[start..start + rows * count];

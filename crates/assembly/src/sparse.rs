@@ -5,8 +5,10 @@
 //! the buffers of one thread; factoring and solving allocate nothing.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
@@ -49,13 +51,12 @@ pub(crate) struct NotPositive;
 
 impl Pattern {
     /// The pattern that couples all coordinates within each of `groups` (indices below `size`,
-    /// ascending within a group); every diagonal entry is present. Coordinate `k` belongs to the
-    /// node `nodes[k]`, which is at `positions[nodes[k]]`.
+    /// ascending within a group); every diagonal entry is present. `places`, where they
+    /// are known: the node that each coordinate belongs to, and the nodes' positions.
     pub fn new<'a>(
         size: usize,
         groups: impl Iterator<Item = &'a [usize]>,
-        nodes: &[usize],
-        positions: &[Point3<f64>],
+        places: Option<(&[usize], &[Point3<f64>])>,
     ) -> Option<Self> {
         let mut columns: Vec<Vec<usize>> = (0..size).map(|k| vec![k]).collect();
         for group in groups {
@@ -82,8 +83,8 @@ impl Pattern {
                 factorize_symbolic_cholesky(structure, Side::Lower, order, params).ok()
             };
             let mut best = factor(SymmetricOrdering::Amd)?;
-            if size >= LARGE {
-                let order = dissected(&column_starts, &rows, &nodes[..size], positions);
+            if let Some((nodes, positions)) = places.filter(|_| size >= LARGE) {
+                let order = dissected(&column_starts, &rows, nodes, positions);
                 let mut inverse = vec![0; size];
                 for (place, &coordinate) in order.iter().enumerate() {
                     inverse[coordinate] = place;
@@ -196,6 +197,67 @@ impl Pattern {
             Par::Seq,
             MemStack::new(&mut factor.scratch),
         );
+    }
+
+    /// Adds the symmetric matrix of these values times `x` to `out`.
+    pub fn add_product(&self, values: &[f64], x: &[f64], out: &mut [f64]) {
+        for (column, x_column) in x.iter().enumerate() {
+            let range = self.column_starts[column]..self.column_starts[column + 1];
+            let mut sum = 0.0;
+            for (row, value) in self.rows[range.clone()].iter().zip(&values[range]) {
+                sum += value * x[*row];
+                if *row != column {
+                    out[*row] += value * x_column;
+                }
+            }
+            out[column] += sum;
+        }
+    }
+
+    /// Number of negative eigenvalues of a matrix, by the signs of the pivots of L D Lᵀ
+    /// (Sylvester's law of inertia); `None` where a pivot is zero.
+    pub fn negative_eigenvalues(&self, values: &[f64]) -> Option<usize> {
+        let Some(symbolic) = &self.symbolic else {
+            return Some(0);
+        };
+        let structure = SymbolicSparseColMatRef::new_checked(
+            self.size,
+            self.size,
+            &self.column_starts,
+            None,
+            &self.rows,
+        );
+        let need = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Spec::default());
+        let mut scratch = MemBuffer::new(need);
+        let mut factor = vec![0.0; symbolic.len_val()];
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut factor,
+                SparseColMatRef::new(structure, values),
+                Side::Lower,
+                LdltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut scratch),
+                Spec::default(),
+            )
+            .ok()?;
+        let pivots: Vec<f64> = match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(columns) => {
+                let starts = &columns.col_ptr()[..self.size];
+                starts.iter().map(|start| factor[*start]).collect()
+            }
+            SymbolicCholeskyRaw::Supernodal(nodes) => {
+                let whole = SupernodalLdltRef::new(nodes, &factor);
+                let blocks = (0..nodes.n_supernodes()).map(|k| whole.supernode(k).val());
+                blocks
+                    .flat_map(|block| (0..block.ncols()).map(move |k| block[(k, k)]))
+                    .collect()
+            }
+        };
+        let sound = pivots
+            .iter()
+            .all(|pivot| pivot.is_finite() && *pivot != 0.0);
+        sound.then(|| pivots.iter().filter(|pivot| **pivot < 0.0).count())
     }
 }
 

@@ -97,9 +97,11 @@ pub(crate) struct Topology {
 }
 
 impl Topology {
-    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Self {
+    /// The topology of a model; `absorbs`: elastic joints go into the subassemblies where they
+    /// can, else each keeps coordinates of its own.
+    pub fn new(model: &Model, geometry: &Geometry, output: NodeId, absorbs: bool) -> Self {
         let (mut carriers, carrier_of) = carriers(model, output);
-        let joints = roles(model, geometry, output);
+        let joints = roles(model, geometry, output, absorbs);
         let clusters = clusters(model, &joints);
         let mut coordinates = 0;
         let (components, output_start) = components(
@@ -175,7 +177,7 @@ fn carriers(model: &Model, output: NodeId) -> (Vec<Carrier>, Vec<usize>) {
 }
 
 /// Roles of all joints: which are absorbed, and which directions keep coordinates.
-fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
+fn roles(model: &Model, geometry: &Geometry, output: NodeId, absorbs: bool) -> Vec<JointRole> {
     let mut joints_at = vec![0usize; model.nodes().len()];
     for joint in model.joints() {
         for node in joint.between.iter().flatten() {
@@ -199,7 +201,7 @@ fn roles(model: &Model, geometry: &Geometry, output: NodeId) -> Vec<JointRole> {
     for joint in model.joints() {
         let directions = Directions::of(joint);
         let absorbable = |node: NodeId| {
-            if node == output || joints_at[node.0] != 1 {
+            if !absorbs || node == output || joints_at[node.0] != 1 {
                 return DofSet::EMPTY;
             }
             match &flexible_nodes[node.0] {

@@ -16,6 +16,7 @@ pub enum Elasticity {
 pub struct Material {
     young: f64,
     shear: f64,
+    elasticity: Elasticity,
     density: Option<f64>,
     expansion: Option<f64>,
     yield_strength: Option<f64>,
@@ -48,6 +49,7 @@ impl Material {
         Ok(Self {
             young,
             shear,
+            elasticity,
             density,
             expansion: None,
             yield_strength: None,
@@ -90,6 +92,11 @@ impl Material {
     /// Shear modulus G \[Pa\].
     pub fn shear(&self) -> f64 {
         self.shear
+    }
+
+    /// The second elastic constant, as it was given.
+    pub fn elasticity(&self) -> Elasticity {
+        self.elasticity
     }
 
     /// Density \[kg/m³\], if one was given.

@@ -134,15 +134,35 @@ pub trait StraightBeam {
         load: &BeamLoad,
         virtual_wrench: &Vector6<f64>,
     ) -> Vector6<f64> {
+        let elastic =
+            self.elastic_work(end_wrench, load, virtual_wrench, &|_| Vector6::repeat(1.0));
+        // A free strain is the same all along; the virtual section wrench is linear.
+        let virtual_wrenches = BeamLoad::none().section_wrenches(self.length(), virtual_wrench);
+        let mean = virtual_wrenches.at(0.5) * self.length();
+        elastic + mean.component_mul(load.strain())
+    }
+
+    /// The same work on the elastic strains alone, each of its six parts with a weight along the
+    /// beam: ∫ g(ξ) W̄ᵀ C W dx by parts.
+    ///
+    /// With g = −∂ ln r/∂p, r the rigidities (EA, GA_y, GA_z, GJ, EI_y, EI_z), their sum is the
+    /// beam's part of the derivative by p of the displacement along the virtual load.
+    fn elastic_work(
+        &self,
+        end_wrench: &Vector6<f64>,
+        load: &BeamLoad,
+        virtual_wrench: &Vector6<f64>,
+        weight: &dyn Fn(f64) -> Vector6<f64>,
+    ) -> Vector6<f64> {
         let length = self.length();
         let wrenches = load.section_wrenches(length, end_wrench);
         let virtual_wrenches = BeamLoad::none().section_wrenches(length, virtual_wrench);
         let mut sum = Vector6::zeros();
         self.intervals(1.0, &mut |first, last| {
-            gauss(first, last, |xi, weight| {
-                let compliance = self.section_compliance_at(xi);
-                let strain = compliance.component_mul(&wrenches.at(xi)) + load.strain();
-                sum += virtual_wrenches.at(xi).component_mul(&strain) * (length * weight);
+            gauss(first, last, |xi, share| {
+                let compliance = self.section_compliance_at(xi).component_mul(&weight(xi));
+                let strain = compliance.component_mul(&wrenches.at(xi));
+                sum += virtual_wrenches.at(xi).component_mul(&strain) * (length * share);
             });
         });
         sum

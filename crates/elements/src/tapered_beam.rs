@@ -36,21 +36,31 @@ struct Flexibility {
     /// ∫ dx/GJ \[rad/(N·m)\].
     torsional: f64,
     /// Bending with deflection along y and along z.
-    planes: [Plane; 2],
+    planes: [PlaneFlexibility; 2],
 }
 
-/// Bending in one plane.
+/// Flexibility of a beam in one plane of bending, about its elastic centre, where a force across
+/// the beam and a moment do not act on each other's displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Plane {
-    /// ∫ dx/EI \[rad/(N·m)\].
-    turn: f64,
-    /// Distance c of the elastic centre from node 1, ∫ x dx/EI over ∫ dx/EI \[m\].
-    centre: f64,
-    /// ∫ (x − c)² dx/EI + ∫ dx/GA_s \[m/N\]: deflection per force at the elastic centre.
-    deflection: f64,
+pub struct PlaneFlexibility {
+    /// ∫ dx/EI \[rad/(N·m)\]; proportional to the beam's length.
+    pub turn: f64,
+    /// Distance c of the elastic centre from node 1, ∫ x dx/EI over ∫ dx/EI \[m\]; proportional
+    /// to the length.
+    pub centre: f64,
+    /// ∫ (x − c)² dx/EI \[m/N\]: deflection by bending per force at the elastic centre;
+    /// proportional to the cube of the length.
+    pub bending: f64,
+    /// ∫ dx/GA_s \[m/N\]: deflection by shear; proportional to the length.
+    pub shear: f64,
 }
 
-impl Plane {
+impl PlaneFlexibility {
+    /// Deflection per force at the elastic centre \[m/N\].
+    fn deflection(&self) -> f64 {
+        self.bending + self.shear
+    }
+
     /// Both together, for parts of one beam that follow each other.
     fn joined(self, next: Self) -> Self {
         let turn = self.turn + next.turn;
@@ -62,19 +72,20 @@ impl Plane {
         Self {
             turn,
             centre: self.centre + share * apart,
-            deflection: self.deflection + next.deflection + self.turn * share * apart * apart,
+            bending: self.bending + next.bending + self.turn * share * apart * apart,
+            shear: self.shear + next.shear,
         }
     }
 
     /// Entries (v, v), (v, θ) and (θ, θ) of the compliance at a place `arm` beyond the centre.
     fn compliance(&self, arm: f64) -> [f64; 3] {
         let turned = self.turn * arm;
-        [self.deflection + turned * arm, turned, self.turn]
+        [self.deflection() + turned * arm, turned, self.turn]
     }
 
-    /// Entries (v, v), (v, θ) and (θ, θ) of the inverse of [`Plane::compliance`].
+    /// Entries (v, v), (v, θ) and (θ, θ) of the inverse of [`PlaneFlexibility::compliance`].
     fn stiffness(&self, arm: f64) -> [f64; 3] {
-        let force = 1.0 / self.deflection;
+        let force = 1.0 / self.deflection();
         [force, -force * arm, 1.0 / self.turn + force * arm * arm]
     }
 }
@@ -129,6 +140,16 @@ impl TaperedBeam {
         &self.taper
     }
 
+    /// Extension per axial force, ∫ dx/EA \[m/N\], and twist per torque, ∫ dx/GJ \[rad/(N·m)\].
+    pub fn axial_and_torsional_flexibility(&self) -> [f64; 2] {
+        [self.whole.axial, self.whole.torsional]
+    }
+
+    /// Flexibility in bending with deflection along y and along z.
+    pub fn plane_flexibilities(&self) -> [PlaneFlexibility; 2] {
+        self.whole.planes
+    }
+
     /// The vector from node 1 to node 2 in the element frame \[m\].
     pub fn span(&self) -> Vector3<f64> {
         Vector3::new(self.length, 0.0, 0.0)
@@ -138,7 +159,7 @@ impl TaperedBeam {
     /// per wrench on it. \[m/N\], \[rad/N\] = \[m/(N·m)\], \[rad/(N·m)\].
     pub fn cantilever_compliance(&self) -> Matrix6<f64> {
         let [in_y, in_z] = self.whole.planes;
-        let entries = |plane: Plane| plane.compliance(self.length - plane.centre);
+        let entries = |plane: PlaneFlexibility| plane.compliance(self.length - plane.centre);
         node_matrix(
             self.whole.axial,
             self.whole.torsional,
@@ -151,7 +172,7 @@ impl TaperedBeam {
     /// [`cantilever_compliance`](Self::cantilever_compliance).
     pub fn cantilever_stiffness(&self) -> Matrix6<f64> {
         let [in_y, in_z] = self.whole.planes;
-        let entries = |plane: Plane| plane.stiffness(self.length - plane.centre);
+        let entries = |plane: PlaneFlexibility| plane.stiffness(self.length - plane.centre);
         node_matrix(
             1.0 / self.whole.axial,
             1.0 / self.whole.torsional,
@@ -177,12 +198,12 @@ impl TaperedBeam {
     fn bent(&self, part: &Flexibility, xi: f64, d: &Vector6<f64>) -> Vector6<f64> {
         let bend = |plane: usize, v: f64, theta: f64| {
             let (whole, part) = (self.whole.planes[plane], part.planes[plane]);
-            let force = (v - (self.length - whole.centre) * theta) / whole.deflection;
+            let force = (v - (self.length - whole.centre) * theta) / whole.deflection();
             // Bending moment at the part's elastic centre.
             let moment = theta / whole.turn + force * (whole.centre - part.centre);
             let turned = part.turn * moment;
             let arm = xi * self.length - part.centre;
-            (arm * turned + part.deflection * force, turned)
+            (arm * turned + part.deflection() * force, turned)
         };
         let (y, phi_z) = bend(0, d[1], d[5]);
         let (z, minus_phi_y) = bend(1, d[2], -d[4]);
@@ -240,10 +261,11 @@ impl TaperedBeam {
                 (section.iy(), section.shear_z()),
             ];
             for (plane, (inertia, shear_area)) in out.planes.iter_mut().zip(planes) {
-                let slice = Plane {
+                let slice = PlaneFlexibility {
                     turn: dx / (young * inertia),
                     centre: xi * self.length,
-                    deflection: shear_area.map_or(0.0, |area| dx / (shear * area)),
+                    bending: 0.0,
+                    shear: shear_area.map_or(0.0, |area| dx / (shear * area)),
                 };
                 *plane = plane.joined(slice);
             }

@@ -47,7 +47,7 @@ fn unit<S: Simd>(v: &Vec3<S>) -> Vec3<S> {
 /// Unit vectors of an element frame as rows, as
 /// [`element_frame`](hyperstat_elements::element_frame) has them; not numbers where it has none.
 #[inline(always)]
-fn element_axes<S: Simd>(x: &Vec3<S>, y_axis: &Vec3<S>) -> Mat3<S> {
+pub(super) fn element_axes<S: Simd>(x: &Vec3<S>, y_axis: &Vec3<S>) -> Mat3<S> {
     let part = normal_part(&unit(y_axis), x);
     let (size, nan) = (dot(&part, &part), x[0].constant(f64::NAN));
     let size = size.if_above(x[0].constant(ALONG * ALONG), size, nan);
@@ -58,7 +58,7 @@ fn element_axes<S: Simd>(x: &Vec3<S>, y_axis: &Vec3<S>) -> Mat3<S> {
 
 /// `Σ cₖ aₖ aₖᵀ` over rows aₖ.
 #[inline(always)]
-fn spectral<S: Simd>(axes: &Mat3<S>, c: [Lane<S>; 3]) -> Mat3<S> {
+pub(super) fn spectral<S: Simd>(axes: &Mat3<S>, c: [Lane<S>; 3]) -> Mat3<S> {
     let weighted: Mat3<S> = three!(k => scaled(&axes[k], c[k]));
     three!(i => three!(j => {
         weighted[0][i].mul_add(
@@ -69,13 +69,13 @@ fn spectral<S: Simd>(axes: &Mat3<S>, c: [Lane<S>; 3]) -> Mat3<S> {
 }
 
 #[inline(always)]
-fn negated<S: Simd>(a: &Mat3<S>) -> Mat3<S> {
+pub(super) fn negated<S: Simd>(a: &Mat3<S>) -> Mat3<S> {
     three!(i => three!(j => -a[i][j]))
 }
 
 /// Writes a 6×6 block from its four 3×3 ones.
 #[inline(always)]
-fn write<S: Simd>(blocks: &mut [S::f64s], place: usize, parts: [&Mat3<S>; 4]) {
+pub(super) fn write<S: Simd>(blocks: &mut [S::f64s], place: usize, parts: [&Mat3<S>; 4]) {
     let out = &mut blocks[place..place + 36];
     for i in 0..3 {
         for j in 0..3 {
@@ -227,31 +227,42 @@ pub(super) fn turned<S: Simd>(
     product_transposed(&product(turn, &block), turn)
 }
 
-/// Blocks of a stiffness held at node 0: turned to global axes, with node 0 by equilibrium
-/// (Eqs. 3 and 7). `axes`: its axes as columns.
+/// Blocks (r, s), 1 ≤ r ≤ s, of a stiffness over nodes 1..=m in the body's axes (column-major),
+/// turned to global axes. `axes`: the body's as columns.
 #[inline(always)]
-pub(super) fn held<S: Simd>(
+pub(super) fn held_parts<S: Simd>(
     simd: S,
     held: &HeldElement,
+    stiffness: &[f64],
     axes: &Mat3<S>,
-    stiffness: &[S::f64s],
-    inputs: &[S::f64s],
     blocks: &mut [S::f64s],
 ) {
     let count = held.points.len() - 1;
     for s in 1..=count {
         for r in 1..=s {
-            let a = held_part(simd, held, axes, stiffness, [r, s], [0, 0]);
-            let b = held_part(simd, held, axes, stiffness, [r, s], [0, 3]);
-            let d = held_part(simd, held, axes, stiffness, [r, s], [3, 3]);
+            let part = |i: usize, j: usize| (6 * count, 6 * (r - 1) + i, 6 * (s - 1) + j);
+            let a = held_part(simd, stiffness, axes, part(0, 0));
+            let b = held_part(simd, stiffness, axes, part(0, 3));
+            let d = held_part(simd, stiffness, axes, part(3, 3));
             let c = if r == s {
                 transposed(&b)
             } else {
-                held_part(simd, held, axes, stiffness, [r, s], [3, 0])
+                held_part(simd, stiffness, axes, part(3, 0))
             };
             write(blocks, place(r, s), [&a, &b, &c, &d]);
         }
     }
+}
+
+/// Blocks (0, s) of a stiffness held at node 0, from the others by equilibrium (Eqs. 3 and 7).
+#[inline(always)]
+pub(super) fn unheld<S: Simd>(
+    simd: S,
+    held: &HeldElement,
+    inputs: &[S::f64s],
+    blocks: &mut [S::f64s],
+) {
+    let count = held.points.len() - 1;
     for s in 0..=count {
         for entry in &mut blocks[place(0, s)..place(0, s) + 36] {
             *entry = simd.splat_f64s(0.0);
@@ -292,20 +303,16 @@ pub(super) fn held<S: Simd>(
     }
 }
 
-/// A 3×3 part (by its first row and column) of block (r, s) of a held stiffness, turned to global
-/// axes.
+/// A 3×3 part of a constant matrix (its number of rows, first row and column) in global axes.
 #[inline(always)]
 fn held_part<S: Simd>(
     simd: S,
-    held: &HeldElement,
+    matrix: &[f64],
     axes: &Mat3<S>,
-    stiffness: &[S::f64s],
-    [r, s]: [usize; 2],
-    [i, j]: [usize; 2],
+    (rows, i, j): (usize, usize, usize),
 ) -> Mat3<S> {
-    let rows = 6 * (held.points.len() - 1);
-    let start = held.stiffness_start + (6 * (s - 1) + j) * rows + 6 * (r - 1) + i;
-    let block: Mat3<S> = three!(k => three!(l => Lane::new(simd, stiffness[start + l * rows + k])));
+    let block: Mat3<S> =
+        three!(k => three!(l => Lane::splat(simd, matrix[(j + l) * rows + i + k])));
     product_transposed(&product(axes, &block), axes)
 }
 

@@ -13,10 +13,6 @@ pub(super) type Numbers = AVec<f64, ConstAlign<64>>;
 pub(super) struct Buffers {
     pub width: usize,
     pub inputs: Numbers,
-    /// Change of every held element since the plan's configuration.
-    pub changes: Numbers,
-    /// Stiffnesses of the held elements.
-    pub stiffness: Numbers,
     pub screws: Numbers,
     pub errors: Numbers,
     /// Of one front's variables.
@@ -27,6 +23,9 @@ pub(super) struct Buffers {
     pub panel: Numbers,
     pub rests: Numbers,
     pub blocks: Numbers,
+    /// The same of an element that some poses form anew, and what that needs.
+    pub formed: Numbers,
+    pub forming: Numbers,
     pub results: Numbers,
 }
 
@@ -34,12 +33,11 @@ impl Buffers {
     pub fn new(program: &Program, width: usize) -> Self {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
         let held = program.elements.iter().filter_map(Element::held);
+        let forming = held.map(|h| h.form.workspace(h.points.len() - 1));
         let fronts = &program.fronts;
-        let mut buffers = Self {
+        Self {
             width,
             inputs: zeros(3 * program.inputs.len()),
-            changes: zeros(held.clone().count()),
-            stiffness: zeros(program.stiffness_len),
             screws: zeros(6 * program.coordinates),
             errors: zeros(program.coordinates),
             local_errors: zeros(fronts.largest),
@@ -48,21 +46,9 @@ impl Buffers {
             panel: zeros(fronts.largest * fronts.most_pivots),
             rests: zeros(fronts.rest_len),
             blocks: zeros(36 * program.most_blocks),
+            formed: zeros(36 * program.most_blocks),
+            forming: zeros(forming.max().unwrap_or(0)),
             results: zeros(RESULTS),
-        };
-        for held in held {
-            for lane in 0..width {
-                buffers.set_stiffness(held.stiffness_start, &held.stiffness, lane);
-            }
-        }
-        buffers
-    }
-
-    /// Writes a held stiffness for one pose.
-    pub fn set_stiffness(&mut self, start: usize, stiffness: &[f64], lane: usize) {
-        let out = self.stiffness[start * self.width..].chunks_exact_mut(self.width);
-        for (out, value) in out.zip(stiffness) {
-            out[lane] = *value;
         }
     }
 

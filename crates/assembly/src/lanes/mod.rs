@@ -15,6 +15,9 @@ mod assemble;
 mod blocks;
 mod buffers;
 mod factor;
+mod form;
+#[cfg(test)]
+mod form_tests;
 mod fronts;
 mod hang;
 mod inputs;
@@ -28,13 +31,12 @@ mod tests;
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::cluster::cluster_stiffness;
 use crate::error::SolveError;
 use crate::model::{Geometry, Model};
-use crate::plan::{Plan, Source, Workspace};
+use crate::plan::{Plan, Workspace};
 use crate::solve::PoseResult;
 use buffers::Buffers;
-use pass::{Changes, DISPLACEMENT, ERROR, PIVOT, Pass};
+use pass::{DISPLACEMENT, ERROR, PIVOT, Pass};
 use program::Program;
 
 /// Poses that are handed to [`Plan::sweep_lanes`] together.
@@ -43,9 +45,6 @@ pub const LANES: usize = 8;
 /// Relative error that a pose of the lanes may have, by its estimate: that may be a few times too
 /// low, and 1e-11 is promised.
 const TRUSTED: f64 = 2e-12;
-/// A held element farther than this, relative to its size, from the plan's configuration gets a
-/// stiffness of its own.
-const CHANGED: f64 = 1e-12;
 
 /// One thread's poses and buffers; made by [`Plan::lanes`].
 #[derive(Debug)]
@@ -62,8 +61,6 @@ pub struct Lanes {
 struct Engine {
     program: Program,
     buffers: Buffers,
-    /// By poses and held elements: whether the stiffness in the buffers is the pose's own.
-    own: Vec<bool>,
 }
 
 /// Numbers in a register of the machine.
@@ -89,11 +86,7 @@ impl Plan {
         let width = arch.dispatch(Width).min(LANES);
         let engine = Program::new(self, model, model.geometry()).map(|program| {
             let buffers = Buffers::new(&program, width);
-            Engine {
-                own: vec![false; buffers.changes.len()],
-                buffers,
-                program,
-            }
+            Engine { buffers, program }
         });
         Lanes {
             geometries: vec![model.geometry().clone(); LANES],
@@ -127,8 +120,6 @@ impl Plan {
                     let inputs = &mut engine.buffers.inputs;
                     engine.program.inputs.read(geometry, inputs, width, lane);
                 }
-                let poses = &lanes.geometries[range.clone()];
-                engine.find_changes(self, model, poses, lanes.arch, &mut lanes.workspace);
                 lanes.arch.dispatch(Pass {
                     program: &engine.program,
                     buffers: &mut engine.buffers,
@@ -179,53 +170,6 @@ impl Lanes {
 }
 
 impl Engine {
-    /// Gives every held element that is not as in the plan's configuration a stiffness of its own.
-    fn find_changes(
-        &mut self,
-        plan: &Plan,
-        model: &Model,
-        poses: &[Geometry],
-        arch: Arch,
-        workspace: &mut Workspace,
-    ) {
-        if self.own.is_empty() {
-            return;
-        }
-        arch.dispatch(Changes {
-            program: &self.program,
-            buffers: &mut self.buffers,
-        });
-        let width = self.buffers.width;
-        let held = self.program.elements.iter().filter_map(|e| e.held());
-        for (k, held) in held.enumerate() {
-            for (lane, geometry) in poses.iter().enumerate() {
-                let change = self.buffers.changes[k * width + lane];
-                let own = &mut self.own[k * width + lane];
-                if change <= CHANGED {
-                    if std::mem::take(own) {
-                        let start = held.stiffness_start;
-                        self.buffers.set_stiffness(start, &held.stiffness, lane);
-                    }
-                    continue;
-                }
-                *own = true;
-                let element = &plan.elements[held.element];
-                let Source::Cluster(cluster) = element.source else {
-                    continue;
-                };
-                let cluster = &plan.topology.clusters[cluster];
-                let formed = cluster_stiffness(plan, element, cluster, model, geometry, workspace);
-                let size = element.rows * element.rows;
-                let stiffness = &mut workspace.stiffnesses[element.stiffness_start..][..size];
-                if formed.is_err() {
-                    stiffness.fill(f64::NAN);
-                }
-                self.buffers
-                    .set_stiffness(held.stiffness_start, stiffness, lane);
-            }
-        }
-    }
-
     /// The result of a pose; `None` where the lanes cannot vouch for it.
     fn result(&self, lane: usize) -> Option<PoseResult> {
         let at = |k: usize| self.buffers.result(k, lane);

@@ -4,9 +4,10 @@
 use pulp::{Simd, WithSimd};
 
 use super::assemble::{Assembly, parts};
-use super::blocks::{arm, beam, bushing, held, held_axes, held_change, turned, vector};
+use super::blocks::{arm, beam, bushing, turned, vector};
 use super::buffers::Buffers;
 use super::factor::{Matrix, ROUNDING, eliminate};
+use super::form::held;
 use super::fronts::{Front, Part};
 use super::hang::{Motion, make_relative};
 use super::lane::{Lane, Vec3, add, apply, cross, scaled, three, transposed};
@@ -22,27 +23,6 @@ pub(super) const DISPLACEMENT: usize = TRIANGLE;
 pub(super) const ERROR: usize = TRIANGLE + 6;
 pub(super) const PIVOT: usize = TRIANGLE + 7;
 
-/// The first pass: how far every held element is from the plan's configuration.
-pub(super) struct Changes<'a> {
-    pub program: &'a Program,
-    pub buffers: &'a mut Buffers,
-}
-
-impl WithSimd for Changes<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let (inputs, _) = S::as_simd_f64s(&self.buffers.inputs);
-        let (changes, _) = S::as_mut_simd_f64s(&mut self.buffers.changes);
-        let held = self.program.elements.iter().filter_map(Element::held);
-        for (held, change) in held.zip(changes) {
-            let axes = held_axes(simd, held, inputs);
-            *change = held_change(simd, held, &axes, inputs).value;
-        }
-    }
-}
-
 /// The whole pass.
 pub(super) struct Pass<'a> {
     pub program: &'a Program,
@@ -52,7 +32,6 @@ pub(super) struct Pass<'a> {
 /// The buffers as registers.
 struct Registers<'a, S: Simd> {
     inputs: &'a [S::f64s],
-    stiffness: &'a [S::f64s],
     screws: &'a mut [S::f64s],
     errors: &'a mut [S::f64s],
     local_errors: &'a mut [S::f64s],
@@ -61,6 +40,8 @@ struct Registers<'a, S: Simd> {
     panel: &'a mut [S::f64s],
     rests: &'a mut [S::f64s],
     blocks: &'a mut [S::f64s],
+    formed: &'a mut [S::f64s],
+    forming: &'a mut [S::f64s],
     results: &'a mut [S::f64s],
 }
 
@@ -71,7 +52,6 @@ impl WithSimd for Pass<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Buffers {
             inputs,
-            stiffness,
             screws,
             errors,
             local_errors,
@@ -80,12 +60,13 @@ impl WithSimd for Pass<'_> {
             panel,
             rests,
             blocks,
+            formed,
+            forming,
             results,
             ..
         } = self.buffers;
         let mut registers = Registers::<S> {
             inputs: S::as_simd_f64s(inputs).0,
-            stiffness: S::as_simd_f64s(stiffness).0,
             screws: S::as_mut_simd_f64s(screws).0,
             errors: S::as_mut_simd_f64s(errors).0,
             local_errors: S::as_mut_simd_f64s(local_errors).0,
@@ -94,6 +75,8 @@ impl WithSimd for Pass<'_> {
             panel: S::as_mut_simd_f64s(panel).0,
             rests: S::as_mut_simd_f64s(rests).0,
             blocks: S::as_mut_simd_f64s(blocks).0,
+            formed: S::as_mut_simd_f64s(formed).0,
+            forming: S::as_mut_simd_f64s(forming).0,
             results: S::as_mut_simd_f64s(results).0,
         };
         for screw in &self.program.screws {
@@ -231,8 +214,8 @@ impl<S: Simd> Registers<'_, S> {
                         bushing(simd, columns, stiffness, count, self.inputs, self.blocks);
                     }
                     Kind::Held(h) => {
-                        let axes = held_axes(simd, h, self.inputs);
-                        held(simd, h, &axes, self.stiffness, self.inputs, self.blocks);
+                        let (formed, forming) = (&mut *self.formed, &mut *self.forming);
+                        held(simd, h, self.inputs, self.blocks, formed, forming);
                         for joint in &h.joints {
                             if joint.load.iter().all(|v| *v == 0.0) {
                                 continue;

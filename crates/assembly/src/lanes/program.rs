@@ -10,16 +10,19 @@
 //! taken at one reference point a component. An element is thus its stiffness over its nodes,
 //! carried to those points, and nothing else.
 
+use hyperstat_elements::Beam;
+use hyperstat_elements::subassembly::ElasticJoint;
 use hyperstat_joints::Dof;
 use nalgebra::{DVector, Matrix6, Vector6};
 
-use crate::cluster::{cluster_frame, local_joints, prismatic_beam};
-use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId};
+use crate::cluster::{SegmentBeam, cluster_frame, local_joints, unit_beam};
+use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
 use crate::numeric::evaluate;
 use crate::plan::{Plan, Source};
 use crate::restraint::{Restraint, scaled};
 use crate::topology::Cluster;
 
+use super::form::{Body, FactorColumn, Form, SegmentForm, TaperedElement};
 use super::fronts::{Fronts, Group};
 use super::hang::{hang, late_roots};
 use super::inputs::{Inputs, Point};
@@ -47,8 +50,6 @@ pub(super) struct Program {
     pub coordinates: usize,
     /// Blocks that the largest element needs, 36 entries each.
     pub most_blocks: usize,
-    /// Entries of all held stiffnesses.
-    pub stiffness_len: usize,
 }
 
 /// The relative motion that a joint's coordinate stands for: a twist at the joint, carried to the
@@ -121,16 +122,15 @@ pub(super) struct BeamElement {
     pub shear: [f64; 2],
 }
 
-/// A body's stiffness as it is in the plan's own configuration, and what it depends on.
+/// A body's stiffness as it is in the plan's own configuration, what it depends on, and how it is
+/// formed where that changes.
 #[derive(Debug)]
 pub(super) struct HeldElement {
-    /// The element of the plan.
-    pub element: usize,
     pub points: Vec<Point>,
     pub axes: Axes,
     /// Stiffness over nodes 1..=m, column-major.
     pub stiffness: Vec<f64>,
-    pub stiffness_start: usize,
+    pub form: Form,
     /// Where the stiffness changes with the pose: from node 0 to the others in the body's axes.
     pub arms: Vec<[f64; 3]>,
     /// Over the largest component of these.
@@ -265,8 +265,7 @@ impl Program {
         let mut elements = Vec::new();
         let mut springs = Vec::new();
         let mut weights = Vec::new();
-        let mut stiffness_len = 0;
-        for (number, element) in plan.elements.iter().enumerate() {
+        for element in &plan.elements {
             let mut nodes: Vec<NodeMotion> = Vec::new();
             for (node, _) in &element.nodes {
                 nodes.push(motion(*node, &mut inputs)?);
@@ -287,10 +286,7 @@ impl Program {
                                 geometry,
                                 cluster,
                             };
-                            let held =
-                                held.element(number, stiffness, stiffness_len, &mut inputs)?;
-                            stiffness_len += size;
-                            Kind::Held(held)
+                            Kind::Held(held.element(stiffness, &mut inputs)?)
                         }
                     }
                 }
@@ -393,7 +389,6 @@ impl Program {
             loads,
             fronts,
             coordinates: unknowns + usize::from(loads_row.is_some()),
-            stiffness_len,
         })
     }
 }
@@ -426,23 +421,33 @@ fn beam_element(cluster: &Cluster, model: &Model, inputs: &mut Inputs) -> Option
     if cluster.joints.iter().any(Option::is_some) {
         return None;
     }
-    let beam = prismatic_beam(model, *id)?;
-    let section = beam.section_compliance();
-    let (shear_y, shear_z) = (section[1], section[2]);
-    let bending = [beam.bending_rigidity_y(), beam.bending_rigidity_z()];
-    let mut element = BeamElement {
-        ends: [0, 1].map(|k| inputs.point(cluster.nodes[k])),
-        y_axis: None,
-        axial: beam.axial_rigidity(),
-        torsional: beam.torsional_rigidity(),
-        bending,
-        shear: [12.0 * bending[0] * shear_z, 12.0 * bending[1] * shear_y],
+    let SegmentBeam::Prismatic(beam) = unit_beam(model, *id)? else {
+        return None;
     };
-    let [across, upwards] = element.bending;
-    if across != upwards || element.shear[0] != element.shear[1] {
-        element.y_axis = Some(inputs.y_axis(*id, [cluster.nodes[0], cluster.nodes[1]]));
+    let ends = [cluster.nodes[0], cluster.nodes[1]];
+    Some(BeamElement::new(&beam, *id, ends, inputs))
+}
+
+impl BeamElement {
+    /// A segment of any length, run through from one node to the other.
+    fn new(beam: &Beam, id: SegmentId, ends: [NodeId; 2], inputs: &mut Inputs) -> Self {
+        let section = beam.section_compliance();
+        let (shear_y, shear_z) = (section[1], section[2]);
+        let bending = [beam.bending_rigidity_y(), beam.bending_rigidity_z()];
+        let mut element = Self {
+            ends: ends.map(|n| inputs.point(n)),
+            y_axis: None,
+            axial: beam.axial_rigidity(),
+            torsional: beam.torsional_rigidity(),
+            bending,
+            shear: [12.0 * bending[0] * shear_z, 12.0 * bending[1] * shear_y],
+        };
+        let [across, upwards] = element.bending;
+        if across != upwards || element.shear[0] != element.shear[1] {
+            element.y_axis = Some(inputs.y_axis(id, ends));
+        }
+        element
     }
-    Some(element)
 }
 
 /// A cluster about to become a held element.
@@ -454,13 +459,7 @@ struct Held<'a> {
 }
 
 impl Held<'_> {
-    fn element(
-        &self,
-        element: usize,
-        stiffness: Vec<f64>,
-        stiffness_start: usize,
-        inputs: &mut Inputs,
-    ) -> Option<HeldElement> {
+    fn element(&self, stiffness: Vec<f64>, inputs: &mut Inputs) -> Option<HeldElement> {
         let Self {
             plan,
             model,
@@ -481,7 +480,7 @@ impl Held<'_> {
             |id: FlexibleId, inputs: &mut Inputs| [0, 1, 2].map(|c| inputs.rotation(id, c));
         let joints = local_joints(plan, model, geometry, cluster, &to_local);
         Some(HeldElement {
-            element,
+            form: self.form(&joints, inputs)?,
             points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
             axes: match cluster.flexible {
                 Some(id) => Axes::Flexible(rotation(id, inputs)),
@@ -491,7 +490,6 @@ impl Held<'_> {
                 }
             },
             stiffness,
-            stiffness_start,
             arms,
             per_length: 1.0 / longest,
             joints: joints
@@ -505,6 +503,46 @@ impl Held<'_> {
                     load: crate::numeric::node_load(model, cluster.nodes[node]),
                 })
                 .collect(),
+        })
+    }
+}
+
+impl Held<'_> {
+    /// How its stiffness is formed.
+    fn form(&self, joints: &[(usize, JointId, ElasticJoint)], inputs: &mut Inputs) -> Option<Form> {
+        let Self { model, cluster, .. } = self;
+        let body = match cluster.flexible {
+            Some(id) => {
+                let held = model.flexibles()[id.0].element.held_stiffness();
+                Body::Given(held.as_slice().to_vec())
+            }
+            None => {
+                let mut segments = Vec::new();
+                for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
+                    let ends = [cluster.nodes[k], cluster.nodes[k + 1]];
+                    segments.push(match unit_beam(model, *id)? {
+                        SegmentBeam::Prismatic(beam) => {
+                            SegmentForm::Prismatic(BeamElement::new(&beam, *id, ends, inputs))
+                        }
+                        SegmentBeam::Tapered(beam) => {
+                            let y_axis = inputs.y_axis(*id, ends);
+                            let ends = ends.map(|n| inputs.point(n));
+                            SegmentForm::Tapered(TaperedElement::new(
+                                &beam, *reversed, ends, y_axis,
+                            ))
+                        }
+                    });
+                }
+                Body::Run(segments)
+            }
+        };
+        let columns = joints.iter().flat_map(|(node, joint, elastic)| {
+            let frame = [0, 1, 2].map(|c| inputs.frame_column(*joint, c));
+            FactorColumn::all_of(*node, &elastic.compliance, frame)
+        });
+        Some(Form {
+            columns: columns.collect(),
+            body,
         })
     }
 }

@@ -15,6 +15,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::args;
 use crate::case::Source;
 use crate::error::CliError;
+use record::Columns;
 use summary::Summary;
 use sweep::Sweep;
 use table::Table;
@@ -73,7 +74,7 @@ fn run_job(
         path: path.clone(),
         source,
     };
-    let mut table = Table::create(&path, args.format, job.varied()).map_err(cannot_write)?;
+    let mut table = Table::create(&path, args.format, &Columns::of(job)).map_err(cannot_write)?;
     let mut summary = Summary::new(job);
     let mut trajectory = figures::Trajectory::wanted_by(job);
     let render = |chunk: &mut _| Table::render(args.format, chunk);

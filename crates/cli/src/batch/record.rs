@@ -1,7 +1,7 @@
 //! What a sweep finds at one pose.
 
 use hyperstat_assembly::{PoseResult, SolveError};
-use hyperstat_mechanisms::PoseError;
+use hyperstat_mechanisms::{Job, PoseError, Varied};
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
@@ -60,6 +60,8 @@ impl Record {
 pub(crate) struct Found {
     pub(crate) stiffness: Matrix6<f64>,
     pub(crate) displacement: Vector6<f64>,
+    /// Numbers of the table's further columns; `None` where a pose has no such number.
+    pub(crate) further: Vec<Option<f64>>,
 }
 
 impl Found {
@@ -76,6 +78,25 @@ impl Found {
     }
 }
 
+/// The columns of a job's table that not every job has.
+#[derive(Debug, Default)]
+pub(crate) struct Columns<'a> {
+    /// Names of numbers found, after the stiffness.
+    pub(crate) further: Vec<String>,
+    /// What varies from design to design, last.
+    pub(crate) varied: &'a [Varied],
+}
+
+impl<'a> Columns<'a> {
+    /// Those of a job.
+    pub(crate) fn of(job: &'a Job) -> Self {
+        Self {
+            further: Vec::new(),
+            varied: job.varied(),
+        }
+    }
+}
+
 /// Six components of the displacement and the upper triangle of the stiffness.
 pub(crate) const NUMBERS: usize = 6 + 21;
 
@@ -86,6 +107,7 @@ impl TryFrom<PoseResult> for Found {
         Ok(Self {
             displacement: result.displacement.ok_or(Failure::Free)?,
             stiffness: result.stiffness.ok_or(Failure::Rigid)?,
+            further: Vec::new(),
         })
     }
 }

@@ -9,7 +9,7 @@ use hyperstat_assembly::{LANES, Lanes, Model, Plan, SolveError};
 use hyperstat_mechanisms::{Design, Job, LoadError, Value};
 use rayon::{Scope, ThreadPool};
 
-use super::record::{Failure, Found, Record};
+use super::record::{Columns, Failure, Found, Record};
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
@@ -40,6 +40,8 @@ pub(crate) struct Chunk {
     pub(crate) text: String,
     /// Rows of a design.
     pub(crate) poses: usize,
+    /// Further numbers that a row has where it has a result.
+    pub(crate) further: usize,
     /// Of a job that varies the designs, by number, that the rows are of, and their values.
     pub(crate) designs: Vec<(usize, Vec<Value>)>,
     /// Why a design cannot be made; the records end before it.
@@ -52,6 +54,8 @@ pub(crate) struct Row<'c> {
     /// Number of the pose in its design.
     pub(crate) pose: usize,
     pub(crate) record: &'c Record,
+    /// Further numbers that it has where it has a result.
+    pub(crate) further: usize,
     /// Number of the design and its values, in a job that varies.
     pub(crate) design: Option<(usize, &'c [Value])>,
 }
@@ -69,6 +73,7 @@ impl Chunk {
                 Row {
                     pose: row - design * self.poses,
                     record,
+                    further: self.further,
                     design: of_design.map(|(number, values)| (*number, values.as_slice())),
                 }
             })
@@ -128,6 +133,7 @@ impl<'a> Sweep<'a> {
             chunk.text.clear();
             render(chunk);
         };
+        let further = Columns::of(self.job).further.len();
         let chunks = (0..self.len()).step_by(CHUNK);
         let mut ranges = chunks.map(|first| first..(first + CHUNK).min(self.len()));
         pool.in_place_scope(|scope| {
@@ -137,6 +143,7 @@ impl<'a> Sweep<'a> {
                     let chunk = Chunk {
                         rows,
                         poses: self.job.len(),
+                        further,
                         ..Chunk::default()
                     };
                     start(scope, &compute, chunk)

@@ -4,12 +4,10 @@ use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::Revolute;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts,
-};
+use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts};
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb, turned_outward};
-use super::two_links::TwoLinks;
+use super::two_links::{TwoLinks, joints_of};
 use super::{
     ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
 };
@@ -131,18 +129,6 @@ struct Limb {
     distal: Rotation3<f64>,
 }
 
-impl Limb {
-    #[inline]
-    fn points(&self, index: usize) -> [NamedPoint; 3] {
-        let [a, b, c] = self.points;
-        [
-            (Name::limb("A", index), a),
-            (Name::limb("B", index), b),
-            (Name::limb("C", index), c),
-        ]
-    }
-}
-
 /// A planar 3-RRR at a pose.
 struct Posed<'a> {
     planar: &'a PlanarThreeRrr,
@@ -155,7 +141,7 @@ impl Configuration for Posed<'_> {
     fn walk(&self, parts: &mut impl Parts) {
         let planar = self.planar;
         for (index, limb) in self.limbs.iter().enumerate() {
-            let [a, b, c] = limb.points(index);
+            let [a, b, c] = joints_of(limb.points, index);
             let link = |word, points, link| BeamPart {
                 name: Name::limb(word, index),
                 points,
@@ -168,7 +154,7 @@ impl Configuration for Posed<'_> {
         }
         let [x, y, ..] = self.pose;
         let centre = (Name::alone("P"), Point3::new(x, y, 0.0));
-        let c = |index: usize| self.limbs[index].points(index)[2];
+        let c = |index: usize| joints_of(self.limbs[index].points, index)[2];
         parts.rigid(PLATFORM, [centre, c(0), c(1), c(2)]);
         for (index, limb) in self.limbs.iter().enumerate() {
             let name = |word| Name::limb(word, index);

@@ -4,12 +4,10 @@ use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::{Prismatic, Revolute};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
-};
+use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
-use super::two_links::TwoLinks;
+use super::two_links::{TwoLinks, joints_of};
 use super::{
     ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
 };
@@ -150,18 +148,6 @@ struct Limb {
     distal: Rotation3<f64>,
 }
 
-impl Limb {
-    #[inline]
-    fn points(&self, index: usize) -> [NamedPoint; 3] {
-        let [a, b, c] = self.points;
-        [
-            (Name::limb("A", index), a),
-            (Name::limb("B", index), b),
-            (Name::limb("C", index), c),
-        ]
-    }
-}
-
 /// A Tripteron at a pose.
 struct Posed<'a> {
     tripteron: &'a Tripteron,
@@ -174,7 +160,7 @@ impl Configuration for Posed<'_> {
     fn walk(&self, parts: &mut impl Parts) {
         let tripteron = self.tripteron;
         for (index, limb) in self.limbs.iter().enumerate() {
-            let [a, b, c] = limb.points(index);
+            let [a, b, c] = joints_of(limb.points, index);
             parts.rigid(Name::limb("carriage", index), [a]);
             let link = |word, points, link| BeamPart {
                 name: Name::limb(word, index),
@@ -187,7 +173,7 @@ impl Configuration for Posed<'_> {
             parts.beam(link("distal", [b, c], &tripteron.distal));
         }
         let centre = (Name::alone("P"), self.centre);
-        let c = |index: usize| self.limbs[index].points(index)[2];
+        let c = |index: usize| joints_of(self.limbs[index].points, index)[2];
         parts.rigid(PLATFORM, [centre, c(0), c(1), c(2)]);
         for (index, limb) in self.limbs.iter().enumerate() {
             self.joints(index, limb, parts);

@@ -1,8 +1,10 @@
 //! Two links in a plane between two given points: where their common joint, the elbow, stands.
 
+use nalgebra::Point3;
 use serde::Deserialize;
 
 use super::PoseError;
+use super::construction::{Name, NamedPoint};
 use super::error::shown;
 
 /// How far, relative to the links' length, a pose may miss the edge of their reach and still
@@ -82,6 +84,16 @@ impl TwoLinks {
             foot * along[1] + height * along[0],
         ])
     }
+}
+
+/// The joints A, B and C of a limb (from 0), by name.
+#[inline]
+pub(super) fn joints_of([a, b, c]: [Point3<f64>; 3], index: usize) -> [NamedPoint; 3] {
+    [
+        (Name::limb("A", index), a),
+        (Name::limb("B", index), b),
+        (Name::limb("C", index), c),
+    ]
 }
 
 #[cfg(test)]

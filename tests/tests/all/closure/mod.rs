@@ -5,3 +5,4 @@ mod drives;
 mod jobs;
 mod mechanisms;
 mod prebuilt;
+mod sliding;

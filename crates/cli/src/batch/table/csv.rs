@@ -4,19 +4,19 @@ use std::fmt::Write as _;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-use hyperstat_mechanisms::{Value, Varied};
+use hyperstat_mechanisms::Value;
 
 use crate::atomic::AtomicFile;
-use crate::batch::record::NUMBERS;
+use crate::batch::record::{Columns, NUMBERS};
 use crate::batch::sweep::{Chunk, Row};
 
 /// A CSV file being written.
 pub(crate) struct Csv(AtomicFile);
 
 impl Csv {
-    pub(super) fn create(path: &Path, varied: &[Varied]) -> io::Result<Self> {
+    pub(super) fn create(path: &Path, columns: &Columns<'_>) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
-        let names: Vec<_> = super::columns(varied).map(quoted).collect();
+        let names: Vec<_> = super::columns(columns).map(quoted).collect();
         writeln!(file, "{}", names.join(","))?;
         Ok(Self(file))
     }
@@ -48,8 +48,16 @@ fn append(text: &mut String, row: &Row<'_>) {
     text.push(',');
     text.push_str(record.status());
     match &record.result {
-        Ok(found) => append_numbers(text, &found.numbers()),
-        Err(_) => text.extend([','; NUMBERS]),
+        Ok(found) => {
+            append_numbers(text, &found.numbers());
+            for number in &found.further {
+                match number {
+                    Some(number) => append_numbers(text, &[*number]),
+                    None => text.push(','),
+                }
+            }
+        }
+        Err(_) => text.extend(std::iter::repeat_n(',', NUMBERS + row.further)),
     }
     if let Some((number, values)) = row.design {
         let _ = write!(text, ",{number}");
@@ -91,14 +99,22 @@ mod tests {
     use nalgebra::{Matrix6, Vector6};
 
     use super::append;
-    use crate::batch::record::{Failure, Found, Record};
+    use crate::batch::record::{Columns, Failure, Found, Record};
     use crate::batch::sweep::Row;
     use crate::batch::table::columns;
+
+    fn two_further() -> Columns<'static> {
+        Columns {
+            further: vec!["f1".into(), "f2".into()],
+            varied: &[],
+        }
+    }
 
     fn row(pose: usize, record: &Record) -> Row<'_> {
         Row {
             pose,
             record,
+            further: 0,
             design: None,
         }
     }
@@ -108,6 +124,7 @@ mod tests {
         let found = Found {
             stiffness: Matrix6::from_fn(|r, c| 1e8 / (1.0 + (r.min(c) * 6 + r.max(c)) as f64)),
             displacement: Vector6::new(0.1 + 0.2, -1.0 / 3.0, 5e-324, 1e300, -0.0, 1e-7),
+            further: vec![Some(0.1), None],
         };
         let mut text = String::new();
         let record = Record {
@@ -116,7 +133,7 @@ mod tests {
         };
         append(&mut text, &row(12, &record));
         let cells: Vec<_> = text.trim_end().split(',').collect();
-        let names: Vec<_> = columns(&[]).collect();
+        let names: Vec<_> = columns(&two_further()).collect();
         assert_eq!(cells.len(), names.len());
         let cell = |name: &str| cells[names.iter().position(|n| *n == name).unwrap()];
         let number = |name: &str| cell(name).parse::<f64>().unwrap();
@@ -124,6 +141,7 @@ mod tests {
         assert_eq!(cell("status"), "ok");
         assert_eq!(number("x"), record.pose[0]);
         assert_eq!(number("rz"), record.pose[5]);
+        assert_eq!((number("f1"), cell("f2")), (0.1, ""));
         for (k, name) in ["dx", "dy", "dz", "drx", "dry", "drz"].iter().enumerate() {
             assert_eq!(number(name).to_bits(), found.displacement[k].to_bits());
         }
@@ -143,9 +161,16 @@ mod tests {
             result: Err(Failure::Pose(PoseError::Unreachable { what })),
         };
         let mut text = String::new();
-        append(&mut text, &row(0, &record));
+        let row = Row {
+            further: 2,
+            ..row(0, &record)
+        };
+        append(&mut text, &row);
         assert!(text.starts_with("0,9.0,0.0,0.0,0.0,0.0,0.0,unreachable,,"));
-        assert_eq!(text.matches(',').count() + 1, columns(&[]).count());
-        assert!(text.trim_end().ends_with(&",".repeat(27)));
+        assert_eq!(
+            text.matches(',').count() + 1,
+            columns(&two_further()).count()
+        );
+        assert!(text.trim_end().ends_with(&",".repeat(29)));
     }
 }

@@ -6,8 +6,7 @@ mod parquet;
 use std::io;
 use std::path::Path;
 
-use hyperstat_mechanisms::Varied;
-
+use super::record::Columns;
 use super::sweep::Chunk;
 use crate::args::TableFormat;
 
@@ -19,7 +18,8 @@ const DESIGN: &str = "design";
 
 /// Names of the columns: the number of the pose, the pose, the status, and the numbers found; of a
 /// job that varies the number of the design and its values after them.
-fn columns(varied: &[Varied]) -> impl Iterator<Item = String> {
+fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
+    let varied = columns.varied;
     let pose = ["pose", "x", "y", "z", "rx", "ry", "rz"];
     let displacement = ["dx", "dy", "dz", "drx", "dry", "drz"];
     let first = pose.into_iter().chain([STATUS]).chain(displacement);
@@ -27,6 +27,7 @@ fn columns(varied: &[Varied]) -> impl Iterator<Item = String> {
     let design = (!varied.is_empty()).then(|| DESIGN.to_owned());
     let values = varied.iter().map(|varied| varied.path.clone());
     let found = first.map(String::from).chain(stiffness);
+    let found = found.chain(columns.further.iter().cloned());
     found.chain(design).chain(values)
 }
 
@@ -38,11 +39,15 @@ pub(crate) enum Table {
 
 impl Table {
     /// Opens the table for `path`.
-    pub(crate) fn create(path: &Path, format: TableFormat, varied: &[Varied]) -> io::Result<Self> {
+    pub(crate) fn create(
+        path: &Path,
+        format: TableFormat,
+        columns: &Columns<'_>,
+    ) -> io::Result<Self> {
         Ok(match format {
-            TableFormat::Csv => Self::Csv(csv::Csv::create(path, varied)?),
+            TableFormat::Csv => Self::Csv(csv::Csv::create(path, columns)?),
             TableFormat::Parquet => {
-                Self::Parquet(Box::new(parquet::Parquet::create(path, varied)?))
+                Self::Parquet(Box::new(parquet::Parquet::create(path, columns)?))
             }
         })
     }
@@ -74,9 +79,11 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
+    use super::Columns;
+
     #[test]
     fn the_columns_are_those_of_the_format() {
-        let names: Vec<_> = super::columns(&[]).collect();
+        let names: Vec<_> = super::columns(&Columns::default()).collect();
         let expected = "pose,x,y,z,rx,ry,rz,status,dx,dy,dz,drx,dry,drz,k11,k12,k13,k14,k15,k16,\
                         k22,k23,k24,k25,k26,k33,k34,k35,k36,k44,k45,k46,k55,k56,k66";
         assert_eq!(names.join(","), expected);

@@ -19,7 +19,7 @@ use hyperstat_mechanisms::{Value, Varied};
 
 use super::STATUS;
 use crate::atomic::AtomicFile;
-use crate::batch::record::NUMBERS;
+use crate::batch::record::{Columns, NUMBERS};
 use crate::batch::sweep::Chunk;
 
 /// Rows of a group: 16 MB of numbers.
@@ -41,11 +41,20 @@ struct Group {
     levels: Vec<i16>,
     /// Of the rows that have them.
     numbers: [Vec<f64>; NUMBERS],
+    /// Of the rows that have them, as well.
+    further: Vec<Further>,
     /// A copy of every status met, which others share.
     statuses: Vec<(&'static str, ByteArray)>,
     /// Of a job that varies.
     design: Vec<i64>,
     values: Vec<Values>,
+}
+
+/// A column of further numbers.
+#[derive(Clone, Default)]
+struct Further {
+    levels: Vec<i16>,
+    numbers: Vec<f64>,
 }
 
 /// A column of varied values.
@@ -81,7 +90,7 @@ impl Values {
 }
 
 impl Parquet {
-    pub(super) fn create(path: &Path, varied: &[Varied]) -> io::Result<Self> {
+    pub(super) fn create(path: &Path, columns: &Columns<'_>) -> io::Result<Self> {
         let file = AtomicFile::create(path)?;
         let properties = WriterProperties::builder()
             .set_dictionary_enabled(false)
@@ -89,12 +98,13 @@ impl Parquet {
             .set_statistics_enabled(EnabledStatistics::Chunk)
             .set_offset_index_disabled(true)
             .build();
-        let schema = schema(varied).map_err(io_error)?;
+        let schema = schema(columns).map_err(io_error)?;
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties));
         Ok(Self {
             writer: writer.map_err(io_error)?,
             group: Group {
-                values: varied.iter().map(Values::of).collect(),
+                further: vec![Further::default(); columns.further.len()],
+                values: columns.varied.iter().map(Values::of).collect(),
                 ..Group::default()
             },
         })
@@ -125,6 +135,9 @@ impl Parquet {
         write::<ByteArrayType>(&mut writer, &group.status, None)?;
         for column in &group.numbers {
             write::<DoubleType>(&mut writer, column, Some(&group.levels))?;
+        }
+        for column in &group.further {
+            write::<DoubleType>(&mut writer, &column.numbers, Some(&column.levels))?;
         }
         if !group.values.is_empty() {
             write::<Int64Type>(&mut writer, &group.design, None)?;
@@ -162,6 +175,12 @@ impl Group {
             let status = self.status(record.status());
             self.status.push(status);
             self.levels.push(i16::from(record.result.is_ok()));
+            for (k, column) in self.further.iter_mut().enumerate() {
+                let found = record.result.as_ref().ok();
+                let number = found.and_then(|found| found.further.get(k).copied().flatten());
+                column.levels.push(i16::from(number.is_some()));
+                column.numbers.extend(number);
+            }
             if let Ok(found) = &record.result {
                 for (column, value) in self.numbers.iter_mut().zip(found.numbers()) {
                     column.push(value);
@@ -185,6 +204,10 @@ impl Group {
         self.status.clear();
         self.levels.clear();
         self.numbers.iter_mut().for_each(Vec::clear);
+        for column in &mut self.further {
+            column.levels.clear();
+            column.numbers.clear();
+        }
         self.design.clear();
         self.values.iter_mut().for_each(Values::clear);
     }
@@ -204,13 +227,13 @@ fn write<T: DataType>(
 }
 
 /// The columns: what is found is null where a pose has no result.
-fn schema(varied: &[Varied]) -> Result<Type, ParquetError> {
+fn schema(given: &Columns<'_>) -> Result<Type, ParquetError> {
     let mut columns = Vec::new();
-    let design = 8 + NUMBERS;
-    for (place, name) in super::columns(varied).enumerate() {
+    let design = 8 + NUMBERS + given.further.len();
+    for (place, name) in super::columns(given).enumerate() {
         let text = match place.checked_sub(design + 1) {
             None => name == STATUS,
-            Some(value) => !varied[value].numeric,
+            Some(value) => !given.varied[value].numeric,
         };
         let (kind, meaning) = match place {
             _ if text => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),

@@ -1,0 +1,237 @@
+//! The lowest modes of a large sparse pair of matrices: block Lanczos with the inverse of the
+//! stiffness and full reorthogonalization in the mass (Golub and Underwood 1977; Ericsson and
+//! Ruhe 1980).
+//!
+//! All vectors of the basis are made by the inverse of the stiffness from masses times vectors, so
+//! that coordinates without mass follow the others and infinite frequencies never appear.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::system::{Mode, System};
+use crate::error::SolveError;
+use crate::numeric::dot;
+
+/// Vectors of a block.
+pub(super) const BLOCK: usize = 4;
+/// A Ritz pair has converged whose residual is below this part of it; its eigenvalue is then good
+/// to about the square.
+const CONVERGED: f64 = 1e-11;
+/// A vector of which no more than this part is left beside the basis lies in it.
+const DEPENDENT: f64 = 1e-12;
+/// Ritz values below this part of the largest are rounding.
+const ROUNDING: f64 = 1e-14;
+/// Eigenvalues that differ by no more than this part leave no room to count between them.
+const NO_ROOM: f64 = 1e-5;
+/// Vectors of a basis at the most, beside ten for every mode.
+const MOST_VECTORS: usize = 500;
+/// Times that modes are looked for again.
+const MOST_ROUNDS: usize = 8;
+
+/// The lowest modes, lowest first.
+pub(super) struct Lowest {
+    pub modes: Vec<Mode>,
+    /// Whether the number of eigenvalues below says that none is missing.
+    pub complete: bool,
+}
+
+/// Finds the `count` lowest modes; fewer where there are no more.
+pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, SolveError> {
+    let mut basis = Basis::default();
+    let mut wanted = count + 2;
+    let mut complete = false;
+    for _ in 0..MOST_ROUNDS {
+        let all = basis.grow(system, wanted)?;
+        if all {
+            complete = true;
+            break;
+        }
+        let values = basis.eigenvalues(wanted);
+        // Counted is where the most room lies between those found, after the last that is wanted.
+        let room = |k: usize| values[k] / values[k - 1] - 1.0;
+        let places = count..values.len();
+        let best = places.max_by(|a, b| room(*a).total_cmp(&room(*b)));
+        let Some(below) = best.filter(|k| room(*k) > NO_ROOM) else {
+            wanted += count + BLOCK;
+            continue;
+        };
+        match system.count_below((values[below - 1] * values[below]).sqrt()) {
+            // One of several equal modes that no vector so far had a part in.
+            Some(counted) if counted > below => {
+                wanted += counted - below;
+                basis.add_random(system);
+            }
+            counted => {
+                complete = counted == Some(below);
+                break;
+            }
+        }
+    }
+    let modes = basis.modes(system, count);
+    Ok(Lowest { modes, complete })
+}
+
+/// A basis, orthonormal in the mass, and the inverse of the stiffness times mass in it.
+#[derive(Default)]
+struct Basis {
+    vectors: Vec<Vec<f64>>,
+    /// Mass times each of them.
+    mass_vectors: Vec<Vec<f64>>,
+    /// Inverse of the stiffness times mass times each of the first of them.
+    images: Vec<Vec<f64>>,
+    /// What of the last images is outside the vectors of their time.
+    outside: Vec<f64>,
+    /// The operator among the vectors that have images, by rows of the lower triangle.
+    projected: Vec<Vec<f64>>,
+    seed: u64,
+}
+
+impl Basis {
+    /// Grows until `wanted` Ritz pairs have converged; returns whether the basis has come to hold
+    /// all modes of finite frequency.
+    fn grow(&mut self, system: &mut System<'_>, wanted: usize) -> Result<bool, SolveError> {
+        loop {
+            if self.images.len() == self.vectors.len() && !self.add_random(system) {
+                return Ok(true);
+            }
+            if self.vectors.len() > MOST_VECTORS + 10 * wanted {
+                return Err(SolveError::ModesNotFound {
+                    found: self.converged(wanted),
+                });
+            }
+            self.step(system)?;
+            if self.images.len() >= wanted && self.converged(wanted) >= wanted {
+                return Ok(false);
+            }
+        }
+    }
+
+    /// Finds the images of the vectors that have none, and appends what is new in them.
+    fn step(&mut self, system: &mut System<'_>) -> Result<(), SolveError> {
+        let block = self.images.len()..self.vectors.len();
+        let images = system.solve(&self.mass_vectors[block.clone()])?;
+        self.outside.clear();
+        let mut rests = Vec::with_capacity(images.len());
+        for (row, mut image) in block.clone().zip(images) {
+            system.remove_free(&mut image);
+            let entries = self.mass_vectors[..=row].iter();
+            self.projected
+                .push(entries.map(|vector| dot(vector, &image)).collect());
+            rests.push(image.clone());
+            self.images.push(image);
+        }
+        for rest in rests {
+            let outside = self.append(system, rest);
+            self.outside.push(outside);
+        }
+        Ok(())
+    }
+
+    /// Appends a vector without its part in the basis, unless nothing is left; returns the length
+    /// of what is left.
+    fn append(&mut self, system: &System<'_>, mut vector: Vec<f64>) -> f64 {
+        let whole = system.length(&vector);
+        for _ in 0..2 {
+            system.remove_free(&mut vector);
+            for (own, mass_own) in self.vectors.iter().zip(&self.mass_vectors) {
+                let share = dot(mass_own, &vector);
+                subtract(&mut vector, share, own);
+            }
+        }
+        let length = system.length(&vector);
+        if length > DEPENDENT * whole {
+            for value in &mut vector {
+                *value /= length;
+            }
+            self.mass_vectors.push(system.mass_times(&vector));
+            self.vectors.push(vector);
+        }
+        length
+    }
+
+    /// Appends a random block; returns whether there was anything new in it.
+    fn add_random(&mut self, system: &mut System<'_>) -> bool {
+        let before = self.vectors.len();
+        let random = (0..BLOCK).map(|_| {
+            let free = (0..system.size()).map(|_| random(&mut self.seed));
+            system.mass_times(&free.collect::<Vec<f64>>())
+        });
+        let random: Vec<Vec<f64>> = random.collect();
+        // Numbers that overflow end in a basis that grows no more.
+        let Ok(images) = system.solve(&random) else {
+            return false;
+        };
+        for image in images {
+            self.append(system, image);
+        }
+        self.vectors.len() > before
+    }
+
+    /// Ritz values and vectors, largest first.
+    fn ritz(&self) -> Vec<(f64, Vec<f64>)> {
+        let count = self.projected.len();
+        let entry = |r: usize, c: usize| self.projected[r.max(c)][r.min(c)];
+        let eigen = SymmetricEigen::new(DMatrix::from_fn(count, count, entry));
+        let columns = eigen.eigenvectors.column_iter();
+        let mut pairs: Vec<(f64, Vec<f64>)> = eigen
+            .eigenvalues
+            .iter()
+            .zip(columns)
+            .map(|(value, column)| (*value, column.iter().copied().collect()))
+            .collect();
+        pairs.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let least = pairs.first().map_or(0.0, |first| ROUNDING * first.0);
+        pairs.retain(|(value, _)| *value > least);
+        pairs
+    }
+
+    /// How many of the first `wanted` Ritz pairs have converged, up to the first that has not.
+    fn converged(&self, wanted: usize) -> usize {
+        let last = self.images.len() - self.outside.len();
+        let pairs = self.ritz();
+        let converged = pairs.iter().take(wanted).take_while(|(value, weights)| {
+            let parts = weights[last..].iter().zip(&self.outside);
+            let residual: f64 = parts.map(|(weight, rest)| weight.abs() * rest).sum();
+            residual <= CONVERGED * value
+        });
+        converged.count()
+    }
+
+    /// The lowest eigenvalues of stiffness and mass.
+    fn eigenvalues(&self, wanted: usize) -> Vec<f64> {
+        let pairs = self.ritz();
+        pairs.iter().take(wanted).map(|p| 1.0 / p.0).collect()
+    }
+
+    /// The lowest modes.
+    fn modes(&self, system: &System<'_>, count: usize) -> Vec<Mode> {
+        let pairs = self.ritz();
+        let modes = pairs.iter().take(count).map(|(_, weights)| {
+            let mut vector = vec![0.0; system.size()];
+            let mut image = vector.clone();
+            for (k, weight) in weights.iter().enumerate() {
+                subtract(&mut vector, -weight, &self.vectors[k]);
+                subtract(&mut image, -weight, &self.images[k]);
+            }
+            system.mode(vector, &image)
+        });
+        let mut modes: Vec<Mode> = modes.collect();
+        modes.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
+        modes
+    }
+}
+
+/// `vector -= share * other`.
+pub(super) fn subtract(vector: &mut [f64], share: f64, other: &[f64]) {
+    for (value, other) in vector.iter_mut().zip(other) {
+        *value -= share * other;
+    }
+}
+
+/// A number from −1 to 1 (Steele, Lea and Flood 2014, SplitMix64): the same in every run.
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *seed;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}

@@ -1,0 +1,329 @@
+//! How the rigidities of a beam change with the dimensions of its section and the constants of its
+//! material.
+//!
+//! Derivatives are logarithmic, ∂ ln r/∂p: of the rigidities r = (EA, GA_y, GA_z, GJ, EI_y, EI_z)
+//! for [`StraightBeam::elastic_work`](crate::StraightBeam::elastic_work).
+
+use nalgebra::Vector6;
+
+use crate::error::ElementError;
+use crate::material::{Elasticity, Material};
+use crate::section::{Section, SectionShape};
+use crate::taper::Taper;
+
+/// Relative step of the differences of a tapered section's properties: their error is its square.
+const STEP: f64 = 1e-5;
+
+impl Section {
+    /// The dimensions and properties that stiffness depends on, by their names in files, with
+    /// their values \[m, m², m⁴\].
+    pub fn dimensions(&self) -> Vec<(&'static str, f64)> {
+        let mut dimensions = match *self.shape() {
+            SectionShape::Circle { diameter } => vec![("diameter", diameter)],
+            SectionShape::Tube { outer, inner } => vec![("outer", outer), ("inner", inner)],
+            SectionShape::Rectangle { width, height } => {
+                vec![("width", width), ("height", height)]
+            }
+            SectionShape::General {
+                area,
+                iy,
+                iz,
+                torsion,
+                ..
+            } => vec![("area", area), ("iy", iy), ("iz", iz), ("torsion", torsion)],
+        };
+        let shear = [("shear_y", self.shear_y()), ("shear_z", self.shear_z())];
+        dimensions.extend(
+            shear
+                .iter()
+                .filter_map(|(name, value)| Some((*name, (*value)?))),
+        );
+        dimensions
+    }
+
+    /// The section with one of its [dimensions](Section::dimensions) at another value; as it is
+    /// where it has no dimension of this name.
+    ///
+    /// # Errors
+    /// As [`Section::new`].
+    pub fn with_dimension(&self, name: &str, value: f64) -> Result<Self, ElementError> {
+        let mut shape = *self.shape();
+        match &mut shape {
+            SectionShape::Circle { diameter } => set(name, value, [("diameter", diameter)]),
+            SectionShape::Tube { outer, inner } => {
+                set(name, value, [("outer", outer), ("inner", inner)]);
+            }
+            SectionShape::Rectangle { width, height } => {
+                set(name, value, [("width", width), ("height", height)]);
+            }
+            SectionShape::General {
+                area,
+                iy,
+                iz,
+                torsion,
+                ..
+            } => set(
+                name,
+                value,
+                [("area", area), ("iy", iy), ("iz", iz), ("torsion", torsion)],
+            ),
+        }
+        let shear =
+            |own: &str, area: Option<f64>| area.map(|a| if own == name { value } else { a });
+        let (shear_y, shear_z) = (self.shear_y(), self.shear_z());
+        Self::new(shape, shear("shear_y", shear_y), shear("shear_z", shear_z))
+    }
+
+    /// ∂ ln (A, A_y, A_z, J, I_y, I_z)/∂p for the dimension p of this name \[1 over its unit\]; zero
+    /// where the section has no such dimension, or no shear area. Shear areas that are given stay
+    /// as they are. At a square, where Roark's torsion constant has a kink, the mean of both sides.
+    pub fn logarithmic_derivative(&self, name: &str) -> Vector6<f64> {
+        let of_area = |area: f64| Vector6::new(area, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let round =
+            |area: f64, inertia: f64| Vector6::new(area, 0.0, 0.0, inertia, inertia, inertia);
+        match (name, *self.shape()) {
+            ("shear_y", _) => self.shear_y().map_or(Vector6::zeros(), |a| {
+                Vector6::new(0.0, 1.0 / a, 0.0, 0.0, 0.0, 0.0)
+            }),
+            ("shear_z", _) => self.shear_z().map_or(Vector6::zeros(), |a| {
+                Vector6::new(0.0, 0.0, 1.0 / a, 0.0, 0.0, 0.0)
+            }),
+            ("diameter", SectionShape::Circle { diameter: d }) => round(2.0 / d, 4.0 / d),
+            ("outer", SectionShape::Tube { outer, inner }) => {
+                round(difference(outer, inner, 2), difference(outer, inner, 4))
+            }
+            // d ln (Dⁿ − dⁿ)/dd = −(d/D)ⁿ⁻¹ d ln (Dⁿ − dⁿ)/dD
+            ("inner", SectionShape::Tube { outer, inner }) => {
+                let part = |n: i32| -difference(outer, inner, n) * (inner / outer).powi(n - 1);
+                round(part(2), part(4))
+            }
+            ("width", SectionShape::Rectangle { width, height }) => {
+                let torsion = roark(width, height) / self.torsion();
+                Vector6::new(1.0 / width, 0.0, 0.0, torsion, 1.0 / width, 3.0 / width)
+            }
+            ("height", SectionShape::Rectangle { width, height }) => {
+                let torsion = roark(height, width) / self.torsion();
+                Vector6::new(1.0 / height, 0.0, 0.0, torsion, 3.0 / height, 1.0 / height)
+            }
+            ("area", SectionShape::General { area, .. }) => of_area(1.0 / area),
+            ("torsion", SectionShape::General { torsion, .. }) => Vector6::ith(3, 1.0 / torsion),
+            ("iy", SectionShape::General { iy, .. }) => Vector6::ith(4, 1.0 / iy),
+            ("iz", SectionShape::General { iz, .. }) => Vector6::ith(5, 1.0 / iz),
+            _ => Vector6::zeros(),
+        }
+    }
+
+    /// A, A_y, A_z, J, I_y, I_z; 1 for a shear area that is not given.
+    fn properties(&self) -> Vector6<f64> {
+        let (shear_y, shear_z) = (self.shear_y(), self.shear_z());
+        Vector6::new(
+            self.area(),
+            shear_y.unwrap_or(1.0),
+            shear_z.unwrap_or(1.0),
+            self.torsion(),
+            self.iy(),
+            self.iz(),
+        )
+    }
+}
+
+/// Puts `value` where the name is.
+fn set<const N: usize>(name: &str, value: f64, places: [(&str, &mut f64); N]) {
+    for (own, place) in places {
+        if own == name {
+            *place = value;
+        }
+    }
+}
+
+/// d ln (Dⁿ − dⁿ)/dD.
+fn difference(outer: f64, inner: f64, n: i32) -> f64 {
+    let part = inner / outer;
+    f64::from(n) / (outer * (1.0 - part.powi(n)))
+}
+
+/// Derivative of Roark's torsion constant of a rectangle by `side`, J = 16/3 a b³ − 3.36 b⁴ +
+/// 0.28 b⁸/a⁴ with the half sides a ≥ b.
+fn roark(side: f64, other: f64) -> f64 {
+    let (a, b) = (side.max(other) / 2.0, side.min(other) / 2.0);
+    let by_longer = 16.0 / 3.0 * b.powi(3) - 1.12 * b.powi(8) / a.powi(5);
+    let by_shorter = 16.0 * a * b * b - 13.44 * b.powi(3) + 2.24 * b.powi(7) / a.powi(4);
+    let both = if side > other {
+        by_longer
+    } else if side < other {
+        by_shorter
+    } else {
+        (by_longer + by_shorter) / 2.0
+    };
+    both / 2.0
+}
+
+impl Taper {
+    /// ∂ ln (A, A_y, A_z, J, I_y, I_z)/∂p at `xi` for the dimension p of this name at the first
+    /// node, or at the second: by differences of the section's closed formulas.
+    ///
+    /// # Errors
+    /// As [`Section::new`], where the dimension cannot be changed either way.
+    pub fn logarithmic_derivative(
+        &self,
+        at_second: bool,
+        name: &str,
+        xi: f64,
+    ) -> Result<Vector6<f64>, ElementError> {
+        let end = if at_second { self.to() } else { self.from() };
+        let dimensions = end.dimensions();
+        let Some((_, value)) = dimensions.iter().find(|(own, _)| *own == name) else {
+            return Ok(Vector6::zeros());
+        };
+        // A tube's inner diameter may be zero: the largest dimension gives the step.
+        let size = dimensions.iter().fold(value.abs(), |size, (own, v)| {
+            if *own == "outer" { size.max(*v) } else { size }
+        });
+        let step = STEP * size;
+        let low = if *value > step { value - step } else { *value };
+        let at = |value: f64| -> Result<Vector6<f64>, ElementError> {
+            let changed = end.with_dimension(name, value)?;
+            let taper = match at_second {
+                true => Self::new(self.from().clone(), changed)?,
+                false => Self::new(changed, self.to().clone())?,
+            };
+            Ok(taper.at(xi).properties().map(f64::ln))
+        };
+        let high = value + step;
+        Ok((at(high)? - at(low)?) / (high - low))
+    }
+}
+
+impl Material {
+    /// The elastic constants by their names in files, with their values: `young` \[Pa\], and
+    /// `poisson` or `shear` \[Pa\], whichever was given.
+    pub fn constants(&self) -> [(&'static str, f64); 2] {
+        let second = match self.elasticity() {
+            Elasticity::Poisson(poisson) => ("poisson", poisson),
+            Elasticity::Shear(shear) => ("shear", shear),
+        };
+        [("young", self.young()), second]
+    }
+
+    /// ∂ ln (E, G, G, G, E, E)/∂p for the constant p of this name, the other one as it is.
+    pub fn logarithmic_derivative(&self, name: &str) -> Vector6<f64> {
+        let [young, shear] = match (name, self.elasticity()) {
+            ("young", Elasticity::Poisson(_)) => [1.0 / self.young(); 2],
+            ("young", Elasticity::Shear(_)) => [1.0 / self.young(), 0.0],
+            ("poisson", Elasticity::Poisson(poisson)) => [0.0, -1.0 / (1.0 + poisson)],
+            ("shear", Elasticity::Shear(shear)) => [0.0, 1.0 / shear],
+            _ => [0.0; 2],
+        };
+        Vector6::new(young, shear, shear, shear, young, young)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shapes() -> Vec<SectionShape> {
+        vec![
+            SectionShape::Circle { diameter: 0.03 },
+            SectionShape::Tube {
+                outer: 0.03,
+                inner: 0.024,
+            },
+            SectionShape::Rectangle {
+                width: 0.02,
+                height: 0.04,
+            },
+            SectionShape::Rectangle {
+                width: 0.05,
+                height: 0.03,
+            },
+            SectionShape::Rectangle {
+                width: 0.03,
+                height: 0.03,
+            },
+            SectionShape::General {
+                area: 4e-4,
+                iy: 1e-8,
+                iz: 2e-8,
+                torsion: 2.5e-8,
+                y_max: None,
+                z_max: None,
+                torsion_modulus: None,
+            },
+        ]
+    }
+
+    #[test]
+    fn derivatives_of_sections_agree_with_differences() {
+        for shape in shapes() {
+            let section = Section::new(shape, Some(3e-4), Some(2e-4)).unwrap();
+            for (name, value) in section.dimensions() {
+                let at = |factor: f64| {
+                    let changed = section.with_dimension(name, value * factor).unwrap();
+                    changed.properties().map(f64::ln)
+                };
+                let difference = (at(1.0 + 1e-5) - at(1.0 - 1e-5)) / (2e-5 * value);
+                let found = section.logarithmic_derivative(name);
+                let tolerance = if matches!(shape, SectionShape::Rectangle { width, height } if width == height)
+                {
+                    1e-5 // of the kink's second derivatives, which differ
+                } else {
+                    1e-8
+                };
+                assert!(
+                    (found - difference).amax() < tolerance * found.amax(),
+                    "{shape:?} {name}: {found} {difference}"
+                );
+            }
+        }
+    }
+
+    /// A taper between two equal sections has the derivative of the section shared by its ends.
+    #[test]
+    fn derivatives_of_a_constant_taper_are_the_sections() {
+        for shape in shapes() {
+            if matches!(shape, SectionShape::Rectangle { width, height } if width == height) {
+                continue;
+            }
+            let section = Section::new(shape, None, None).unwrap();
+            let taper = Taper::constant(section.clone());
+            for (name, _) in section.dimensions() {
+                let expected = section.logarithmic_derivative(name);
+                for xi in [0.0, 0.3, 1.0] {
+                    let [first, second] = [false, true]
+                        .map(|end| taper.logarithmic_derivative(end, name, xi).unwrap());
+                    let whole = expected.amax();
+                    assert!((first - expected * (1.0 - xi)).amax() < 1e-8 * whole);
+                    assert!((second - expected * xi).amax() < 1e-8 * whole);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_of_materials_agree_with_differences() {
+        for elasticity in [Elasticity::Poisson(0.3), Elasticity::Shear(5e10)] {
+            let material = |young: f64, factor: f64| {
+                let second = match elasticity {
+                    Elasticity::Poisson(p) => Elasticity::Poisson(p * factor),
+                    Elasticity::Shear(g) => Elasticity::Shear(g * factor),
+                };
+                Material::new(young, second, None).unwrap()
+            };
+            let logs = |m: Material| [m.young().ln(), m.shear().ln()];
+            let own = material(2.1e11, 1.0);
+            for (name, value) in own.constants() {
+                let at = |factor: f64| match name {
+                    "young" => logs(material(2.1e11 * factor, 1.0)),
+                    _ => logs(material(2.1e11, factor)),
+                };
+                let (high, low) = (at(1.0 + 1e-5), at(1.0 - 1e-5));
+                let found = own.logarithmic_derivative(name);
+                for (k, d) in [(0, 0), (1, 3)] {
+                    let difference = (high[k] - low[k]) / (2e-5 * value);
+                    assert!((found[d] - difference).abs() * value < 1e-8, "{name}");
+                }
+            }
+        }
+    }
+}
