@@ -1,6 +1,8 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
-use hyperstat_assembly::{BodyId, Model, Motion, Solution, SolveError};
+use hyperstat_assembly::{
+    BeamMass, BodyId, ModalOptions, Model, Modes, Motion, Solution, SolveError,
+};
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
 
@@ -109,6 +111,29 @@ impl Case {
     /// Solves the mechanism. What is unrestrained is named, with its place in the file.
     pub(crate) fn solve(&self) -> Result<Solution, CliError> {
         hyperstat_assembly::solve(&self.model)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// The natural frequencies that are asked for, by the command line or the job.
+    pub(crate) fn modal_options(&self, args: &args::Solve) -> Option<ModalOptions> {
+        let of_job = match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, .. } => job.modes.clone(),
+        };
+        let mut options = match (args.modes(), of_job) {
+            (Some(count), Some(of_job)) => ModalOptions { count, ..of_job },
+            (Some(count), None) => ModalOptions::lowest(count),
+            (None, of_job) => of_job?,
+        };
+        if args.lumped {
+            options.mass = BeamMass::Lumped;
+        }
+        Some(options)
+    }
+
+    /// Natural frequencies and modes.
+    pub(crate) fn modes(&self, options: &ModalOptions) -> Result<Modes, CliError> {
+        hyperstat_assembly::modes(&self.model, options)
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
@@ -249,6 +274,10 @@ impl Source<'_> {
         let location = match &error {
             SolveError::Unheld { bodies } => {
                 let body = bodies.first().and_then(|name| model.body(name));
+                body.map_or_else(|| self.output(), |body| self.body(body))
+            }
+            SolveError::NoDensity { body } => {
+                let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
             SolveError::LoadOnFreeMotion { load, .. } => self.load(*load),

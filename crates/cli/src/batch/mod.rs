@@ -9,7 +9,7 @@ mod table;
 
 use std::fs;
 
-use hyperstat_mechanisms::{Batch, Registry};
+use hyperstat_mechanisms::{Batch, Job, Registry};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -54,13 +54,16 @@ pub(crate) fn run(
 
 /// Checks all jobs before the first runs.
 fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
-    let prepare = |job| {
-        Sweep::new(job).map_err(|unsolvable| {
-            let (model, error) = *unsolvable;
-            Source::Job(job).unsolvable(&model, error)
-        })
-    };
-    batch.jobs.iter().map(prepare).collect()
+    batch.jobs.iter().map(prepare_job).collect()
+}
+
+fn prepare_job(job: &Job) -> Result<Sweep<'_>, CliError> {
+    let columns: Vec<_> = table::columns(&Columns::of(job)).collect();
+    figures::check(job, &columns)?;
+    Sweep::new(job).map_err(|unsolvable| {
+        let (model, error) = *unsolvable;
+        Source::Job(job).unsolvable(&model, error)
+    })
 }
 
 /// Writes a job's table and its figures.
@@ -123,7 +126,7 @@ fn run_job(
         summary.measured(found);
     }
     bar.set_message(format!("{}: figures", job.name));
-    pool.install(|| figures::draw(job, trajectory.as_ref(), &args.out, &mut summary))?;
+    pool.install(|| figures::draw(job, trajectory.as_ref(), &path, &mut summary))?;
     Ok(summary)
 }
 

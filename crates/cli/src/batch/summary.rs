@@ -24,7 +24,8 @@ pub(crate) struct Summary {
     /// Of the last pose that has one; told where it is the only pose.
     stiffness: Option<Matrix6<f64>>,
     files: Vec<PathBuf>,
-    figures_left_out: Vec<String>,
+    /// With the reason of each.
+    figures_left_out: Vec<(String, String)>,
     largest_difference: Option<f64>,
     measures: Vec<Report>,
 }
@@ -83,9 +84,9 @@ impl Summary {
         self.files.push(path);
     }
 
-    /// Notes a figure that could not be drawn because its poses have no result.
-    pub(crate) fn left_out(&mut self, figure: String) {
-        self.figures_left_out.push(figure);
+    /// Notes a figure that could not be drawn, and why.
+    pub(crate) fn left_out(&mut self, figure: String, why: String) {
+        self.figures_left_out.push((figure, why));
     }
 
     /// Notes how far the reference solver's points of a figure are off, relative to the largest
@@ -141,8 +142,8 @@ impl fmt::Display for Summary {
         for path in &self.files {
             writeln!(f, "  {}", path.display())?;
         }
-        for figure in &self.figures_left_out {
-            writeln!(f, "  no {figure}: the poses it would show have no result")?;
+        for (figure, why) in &self.figures_left_out {
+            writeln!(f, "  no {figure}: {why}")?;
         }
         if let Some(difference) = self.largest_difference {
             writeln!(

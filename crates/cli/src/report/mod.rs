@@ -3,6 +3,7 @@
 mod check;
 mod forces;
 mod inner;
+mod modes;
 mod parameters;
 mod solve;
 mod table;
@@ -17,6 +18,7 @@ use serde::{Serialize, Serializer};
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
+pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
 pub(crate) use why::Why;

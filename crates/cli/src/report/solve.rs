@@ -9,8 +9,8 @@ use serde::Serialize;
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
 use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -39,6 +39,8 @@ pub(crate) struct SolveReport {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
+    #[serde(flatten)]
+    modes: Option<ModesReport>,
     bodies: Entries<BodyReport>,
     #[serde(flatten)]
     why: Option<Why>,
@@ -136,6 +138,7 @@ impl SolveReport {
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,
+            modes: None,
             bodies: bodies(model, solution),
             why: None,
         }
@@ -149,6 +152,12 @@ impl SolveReport {
     /// Adds displacements of nodes that the model does not name.
     pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
         self.displacements.0.extend(displacements.0);
+    }
+
+    /// Adds natural frequencies and modes.
+    pub(crate) fn add_modes(&mut self, modes: ModesReport) {
+        self.warnings.extend_from_slice(modes.remarks());
+        self.modes = Some(modes);
     }
 
     /// The report as tables.
@@ -178,6 +187,9 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        if let Some(modes) = &self.modes {
+            modes.write(&mut text);
+        }
         write_worst(&self.bodies, &mut text);
         if let Some(why) = &self.why {
             why.write(&mut text);

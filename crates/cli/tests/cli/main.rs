@@ -6,6 +6,7 @@ mod diagnosis;
 mod export;
 mod help;
 mod messages;
+mod plot;
 mod run;
 mod solve;
 mod support;
