@@ -15,6 +15,7 @@ mod cluster;
 mod condense;
 mod coordinates;
 mod directions;
+mod dissection;
 mod elimination;
 mod error;
 mod influence;

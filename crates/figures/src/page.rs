@@ -57,7 +57,7 @@ impl Page<'_> {
     ) -> Result<String, FigureError> {
         let bounds = self.bounds.roomy();
         let view = View::fit(&bounds, DRAWING);
-        let description = [&[self.subtitle.clone()], &*self.captions]
+        let description = [std::slice::from_ref(&self.subtitle), &*self.captions]
             .concat()
             .join(" ");
         let sheet = Sheet {

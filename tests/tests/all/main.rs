@@ -5,6 +5,7 @@ mod axis_parallel;
 mod bodies;
 mod book;
 mod closure;
+mod designs;
 mod equilibrium;
 mod frame3dd_example_b;
 mod lanes_agree;

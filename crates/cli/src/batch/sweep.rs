@@ -96,10 +96,13 @@ impl<'a> Sweep<'a> {
     pub(crate) fn new(job: &'a Job) -> Result<Self, Box<(Model, SolveError)>> {
         let first = match job.model() {
             Err(error) => Err(error.into()),
-            Ok(model) => match Planned::of(&model, job) {
-                Err(error) => return Err(Box::new((model, error))),
-                Ok(planned) => Ok(Arc::new(planned)),
-            },
+            Ok(model) => {
+                let planned = Plan::new(&model);
+                match planned.and_then(|plan| Planned::of(plan, model.clone(), job)) {
+                    Err(error) => return Err(Box::new((model, error))),
+                    Ok(planned) => Ok(Arc::new(planned)),
+                }
+            }
         };
         Ok(Self { job, first })
     }
@@ -200,7 +203,7 @@ impl<'a> Sweep<'a> {
         let design = self.job.design(number)?;
         let planned = match number {
             0 => self.first.clone(),
-            _ => Planned::new(&design, self.job).map(Arc::new),
+            _ => Planned::new(&design, self.job, &self.first).map(Arc::new),
         };
         let ready = planned.map(|planned| {
             let lanes = planned.plan.lanes(&planned.model);
@@ -211,17 +214,28 @@ impl<'a> Sweep<'a> {
 }
 
 impl Planned {
-    fn new(design: &Design, job: &Job) -> Result<Self, Failure> {
-        Ok(Self::of(&design.model()?, job)?)
+    /// A design, whose plan shares with the first's what it can: never with that of the design
+    /// before it, which differs from thread to thread.
+    fn new(
+        design: &Design,
+        job: &Job,
+        first: &Result<Arc<Self>, Failure>,
+    ) -> Result<Self, Failure> {
+        let model = design.model()?;
+        let plan = match first {
+            Ok(first) => first.plan.for_design(&model)?,
+            Err(_) => Plan::new(&model)?,
+        };
+        Ok(Self::of(plan, model, job)?)
     }
 
-    fn of(model: &Model, job: &Job) -> Result<Self, SolveError> {
+    fn of(plan: Plan, model: Model, job: &Job) -> Result<Self, SolveError> {
         let modal = job.modes.as_ref();
-        let modal = modal.map(|options| ModalPlan::new(model, options));
+        let modal = modal.map(|options| ModalPlan::new(&model, options));
         Ok(Self {
-            plan: Plan::new(model)?,
             modal: modal.transpose()?,
-            model: model.clone(),
+            plan,
+            model,
         })
     }
 

@@ -94,7 +94,7 @@ fn figure(args: &args::Plot, table: &Table) -> Result<(Figure, String), CliError
         let map = Map {
             value: value.clone(),
             planes: args.plane.clone(),
-            axes: args.axes.clone().map(|[x, y]| [x, y]),
+            axes: args.axes.clone(),
             choice: one_design,
             title,
         };

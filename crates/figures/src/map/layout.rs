@@ -97,7 +97,7 @@ impl Layout {
                 left: bar_left,
                 top: TOP,
                 right: bar_left + 20.0,
-                bottom: bottom.min(TOP + 480.0).max(TOP + 140.0),
+                bottom: bottom.clamp(TOP + 140.0, TOP + 480.0),
             },
             name_room: (bar_left + 190.0 - (f64::from(WIDTH) - MARGIN)).clamp(0.0, 60.0),
             scaled,
