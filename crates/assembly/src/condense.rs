@@ -23,6 +23,8 @@ const TRUSTED: f64 = 1e-6;
 pub(crate) const LOADS: usize = COLUMNS - 1;
 /// That column alone.
 pub(crate) const LOADED: Range<usize> = LOADS..COLUMNS;
+/// The columns of the output's unit motions or unit forces.
+pub(crate) const UNITS: Range<usize> = 0..LOADS;
 /// All columns.
 const ALL: Range<usize> = 0..COLUMNS;
 
@@ -206,10 +208,14 @@ impl Plan {
         self.residuals(workspace, LOADED);
         let n = self.unknowns;
         let residual = &workspace.residuals[LOADS * n..(LOADS + 1) * n];
-        let on_output = read(residual, self.inner);
-        let through =
-            Vector6::from_fn(|k, _| dot(&workspace.solutions[k * n..k * n + self.inner], residual));
-        on_output + through
+        self.force_on_output(residual, &workspace.solutions)
+    }
+
+    /// What a residual asks of the output, directly and through the output's unit `motions`.
+    pub(crate) fn force_on_output(&self, residual: &[f64], motions: &[f64]) -> Vector6<f64> {
+        let n = self.unknowns;
+        let through = |k| dot(&motions[k * n..k * n + self.inner], residual);
+        read(residual, self.inner) + Vector6::from_fn(|k, _| through(k))
     }
 
     /// Finds what the loads' column still lacks, too small to be added to it: the forces of the

@@ -9,6 +9,7 @@ mod case;
 mod diagnostic;
 mod drives;
 mod error;
+mod plot;
 mod report;
 mod verification;
 
@@ -23,7 +24,7 @@ use args::{Cli, Command, Format};
 use atomic::AtomicFile;
 use case::Case;
 use error::CliError;
-use report::{CheckReport, SolveReport, json};
+use report::{CheckReport, ModesReport, SolveReport, json};
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -50,6 +51,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
         Command::Run(args) => batch::run(args, registry, print),
+        Command::Plot(args) => plot::run(args, print),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -76,6 +78,19 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut report = SolveReport::new(&case, &solution, verification);
     if args.all_nodes {
         report.add_displacements(case.inner_displacements(&solution)?);
+    }
+    if let Some(options) = case.modal_options(args) {
+        let found = case.modes(&options)?;
+        let wanted = options.count;
+        report.add_modes(ModesReport::new(
+            &case.model,
+            &found,
+            wanted,
+            args.all_nodes,
+        ));
+    }
+    if args.why {
+        report.add_why(case.why(&solution, args.along)?);
     }
     print(&match args.format {
         Format::Text => report.text(),

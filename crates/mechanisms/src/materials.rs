@@ -17,6 +17,14 @@ pub(crate) enum Profile {
 }
 
 impl Profile {
+    /// The section at both ends.
+    pub(crate) fn ends(&self) -> [Section; 2] {
+        match self {
+            Self::Uniform(section) => [section.clone(), section.clone()],
+            Self::Tapered(taper) => [taper.from().clone(), taper.to().clone()],
+        }
+    }
+
     /// The section at `first` and, where it changes, that at `last` (0 to 1).
     pub(crate) fn part(&self, first: f64, last: f64) -> (Section, Option<Section>) {
         match self {
@@ -31,8 +39,8 @@ impl Profile {
 
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
-    let known = ["young", "poisson", "shear", "density"];
-    let fields = Fields::read(fragment, owner, &known, &["expansion", "yield"])?;
+    let known = ["young", "poisson", "shear", "density", "yield"];
+    let fields = Fields::read(fragment, owner, &known, &["expansion"])?;
     let young = fields.number("young")?;
     let poisson = fields.optional_number("poisson")?;
     let shear = fields.optional_number("shear")?;
@@ -50,8 +58,12 @@ pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, 
                 .with_help("add one of them, such as `poisson: 0.3`"));
         }
     };
-    Material::new(young, elasticity, fields.optional_number("density")?)
-        .map_err(|error| fields.element_error(&error))
+    let material = Material::new(young, elasticity, fields.optional_number("density")?);
+    let material = match fields.optional_number("yield")? {
+        Some(strength) => material.and_then(|material| material.with_yield_strength(strength)),
+        None => material,
+    };
+    material.map_err(|error| fields.element_error(&error))
 }
 
 /// Reads a section, or `Tapered(from: …, to: …)` with two sections.

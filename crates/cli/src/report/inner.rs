@@ -13,8 +13,19 @@ pub(crate) fn inner_displacements(
     solution: &Solution,
 ) -> Result<Entries<[f64; 6]>, SolveError> {
     let mut entries = Vec::new();
+    for (k, name) in segment_names(model).into_iter().enumerate() {
+        let found = solution.inner_displacements(model, SegmentId(k))?;
+        let named = found.iter().enumerate();
+        entries.extend(named.map(|(k, u)| (format!("{name}.{}", k + 1), numbers(u))));
+    }
+    Ok(Entries(entries))
+}
+
+/// Names of all segments: `body.A-B`.
+pub(super) fn segment_names(model: &Model) -> Vec<String> {
+    let mut names = Vec::with_capacity(model.segments().len());
     let mut taken = HashMap::new();
-    for (k, segment) in model.segments().iter().enumerate() {
+    for segment in model.segments() {
         let body = &model.bodies()[segment.body.0].name;
         let [from, to] = segment.ends.map(|node| &model.nodes()[node.0].point);
         let mut name = format!("{body}.{from}-{to}");
@@ -25,11 +36,9 @@ pub(crate) fn inner_displacements(
         if count > 1 {
             name += &format!("#{count}");
         }
-        let found = solution.inner_displacements(model, SegmentId(k))?;
-        let named = found.iter().enumerate();
-        entries.extend(named.map(|(k, u)| (format!("{name}.{}", k + 1), numbers(u))));
+        names.push(name);
     }
-    Ok(Entries(entries))
+    names
 }
 
 #[cfg(test)]

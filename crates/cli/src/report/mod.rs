@@ -1,9 +1,13 @@
 //! What `solve` and `check` print: plain data that JSON and the tables are both made from.
 
 mod check;
+mod forces;
 mod inner;
+mod modes;
+mod parameters;
 mod solve;
 mod table;
+mod why;
 
 use std::fmt::Write as _;
 
@@ -14,8 +18,10 @@ use serde::{Serialize, Serializer};
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
+pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
+pub(crate) use why::Why;
 
 /// The name of a mechanism and, where it is from a batch, of which job, design and pose.
 fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {

@@ -2,13 +2,15 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, Segment, SegmentForces, Solution, describe_motions};
+use hyperstat_assembly::{Model, Segment, SegmentForces, SegmentId, Solution, describe_motions};
 use hyperstat_elements::stress::{largest_stress, section_stress};
 use serde::Serialize;
 
+use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -37,6 +39,11 @@ pub(crate) struct SolveReport {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
+    #[serde(flatten)]
+    modes: Option<ModesReport>,
+    bodies: Entries<BodyReport>,
+    #[serde(flatten)]
+    why: Option<Why>,
 }
 
 #[derive(Debug, Serialize)]
@@ -54,6 +61,8 @@ struct OutputReport {
 struct JointReport {
     /// On the second body of `between`, at the joint, in the joint frame.
     wrench: Option<[f64; 6]>,
+    /// The same on the first body.
+    first: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -67,6 +76,7 @@ struct SegmentReport {
     /// Wrench on the segment at its first and second node, in the element frame.
     end_forces: [[f64; 6]; 2],
     stress: Option<StressReport>,
+    section_forces: Vec<SectionForces>,
 }
 
 /// Largest stresses over the segment [Pa].
@@ -107,8 +117,10 @@ impl SolveReport {
                 .collect(),
             joints: joints
                 .map(|(joint, wrench)| {
-                    let wrench = wrench.as_ref().map(numbers);
-                    (joint.name.clone(), JointReport { wrench })
+                    let second = wrench.as_ref().map(numbers);
+                    let first = wrench.as_ref().map(|wrench| numbers(&-wrench));
+                    let wrench = second;
+                    (joint.name.clone(), JointReport { wrench, first })
                 })
                 .collect(),
             undetermined: solution
@@ -117,18 +129,35 @@ impl SolveReport {
                 .map(|joint| model.joints()[joint.0].name.clone())
                 .collect(),
             segments: segments
-                .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
+                .enumerate()
+                .map(|(k, (segment, forces))| {
+                    SegmentReport::new(model, SegmentId(k), segment, forces)
+                })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,
+            modes: None,
+            bodies: bodies(model, solution),
+            why: None,
         }
+    }
+
+    /// Adds what is soft and why.
+    pub(crate) fn add_why(&mut self, why: Why) {
+        self.why = Some(why);
     }
 
     /// Adds displacements of nodes that the model does not name.
     pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
         self.displacements.0.extend(displacements.0);
+    }
+
+    /// Adds natural frequencies and modes.
+    pub(crate) fn add_modes(&mut self, modes: ModesReport) {
+        self.warnings.extend_from_slice(modes.remarks());
+        self.modes = Some(modes);
     }
 
     /// The report as tables.
@@ -158,6 +187,13 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        if let Some(modes) = &self.modes {
+            modes.write(&mut text);
+        }
+        write_worst(&self.bodies, &mut text);
+        if let Some(why) = &self.why {
+            why.write(&mut text);
+        }
         self.write_verification(&mut text);
         text
     }
@@ -285,7 +321,7 @@ impl OutputReport {
 }
 
 impl SegmentReport {
-    fn new(model: &Model, segment: &Segment, forces: &SegmentForces) -> Self {
+    fn new(model: &Model, id: SegmentId, segment: &Segment, forces: &SegmentForces) -> Self {
         let frame = forces.frame.matrix();
         Self {
             body: model.bodies()[segment.body.0].name.clone(),
@@ -294,6 +330,7 @@ impl SegmentReport {
             axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
             end_forces: forces.ends.each_ref().map(numbers),
             stress: StressReport::new(segment, forces),
+            section_forces: section_forces(model, id, forces),
         }
     }
 }

@@ -140,20 +140,19 @@ fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Parts) ->
     }
 }
 
-/// A material, with the Poisson's ratio of few digits that gives its shear modulus, if one does.
+/// A material, as it was given.
 fn material(material: &Material) -> String {
-    let (young, shear) = (material.young(), material.shear());
-    let poisson = young / (2.0 * shear) - 1.0;
-    let short = (poisson * 1e6).round() / 1e6;
-    let again = Material::new(young, Elasticity::Poisson(short), None);
-    let second = if again.is_ok_and(|again| again.shear() == shear) {
-        format!("poisson: {}", number(short))
-    } else {
-        format!("shear: {}", number(shear))
+    let second = match material.elasticity() {
+        Elasticity::Poisson(poisson) => format!("poisson: {}", number(poisson)),
+        Elasticity::Shear(shear) => format!("shear: {}", number(shear)),
     };
     let density = material.density().map(|density| ("density", density));
-    let young = number(young);
-    fields(vec![format!("young: {young}"), second], density)
+    let strength = material
+        .yield_strength()
+        .map(|strength| ("yield", strength));
+    let young = number(material.young());
+    let optional = density.into_iter().chain(strength);
+    fields(vec![format!("young: {young}"), second], optional)
 }
 
 fn profile((from, to): &(Section, Option<Section>)) -> String {
