@@ -6,6 +6,7 @@ mod diagnosis;
 mod export;
 mod help;
 mod messages;
+mod modes;
 mod plot;
 mod run;
 mod solve;
