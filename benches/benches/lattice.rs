@@ -1,11 +1,13 @@
 //! Lattices of welded beams: cubes, whose factors fill in as everything in space does, and towers,
-//! which grow along one axis as mechanisms do. Some thousand unknowns; with
-//! `HYPERSTAT_BENCH_LARGE=1` up to 1e5.
+//! which grow along one axis as mechanisms do; and a gripper of two elastic fingers with driven
+//! carriages and a rigid plate. Some thousand unknowns; with `HYPERSTAT_BENCH_LARGE=1` up to 1e5.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use hyperstat_assembly::Plan;
+use hyperstat_tests::gripper::gripper;
 use hyperstat_tests::lattice::lattice;
 
 /// Nodes along x, y and z; the last two of each family are large.
@@ -13,6 +15,9 @@ const FAMILIES: [(&str, [[usize; 3]; 4]); 2] = [
     ("cube", [[5, 5, 5], [7, 7, 7], [12, 12, 12], [26, 26, 26]]),
     ("tower", [[5, 5, 5], [5, 5, 14], [5, 5, 68], [5, 5, 668]]),
 ];
+
+/// Layers of the gripper's fingers; the last two are large.
+const GRIPPERS: [usize; 4] = [8, 18, 55, 523];
 
 fn sizes(c: &mut Criterion) {
     let large = std::env::var_os("HYPERSTAT_BENCH_LARGE").is_some();
@@ -30,6 +35,14 @@ fn sizes(c: &mut Criterion) {
                 b.iter(|| hyperstat_assembly::solve(black_box(&model)));
             });
         }
+    }
+    let count = if large { GRIPPERS.len() } else { 2 };
+    for layers in GRIPPERS.into_iter().take(count) {
+        let model = gripper(layers);
+        let unknowns = Plan::new(&model).expect("a plan").unknowns();
+        group.bench_function(format!("gripper, {unknowns} unknowns"), |b| {
+            b.iter(|| hyperstat_assembly::solve(black_box(&model)));
+        });
     }
     group.finish();
 }

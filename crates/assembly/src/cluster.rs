@@ -17,6 +17,7 @@ use crate::topology::{Cluster, LONGEST_CLUSTER};
 
 /// The beam of a segment.
 #[allow(clippy::large_enum_variant)] // In a box, each pose would allocate.
+#[derive(Debug)]
 pub(crate) enum SegmentBeam {
     Prismatic(Beam),
     Tapered(TaperedBeam),

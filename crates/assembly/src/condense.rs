@@ -22,6 +22,8 @@ const MOST_REFINEMENTS: usize = 6;
 const TRUSTED: f64 = 1e-6;
 /// Column of the first set of loads, after those of the output's motions or forces.
 pub(crate) const LOADS: usize = 6;
+/// The columns of the output's unit motions or unit forces.
+pub(crate) const UNITS: Range<usize> = 0..LOADS;
 
 impl Plan {
     /// Factors the inner stiffness with `pins` held and finds all columns of the solutions,
@@ -204,10 +206,14 @@ impl Plan {
         self.residuals(workspace, column..column + 1);
         let n = self.unknowns;
         let residual = &workspace.residuals[column * n..(column + 1) * n];
-        let on_output = read(residual, self.inner);
-        let through =
-            Vector6::from_fn(|k, _| dot(&workspace.solutions[k * n..k * n + self.inner], residual));
-        on_output + through
+        self.force_on_output(residual, &workspace.solutions)
+    }
+
+    /// What a residual asks of the output, directly and through the output's unit `motions`.
+    pub(crate) fn force_on_output(&self, residual: &[f64], motions: &[f64]) -> Vector6<f64> {
+        let n = self.unknowns;
+        let through = |k| dot(&motions[k * n..k * n + self.inner], residual);
+        read(residual, self.inner) + Vector6::from_fn(|k, _| through(k))
     }
 
     /// Finds what a set's column still lacks, too small to be added to it: the forces of the

@@ -11,12 +11,15 @@
 //! full solve, which also refines, recovers and diagnoses.
 
 mod acting;
+mod budget;
 mod cluster;
 mod condense;
 mod coordinates;
 mod directions;
+mod dissection;
 mod elimination;
 mod error;
+mod influence;
 mod jacobian;
 mod kinematics;
 mod lanes;
@@ -31,13 +34,17 @@ mod plan;
 mod recover;
 mod redundancy;
 mod restraint;
+mod sensitivity;
 mod solution;
 mod solve;
 mod sparse;
 mod sparse_elimination;
 mod topology;
+mod worst;
 
+pub use budget::{Budget, Deformation, Part, PartSource};
 pub use error::{ModelError, SolveError};
+pub use influence::Influence;
 pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
 pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
@@ -49,5 +56,7 @@ pub use model::{
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;
 pub use redundancy::{Redundancy, redundant_constraints};
+pub use sensitivity::{Parameter, Sensitivity};
 pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
 pub use solve::{PoseResult, solve};
+pub use worst::{WorstPoint, section_wrench, stations};

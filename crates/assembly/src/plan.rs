@@ -1,6 +1,8 @@
 //! What is worked out once a topology: coordinates and their order, elements, sparsity pattern,
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
+use std::sync::Arc;
+
 use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::{Dof, DofSet};
 
@@ -40,9 +42,9 @@ pub struct Plan {
     pub(crate) elements: Vec<ElementPlan>,
     /// Deformations of all elements.
     pub(crate) deformations: usize,
-    pub(crate) pattern: Pattern,
+    pub(crate) pattern: Arc<Pattern>,
     /// Places of every element's upper triangle in the assembled values.
-    pub(crate) places: Vec<usize>,
+    pub(crate) places: Arc<[usize]>,
 }
 
 /// A component whose closing joints are eliminated.
@@ -66,7 +68,7 @@ pub(crate) enum Source {
 }
 
 /// An element: deformations `δ = D U + δ₀` over its IDCs, and their stiffness.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ElementPlan {
     pub source: Source,
     /// Number of deformations.
@@ -153,13 +155,7 @@ impl Plan {
         let output = model.output().ok_or(SolveError::NoOutput)?;
         check_held(model, output)?;
         let topology = Topology::new(model, geometry, output, absorbs);
-        for (joint, role) in model.joints().iter().zip(&topology.joints) {
-            if !role.springs.is_empty() && !role.directions.has_stiffness {
-                return Err(SolveError::SingularCompliance {
-                    joint: joint.name.clone(),
-                });
-            }
-        }
+        check_stiffness(model, &topology)?;
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, model, geometry)?;
         let size = characteristic_length(geometry);
@@ -186,6 +182,8 @@ impl Plan {
         let mut next = 0;
         let mut idc_of = vec![None; topology.coordinates];
         let mut closed = Vec::new();
+        let mut nodes = Vec::new();
+        let node_of = |coordinate: usize| tree.identities[coordinate].0.0;
         for (k, (component, elimination)) in
             topology.components.iter().zip(&eliminations).enumerate()
         {
@@ -198,6 +196,7 @@ impl Plan {
                         };
                         if !of_output {
                             idc_of[coordinate] = Some(next);
+                            nodes.push(node_of(coordinate));
                             next += 1;
                         }
                     }
@@ -205,6 +204,12 @@ impl Plan {
                 Some(solved) => {
                     let last = if holds_output && output_free { 6 } else { 0 };
                     let own = solved.independent.len() - last;
+                    let first = component.coordinates.start;
+                    nodes.extend(
+                        solved.independent[last..]
+                            .iter()
+                            .map(|c| node_of(first + c)),
+                    );
                     closed.push(Closed {
                         component: k,
                         spared: if holds_output { 6 } else { 0 },
@@ -253,7 +258,8 @@ impl Plan {
             let inner_columns = element.columns.iter().copied().filter(|c| *c < inner);
             inner_groups.push(inner_columns.collect());
         }
-        let pattern = Pattern::new(inner, inner_groups.iter().map(Vec::as_slice))
+        let groups = inner_groups.iter().map(Vec::as_slice);
+        let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))
             .ok_or(SolveError::TooLarge { unknowns })?;
         let places = places(&mut elements, &pattern);
         let deformations = elements.iter().map(|e| e.rows).sum();
@@ -271,8 +277,45 @@ impl Plan {
             inner,
             elements,
             deformations,
-            pattern,
-            places,
+            pattern: Arc::new(pattern),
+            places: places.into(),
+        })
+    }
+
+    /// Plan of another design of the model that this plan was made for: other dimensions,
+    /// sections, materials, stiffnesses and loads. Where the topology is the same, and so is every
+    /// joint's part in it, all that depends on it alone is shared with this plan; elsewhere, and
+    /// where loops of rigid bodies are eliminated, it is what [`Plan::new`] makes. Either way the
+    /// results are those of [`Plan::new`].
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn for_design(&self, model: &Model) -> Result<Self, SolveError> {
+        if model.output() != Some(self.output) || !self.closed.is_empty() {
+            return Self::new(model);
+        }
+        let geometry = model.geometry();
+        let topology = Topology::new(model, geometry, self.output, true);
+        if !topology.is_like(&self.topology) {
+            return Self::new(model);
+        }
+        check_stiffness(model, &topology)?;
+        TreeBlocks::new(&topology).evaluate(&topology, model, geometry)?;
+        Ok(Self {
+            topology,
+            output: self.output,
+            idc_of: self.idc_of.clone(),
+            closed: Vec::new(),
+            columns: self.columns.clone(),
+            reduced_starts: self.reduced_starts.clone(),
+            reduced_len: self.reduced_len,
+            has_idle: self.has_idle,
+            unknowns: self.unknowns,
+            inner: self.inner,
+            elements: self.elements.clone(),
+            deformations: self.deformations,
+            pattern: self.pattern.clone(),
+            places: self.places.clone(),
         })
     }
 
@@ -431,6 +474,18 @@ fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
         }
     }
     places
+}
+
+/// Refuses springs with coordinates of their own that are rigid in some combination of them.
+fn check_stiffness(model: &Model, topology: &Topology) -> Result<(), SolveError> {
+    for (joint, role) in model.joints().iter().zip(&topology.joints) {
+        if !role.springs.is_empty() && !role.directions.has_stiffness {
+            return Err(SolveError::SingularCompliance {
+                joint: joint.name.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses bodies that joints connect neither to the ground nor to the output.

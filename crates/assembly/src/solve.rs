@@ -3,7 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
 use crate::acting::Acting;
-use crate::condense::LOADS;
+use crate::condense::{LOADS, UNITS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
@@ -26,6 +26,9 @@ const LOST_DIGITS: f64 = 1e-10;
 const SUSPICIOUS_PIVOT: f64 = 1e-9;
 /// Pivots below this make the output so uneven that its displacement is refined in a sweep too.
 const UNEVEN_PIVOT: f64 = 1e-4;
+
+/// Corrections of the output, once its stiffness is known.
+const CORRECTIONS: usize = 3;
 
 /// What a sweep finds at a pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -330,11 +333,7 @@ impl Plan {
         let twist = unscaled(twist, size);
         let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
         let loads = &mut loads[(column - LOADS) * n..][..n];
-        for (motion, component) in motions.chunks_exact(n).zip(twist.iter()) {
-            for (entry, motion) in loads.iter_mut().zip(motion) {
-                *entry -= motion * component * share;
-            }
-        }
+        self.add_motions(loads, motions, &(-twist * share));
     }
 
     /// Displacement of the output, its coordinates being independent, in a set's column.
@@ -354,7 +353,7 @@ impl Plan {
     ) -> f64 {
         let n = self.unknowns;
         let (mut first, mut last) = (0.0, 0.0);
-        for correction in 0..3 {
+        for correction in 0..CORRECTIONS {
             let force = self.output_force(workspace, column);
             let step = compliance * force;
             last = force.dot(&step).abs();
@@ -363,11 +362,7 @@ impl Plan {
             }
             let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
             let loads = &mut loads[(column - LOADS) * n..][..n];
-            for (motion, step) in motions.chunks_exact(n).zip(step.iter()) {
-                for (entry, motion) in loads.iter_mut().zip(motion) {
-                    *entry += motion * step;
-                }
-            }
+            self.add_motions(loads, motions, &step);
             self.residuals(workspace, column..column + 1);
             self.correct(workspace, pins, column..column + 1);
         }
@@ -379,8 +374,8 @@ impl Plan {
     }
 
     /// The compliance from unit forces on the output, refined as displacements are: where the
-    /// output is stiff one way and soft another, the inverse of the stiffness loses digits.
-    /// Uses the first set's column, after the loads themselves.
+    /// output is stiff one way and soft another, the inverse of the stiffness loses digits. The
+    /// six forces go together, in the columns of the unit motions.
     fn refined_compliance(
         &self,
         workspace: &mut Workspace,
@@ -388,23 +383,42 @@ impl Plan {
         inverse: &Matrix6<f64>,
     ) -> Matrix6<f64> {
         let n = self.unknowns;
-        let own = LOADS * n..(LOADS + 1) * n;
-        let loads = workspace.loads[own.clone()].to_vec();
-        let solution = workspace.solutions[own.clone()].to_vec();
-        let initial = workspace.initial.clone();
-        workspace.initial.fill(0.0);
-        let mut compliance = Matrix6::zeros();
-        for k in 0..6 {
-            workspace.loads[own.clone()].fill(0.0);
-            workspace.loads[LOADS * n + self.inner + k] = 1.0;
-            workspace.solutions[own.clone()].fill(0.0);
-            self.settle(workspace, pins, inverse, LOADS);
-            compliance.set_column(k, &self.output_displacement(workspace, LOADS));
+        let kept = UNITS.start * n..UNITS.end * n;
+        let motions = workspace.solutions[kept.clone()].to_vec();
+        let loads = workspace.loads[kept.clone()].to_vec();
+        workspace.solutions[kept.clone()].fill(0.0);
+        workspace.loads[kept.clone()].fill(0.0);
+        for k in UNITS {
+            workspace.loads[k * n + self.inner + k] = 1.0;
         }
-        workspace.initial = initial;
-        workspace.loads[own.clone()].copy_from_slice(&loads);
-        workspace.solutions[own].copy_from_slice(&solution);
+        for _ in 0..CORRECTIONS {
+            self.residuals(workspace, UNITS);
+            for k in UNITS {
+                let own = k * n..(k + 1) * n;
+                let force = self.force_on_output(&workspace.residuals[own.clone()], &motions);
+                let step = inverse * force;
+                self.add_motions(&mut workspace.solutions[own], &motions, &step);
+            }
+            self.residuals(workspace, UNITS);
+            self.correct(workspace, pins, UNITS);
+        }
+        let mut compliance = Matrix6::zeros();
+        for k in UNITS {
+            let column = read(&workspace.solutions[k * n..], self.inner);
+            compliance.set_column(k, &column);
+        }
+        workspace.solutions[kept.clone()].copy_from_slice(&motions);
+        workspace.loads[kept].copy_from_slice(&loads);
         (compliance + compliance.transpose()) * 0.5
+    }
+
+    /// Adds the output's unit motions, by their share, to a column of solutions.
+    fn add_motions(&self, column: &mut [f64], motions: &[f64], shares: &Vector6<f64>) {
+        for (motion, share) in motions.chunks_exact(self.unknowns).zip(shares.iter()) {
+            for (entry, motion) in column.iter_mut().zip(motion) {
+                *entry += motion * share;
+            }
+        }
     }
 
     /// Twists of the output that no IDC gives it.

@@ -1,11 +1,13 @@
 //! Sparse symmetric factorization: the only module that names faer.
 //!
-//! [`Pattern`] is worked out once a topology: structure, fill-reducing order (AMD) and symbolic
-//! Cholesky. [`Factor`] holds the buffers of one thread; factoring and solving allocate nothing.
+//! [`Pattern`] is worked out once a topology: structure, fill-reducing order (minimum degree, or
+//! nested dissection where that takes fewer operations) and symbolic Cholesky. [`Factor`] holds
+//! the buffers of one thread; factoring and solving allocate nothing.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLdltRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -13,6 +15,12 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
+use nalgebra::Point3;
+
+use crate::dissection::nested_dissection;
+
+/// From this number of coordinates on, nested dissection is tried too.
+const LARGE: usize = 5_000;
 
 /// Structure of a symmetric matrix (lower triangle by columns) and of its factor.
 #[derive(Debug)]
@@ -43,8 +51,13 @@ pub(crate) struct NotPositive;
 
 impl Pattern {
     /// The pattern that couples all coordinates within each of `groups` (indices below `size`,
-    /// ascending within a group); every diagonal entry is present.
-    pub fn new<'a>(size: usize, groups: impl Iterator<Item = &'a [usize]>) -> Option<Self> {
+    /// ascending within a group); every diagonal entry is present. `places`, where they
+    /// are known: the node that each coordinate belongs to, and the nodes' positions.
+    pub fn new<'a>(
+        size: usize,
+        groups: impl Iterator<Item = &'a [usize]>,
+        places: Option<(&[usize], &[Point3<f64>])>,
+    ) -> Option<Self> {
         let mut columns: Vec<Vec<usize>> = (0..size).map(|k| vec![k]).collect();
         for group in groups {
             for (k, &column) in group.iter().enumerate() {
@@ -65,11 +78,24 @@ impl Pattern {
         } else {
             let structure =
                 SymbolicSparseColMatRef::new_checked(size, size, &column_starts, None, &rows);
-            let params = CholeskySymbolicParams::default();
-            Some(
-                factorize_symbolic_cholesky(structure, Side::Lower, SymmetricOrdering::Amd, params)
-                    .ok()?,
-            )
+            let factor = |order: SymmetricOrdering<'_, usize>| {
+                let params = CholeskySymbolicParams::default();
+                factorize_symbolic_cholesky(structure, Side::Lower, order, params).ok()
+            };
+            let mut best = factor(SymmetricOrdering::Amd)?;
+            if let Some((nodes, positions)) = places.filter(|_| size >= LARGE) {
+                let order = dissected(&column_starts, &rows, nodes, positions);
+                let mut inverse = vec![0; size];
+                for (place, &coordinate) in order.iter().enumerate() {
+                    inverse[coordinate] = place;
+                }
+                let order = PermRef::new_checked(&order, &inverse, size);
+                let other = factor(SymmetricOrdering::Custom(order))?;
+                if operations(&other) < operations(&best) {
+                    best = other;
+                }
+            }
+            Some(best)
         };
         Some(Self {
             size,
@@ -232,5 +258,70 @@ impl Pattern {
             .iter()
             .all(|pivot| pivot.is_finite() && *pivot != 0.0);
         sound.then(|| pivots.iter().filter(|pivot| **pivot < 0.0).count())
+    }
+}
+
+/// The coordinates of a lower triangle in an order of nested dissection, those of a node together.
+fn dissected(
+    column_starts: &[usize],
+    rows: &[usize],
+    nodes: &[usize],
+    positions: &[Point3<f64>],
+) -> Vec<usize> {
+    // The nodes that have coordinates are the vertices, in order of their first coordinate.
+    let mut vertex_of = vec![usize::MAX; positions.len()];
+    let mut coordinates: Vec<Vec<usize>> = Vec::new();
+    let mut places = Vec::new();
+    for (coordinate, &node) in nodes.iter().enumerate() {
+        if vertex_of[node] == usize::MAX {
+            vertex_of[node] = coordinates.len();
+            coordinates.push(Vec::new());
+            places.push(positions[node]);
+        }
+        coordinates[vertex_of[node]].push(coordinate);
+    }
+    let mut graph = vec![Vec::new(); coordinates.len()];
+    for (column, range) in column_starts.windows(2).enumerate() {
+        let vertex = vertex_of[nodes[column]];
+        for &row in &rows[range[0]..range[1]] {
+            let other = vertex_of[nodes[row]];
+            if other != vertex {
+                graph[vertex].push(other);
+                graph[other].push(vertex);
+            }
+        }
+    }
+    for neighbours in &mut graph {
+        neighbours.sort_unstable();
+        neighbours.dedup();
+    }
+    let order = nested_dissection(&graph, &places).into_iter();
+    order
+        .flat_map(|vertex| std::mem::take(&mut coordinates[vertex]))
+        .collect()
+}
+
+/// Multiplications, each with an addition, that a factorization takes, to leading order.
+fn operations(symbolic: &SymbolicCholesky<usize>) -> f64 {
+    match symbolic.raw() {
+        SymbolicCholeskyRaw::Simplicial(factor) => {
+            let starts = factor.col_ptr().windows(2);
+            starts
+                .map(|s| (s[1] - s[0]) as f64)
+                .map(|h| h * h / 2.0)
+                .sum()
+        }
+        SymbolicCholeskyRaw::Supernodal(factor) => {
+            let widths = factor.supernode_begin().iter().zip(factor.supernode_end());
+            let heights = factor.col_ptr_for_row_idx().windows(2);
+            let blocks = widths.zip(heights);
+            blocks
+                .map(|((begin, end), starts)| {
+                    let width = (end - begin) as f64;
+                    let below = (starts[1] - starts[0]) as f64;
+                    width * (width * width / 6.0 + width * below / 2.0 + below * below / 2.0)
+                })
+                .sum()
+        }
     }
 }

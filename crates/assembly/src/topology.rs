@@ -23,7 +23,7 @@ const SOFTEST_ABSORBED: f64 = 1e-8;
 pub(crate) const LONGEST_CLUSTER: usize = 8;
 
 /// A carrier of six displacement coordinates, kept at `reference`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Carrier {
     pub reference: NodeId,
     /// Tree coordinates its displacement depends on, in the order of its block's columns.
@@ -45,7 +45,7 @@ pub(crate) struct JointRole {
 }
 
 /// A joint along which displacement is handed from `parent` to `child`.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Tie {
     pub joint: JointId,
     /// `None` is the ground.
@@ -58,7 +58,7 @@ pub(crate) struct Tie {
 }
 
 /// Carriers tied together by joints, ground apart.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Component {
     /// Carrier with six coordinates of its own, unless the tree hangs from the ground.
     pub root: Option<usize>,
@@ -69,7 +69,7 @@ pub(crate) struct Component {
 }
 
 /// What forms one subassembly element: a run of segments, or a flexible body.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Cluster {
     /// Nodes along the run, or of the flexible body.
     pub nodes: Vec<NodeId>,
@@ -121,6 +121,28 @@ impl Topology {
             coordinates,
             output_start,
         }
+    }
+
+    /// Whether another topology is the same but for the joints' stiffness.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.carriers == other.carriers
+            && self.carrier_of == other.carrier_of
+            && self.components == other.components
+            && self.clusters == other.clusters
+            && self.joints.len() == other.joints.len()
+            && (self.joints.iter().zip(&other.joints)).all(|(own, other)| own.is_like(other))
+    }
+}
+
+impl JointRole {
+    /// Whether every direction has the same role in both.
+    fn is_like(&self, other: &Self) -> bool {
+        let sets = |role: &Self| {
+            let own = &role.directions;
+            let sets = [own.rigid, own.elastic, own.free, role.springs, role.moving];
+            (role.absorbed, sets)
+        };
+        sets(self) == sets(other)
     }
 }
 

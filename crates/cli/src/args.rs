@@ -1,6 +1,7 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -22,6 +23,7 @@ Examples:
   hyperstat run paper.ron --out results      Run every job of a batch file
   hyperstat solve paper.ron --job delta --pose 12
                                              One pose of a batch, in full
+  hyperstat plot results/map.csv --map k33   A stiffness over the workspace, as SVG and PNG
   hyperstat export paper.ron --job delta > delta.ron
                                              A mechanism of a batch written out, to edit
 
@@ -46,6 +48,9 @@ pub(crate) enum Command {
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
     #[command(after_help = CHECK_HELP)]
     Check(Check),
+    /// Draw maps, lines and trajectories from a table of `run`, as SVG and PNG
+    #[command(after_help = PLOT_HELP)]
+    Plot(Plot),
     /// Write a mechanism at one pose of a batch as a mechanism file to edit
     #[command(after_help = EXPORT_HELP)]
     Export(Export),
@@ -64,6 +69,11 @@ Examples:
   hyperstat solve portal.ron --format json > portal.json
   hyperstat solve portal.ron --verify
   hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
+  hyperstat solve portal.ron --modes 6       Natural frequencies and modes too
+  hyperstat solve portal.ron --vtu portal.vtu
+                                             For ParaView
+  hyperstat solve portal.ron --why           What is soft, and which dimension should grow
+  hyperstat solve portal.ron --why --along z
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -84,7 +94,8 @@ DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no resul
   rigid          the output is rigidly held in some direction: it has no finite stiffness
   failed         the numbers could not be found
 A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
-one for every path that varies, with its value.
+one for every path that varies, with its value. A job with `modes: N` has its natural frequencies
+in columns f1, f2, ... [Hz] after k66.
 A pose without a result does not end the run; the exit status is then 1.
 A file is put in place when it is complete, never half written.
 
@@ -94,6 +105,7 @@ where a pose has no result.
 Examples:
   hyperstat run paper.ron --out results
   hyperstat run map.ron --out results --format parquet --threads 4
+  hyperstat run map.ron --out results --summary
 
 A batch file, for the mechanism file of `hyperstat solve --help`:
 
@@ -116,6 +128,25 @@ Examples:
   hyperstat export paper.ron > delta.ron
   hyperstat export paper.ron --job delta --pose 12 --out delta.ron";
 
+const PLOT_HELP: &str = "\
+Any column of numbers can be drawn, and what is found from others:
+  deflection, rotation                     length of the output's displacement, angle of its rotation
+  stiffness_min, stiffness_max             principal stiffness against a force alone
+  stiffness_x, stiffness_y, stiffness_z    stiffness against a force along an axis alone
+  rotational_stiffness_min, …_max, …_x …   the same against a moment alone
+A column of a load case is written with the case's name: push.dz, push.deflection.
+
+Poses on a grid become a heat map with contours, others coloured dots; poses without a result stay
+white and are marked. Standard output gets the names of the files, and a caption.
+
+Examples:
+  hyperstat plot out/delta-map.csv --map k33 --plane z=0.5 --out map
+  hyperstat plot out/delta-map.csv --map stiffness_min       Every plane, side by side
+  hyperstat plot out/path.csv --lines dx,dy,dz,drx
+  hyperstat plot out/path.csv --lines deflection --over x
+  hyperstat plot out/designs.csv --lines stiffness_min --over rod.section.diameter --pose 3
+  hyperstat plot out/path.csv --trajectory";
+
 /// `hyperstat solve`
 #[derive(Debug, Args)]
 pub(crate) struct Solve {
@@ -130,9 +161,84 @@ pub(crate) struct Solve {
     /// Report the displacements of the nodes between a segment's elements too, as `body.A-B.k`
     #[arg(long)]
     pub(crate) all_nodes: bool,
+    /// Find the N lowest natural frequencies and their modes [default: a job's `modes`]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    modes: Option<u16>,
+    /// Write the deformed mechanism as a VTU file too, for ParaView: displacements, section forces,
+    /// stresses, and modes where there are some
+    #[arg(long, value_name = "FILE.vtu")]
+    pub(crate) vtu: Option<PathBuf>,
+    /// With lumped masses: half of every element's at each of its ends, in translation only
+    #[arg(long)]
+    pub(crate) lumped: bool,
+    /// Say what is soft and why: the share of every part in the deflection, what more of every
+    /// dimension would change, stiffness measures
+    #[arg(long)]
+    pub(crate) why: bool,
+    /// Direction that `--why` is asked about: `displacement` (of the output under the loads), `x`,
+    /// `y`, `z`, a rotation `rx`, `ry`, `rz`, or three numbers `a,b,c`
+    #[arg(
+        long,
+        value_name = "DIRECTION",
+        requires = "why",
+        default_value = "displacement",
+        allow_hyphen_values = true
+    )]
+    pub(crate) along: Along,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
+}
+
+impl Solve {
+    /// Number of natural frequencies that are asked for.
+    pub(crate) fn modes(&self) -> Option<usize> {
+        self.modes.map(usize::from)
+    }
+}
+
+/// A direction that the output gives along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Along {
+    /// Of its displacement under the loads.
+    Displacement,
+    /// Of a unit wrench on it, global axes.
+    Wrench([f64; 6]),
+}
+
+impl FromStr for Along {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "displacement" {
+            return Ok(Self::Displacement);
+        }
+        let mut wrench = [0.0; 6];
+        if let Some(k) = ["x", "y", "z", "rx", "ry", "rz"]
+            .iter()
+            .position(|name| *name == text)
+        {
+            wrench[k] = 1.0;
+            return Ok(Self::Wrench(wrench));
+        }
+        let numbers: Result<Vec<f64>, _> = text
+            .split(',')
+            .map(|number| number.trim().parse())
+            .collect();
+        let right =
+            "`displacement`, `x`, `y`, `z`, `rx`, `ry`, `rz` or three numbers such as `0,1,-1`";
+        match numbers.as_deref() {
+            Ok([a, b, c]) => {
+                let size = a.hypot(*b).hypot(*c);
+                if !(size.is_finite() && size > 0.0) {
+                    return Err(format!("a direction has a length; give {right}"));
+                }
+                wrench[..3].copy_from_slice(&[a / size, b / size, c / size]);
+                Ok(Self::Wrench(wrench))
+            }
+            _ => Err(format!("give {right}")),
+        }
+    }
 }
 
 /// `hyperstat run`
@@ -150,6 +256,10 @@ pub(crate) struct Run {
     /// Number of threads that solve; 0 is one a core. The results are the same with any number
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,
+    /// Write DIR/<job>-summary.json too, and print it: least, mean, percentiles, most of deflection
+    /// and stiffness measures over all poses, and where
+    #[arg(long)]
+    pub(crate) summary: bool,
 }
 
 /// `hyperstat check`
@@ -160,6 +270,87 @@ pub(crate) struct Check {
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
+}
+
+/// `hyperstat plot`
+#[derive(Debug, Args)]
+pub(crate) struct Plot {
+    /// Table of a job, CSV or Parquet
+    #[arg(value_name = "TABLE")]
+    pub(crate) table: PathBuf,
+    #[command(flatten)]
+    pub(crate) kind: PlotKind,
+    /// Map: the plane, such as z=0.5; several where poses differ in more. Without it, all planes
+    #[arg(long, value_name = "AXIS=VALUE", value_parser = plane, requires = "map")]
+    pub(crate) plane: Vec<(String, f64)>,
+    /// Map: the pose coordinates to the right and up, such as x,z [default: those that vary]
+    #[arg(long, value_name = "X,Y", value_parser = axes, requires = "map")]
+    pub(crate) axes: Option<[String; 2]>,
+    /// Lines: the column along the lower axis [default: pose]
+    #[arg(long, value_name = "COLUMN", requires = "lines")]
+    pub(crate) over: Option<String>,
+    /// Trajectory: magnification of the deflection [default: a round number that shows it]
+    #[arg(long, value_name = "FACTOR", requires = "trajectory")]
+    pub(crate) scale: Option<f64>,
+    /// Design of a job that varies [default: 0; all where lines are over what varies]
+    #[arg(long, value_name = "N")]
+    pub(crate) design: Option<usize>,
+    /// Pose of each design [default: all; 0 where lines are over what varies]
+    #[arg(long, value_name = "N")]
+    pub(crate) pose: Option<usize>,
+    /// Title of the figure [default: the job's name]
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) title: Option<String>,
+    /// Write NAME.svg and NAME.png [default: beside the table, <job>-<figure>]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// What is to be drawn.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub(crate) struct PlotKind {
+    /// A map of a quantity over a plane of the workspace, or over several
+    #[arg(long, value_name = "QUANTITY")]
+    pub(crate) map: Option<String>,
+    /// Quantities as lines along the poses, or over a column
+    #[arg(long, value_name = "QUANTITY,…", value_delimiter = ',')]
+    pub(crate) lines: Option<Vec<String>>,
+    /// The commanded trajectory and the deflected one, in space
+    #[arg(long)]
+    pub(crate) trajectory: bool,
+}
+
+/// Pose coordinates.
+const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Reads `z=0.5`.
+fn plane(text: &str) -> Result<(String, f64), String> {
+    let wrong = || format!("expected a coordinate and its value, such as z=0.5, found `{text}`");
+    let (axis, value) = text.split_once('=').ok_or_else(wrong)?;
+    match value.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok((coordinate(axis)?, value)),
+        _ => Err(wrong()),
+    }
+}
+
+/// Reads `x,z`.
+fn axes(text: &str) -> Result<[String; 2], String> {
+    match text.split_once(',') {
+        Some((right, up)) if right.trim() != up.trim() => Ok([coordinate(right)?, coordinate(up)?]),
+        _ => Err("expected two coordinates, such as x,z".into()),
+    }
+}
+
+fn coordinate(text: &str) -> Result<String, String> {
+    let text = text.trim();
+    match COORDINATES.contains(&text) {
+        true => Ok(text.into()),
+        false => Err(format!(
+            "`{text}` is no coordinate of a pose: those are {}",
+            COORDINATES.join(", ")
+        )),
+    }
 }
 
 /// `hyperstat export`

@@ -1,13 +1,15 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
-use hyperstat_assembly::{BodyId, Model, Motion, Solution, SolveError};
+use hyperstat_assembly::{
+    BeamMass, BodyId, ModalOptions, Model, Modes, Motion, Solution, SolveError,
+};
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
 
 use crate::args;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{Entries, inner_displacements};
+use crate::report::{Entries, Why, inner_displacements};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -112,6 +114,39 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
+    /// The natural frequencies that are asked for, by the command line or the job.
+    pub(crate) fn modal_options(&self, args: &args::Solve) -> Option<ModalOptions> {
+        let of_job = match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, .. } => job.modes.clone(),
+        };
+        let mut options = match (args.modes(), of_job) {
+            (Some(count), Some(of_job)) => ModalOptions { count, ..of_job },
+            (Some(count), None) => ModalOptions::lowest(count),
+            (None, of_job) => of_job?,
+        };
+        if args.lumped {
+            options.mass = BeamMass::Lumped;
+        }
+        Some(options)
+    }
+
+    /// Natural frequencies and modes.
+    pub(crate) fn modes(&self, options: &ModalOptions) -> Result<Modes, CliError> {
+        hyperstat_assembly::modes(&self.model, options)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// The solution as a VTU file, with its modes where there are some.
+    pub(crate) fn vtu(
+        &self,
+        solution: &Solution,
+        modes: Option<&Modes>,
+    ) -> Result<String, CliError> {
+        crate::vtu::vtu(&self.model, solution, modes)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
     /// Displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
     pub(crate) fn inner_displacements(
         &self,
@@ -119,6 +154,20 @@ impl Case {
     ) -> Result<Entries<[f64; 6]>, CliError> {
         inner_displacements(&self.model, solution)
             .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// What is soft and why, along a direction.
+    pub(crate) fn why(&self, solution: &Solution, along: args::Along) -> Result<Why, CliError> {
+        Why::new(self, solution, along)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
+    /// The mechanism file that it is from, where it is from one.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { design, .. } => design.mechanism(),
+        }
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even
@@ -235,6 +284,10 @@ impl Source<'_> {
         let location = match &error {
             SolveError::Unheld { bodies } => {
                 let body = bodies.first().and_then(|name| model.body(name));
+                body.map_or_else(|| self.output(), |body| self.body(body))
+            }
+            SolveError::NoDensity { body } => {
+                let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
             SolveError::LoadOnFreeMotion {

@@ -11,6 +11,7 @@ use rayon::ThreadPoolBuildError;
 use thiserror::Error;
 
 use crate::drives::MissingDrives;
+use crate::plot::PlotError;
 use crate::report::Problem;
 
 /// A command that ends without its result.
@@ -92,6 +93,17 @@ pub(crate) enum CliError {
     /// Standard output that could not be written.
     #[error("cannot write to standard output: {0}")]
     Print(#[source] io::Error),
+    /// A table that cannot be drawn, or does not hold what is asked for.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// A map of a quantity that the job's table will not hold.
+    #[error("job `{job}`: there is no quantity `{value}` to draw a map of")]
+    UnknownQuantity {
+        location: Box<Location>,
+        job: String,
+        value: String,
+        help: String,
+    },
     /// A figure that could not be drawn.
     #[error("cannot draw {}: {source}", .path.display())]
     Figure { path: PathBuf, source: FigureError },
@@ -110,11 +122,13 @@ impl CliError {
     pub(crate) fn location(&self) -> Option<&Location> {
         match self {
             Self::Load(error) => error.location(),
+            Self::Plot(error) => error.location(),
             Self::NoSuchPose { location, .. }
             | Self::NoSuchDesign { location, .. }
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
+            | Self::UnknownQuantity { location, .. }
             | Self::Export { location, .. } => Some(location),
             _ => None,
         }
@@ -124,6 +138,8 @@ impl CliError {
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Load(error) => error.help().map(Into::into),
+            Self::Plot(error) => error.help(),
+            Self::UnknownQuantity { help, .. } => Some(help.clone()),
             Self::NotABatch { option, .. } => Some(format!("leave `{option}` out")),
             Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
                 Some(format!("its jobs are {}", known.join(", ")))
@@ -150,6 +166,14 @@ impl CliError {
                  in mm, a modulus in MPa or a stiffness far above all others is a slip"
                     .into(),
             ),
+            Self::Unsolvable {
+                source: SolveError::NoDensity { .. },
+                ..
+            } => Some("give its material a `density` in kg/m³; 0.0 is one without mass".into()),
+            Self::Unsolvable {
+                source: SolveError::NoMass,
+                ..
+            } => Some("give a material a `density`, or the mechanism `masses`".into()),
             Self::FreeOutput { drives, .. } => Some(format!(
                 "{}; `solve --allow-free` takes it as it is",
                 drives.help()

@@ -9,8 +9,10 @@ mod case;
 mod diagnostic;
 mod drives;
 mod error;
+mod plot;
 mod report;
 mod verification;
+mod vtu;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -23,7 +25,7 @@ use args::{Cli, Command, Format};
 use atomic::AtomicFile;
 use case::Case;
 use error::CliError;
-use report::{CheckReport, SolveReport, json};
+use report::{CheckReport, ModesReport, SolveReport, json};
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -50,6 +52,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
         Command::Run(args) => batch::run(args, registry, print),
+        Command::Plot(args) => plot::run(args, print),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -76,6 +79,27 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut report = SolveReport::new(&case, &solution, verification);
     if args.all_nodes {
         report.add_displacements(case.inner_displacements(&solution)?);
+    }
+    let options = case.modal_options(args);
+    let modes = options.as_ref().map(|options| case.modes(options));
+    let modes = modes.transpose()?;
+    if let (Some(options), Some(found)) = (&options, &modes) {
+        report.add_modes(ModesReport::new(
+            &case.model,
+            found,
+            options.count,
+            args.all_nodes,
+        ));
+    }
+    if let Some(path) = &args.vtu {
+        let text = case.vtu(&solution, modes.as_ref())?;
+        AtomicFile::write(path, text.as_bytes()).map_err(|source| CliError::Write {
+            path: path.clone(),
+            source,
+        })?;
+    }
+    if args.why {
+        report.add_why(case.why(&solution, args.along)?);
     }
     print(&match args.format {
         Format::Text => report.text(),

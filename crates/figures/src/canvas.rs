@@ -4,6 +4,8 @@
 //! of the figure, and shown that much smaller by an outer `svg` element, which also rounds the
 //! ends and corners of all lines.
 
+use std::cell::RefCell;
+use std::fmt::Write as _;
 use std::io;
 
 use plotters::coord::Shift;
@@ -15,10 +17,10 @@ use plotters::style::{FontDesc, FontFamily, FontStyle, RGBAColor, ShapeStyle, Te
 
 use crate::error::FigureError;
 use crate::geometry::PagePoint;
-use crate::style;
 
-/// Width and height of a figure \[pixels\].
-pub(crate) const SIZE: (u32, u32) = (900, 640);
+/// Width of a figure, and the height of one in space \[pixels\].
+pub(crate) const WIDTH: u32 = 900;
+pub(crate) const HEIGHT: u32 = 640;
 
 /// Units of the drawing in a pixel.
 const UNITS: u32 = 10;
@@ -59,31 +61,71 @@ pub(crate) struct Lettering {
     pub(crate) anchor: HPos,
 }
 
+/// What a page is apart from its drawing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sheet<'a> {
+    /// Height, where the width is [`WIDTH`] \[pixels\].
+    pub(crate) height: u32,
+    /// For programs that read a figure aloud or list it; not drawn.
+    pub(crate) title: &'a str,
+    pub(crate) description: &'a str,
+}
+
 /// The page.
 pub(crate) struct Canvas<'a> {
     page: DrawingArea<SVGBackend<'a>, Shift>,
+    /// Shaded regions, under all that is drawn.
+    shades: RefCell<String>,
 }
 
 /// Draws a page and gives it as an SVG document.
 pub(crate) fn svg(
+    sheet: Sheet<'_>,
     draw: impl FnOnce(&Canvas<'_>) -> Result<(), FigureError>,
 ) -> Result<String, FigureError> {
-    let (width, height) = SIZE;
+    let (width, height) = (WIDTH, sheet.height);
     let (inner_width, inner_height) = (width * UNITS, height * UNITS);
     let mut inner = String::new();
     let backend = SVGBackend::with_string(&mut inner, (inner_width, inner_height));
     let canvas = Canvas {
         page: backend.into_drawing_area(),
+        shades: RefCell::default(),
     };
-    canvas.page.fill(&style::WHITE).map_err(svg_error)?;
     draw(&canvas)?;
     canvas.page.present().map_err(svg_error)?;
+    let shades = canvas.shades.take();
     drop(canvas);
+    let [title, description] = [sheet.title, sheet.description].map(escaped);
     Ok(format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {inner_width} {inner_height}\" \
-         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{inner}</svg>\n"
+         stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
+         <title>{title}</title>\n<desc>{description}</desc>\n\
+         <rect x=\"0\" y=\"0\" width=\"{inner_width}\" height=\"{inner_height}\" \
+         fill=\"#FFFFFF\"/>\n{shades}{inner}</svg>\n"
     ))
+}
+
+/// Text without what means something, or nothing, in XML.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::new();
+    for c in in_xml(text).chars() {
+        match c {
+            '&' => escaped += "&amp;",
+            '<' => escaped += "&lt;",
+            '>' => escaped += "&gt;",
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// The text with a space for each character that has no place in XML.
+fn in_xml(text: &str) -> String {
+    let known = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.chars()
+        .map(|c| if known(c) { c } else { ' ' })
+        .collect()
 }
 
 impl Canvas<'_> {
@@ -114,6 +156,25 @@ impl Canvas<'_> {
     ) -> Result<(), FigureError> {
         let corners: Vec<_> = corners.iter().map(|corner| units(*corner)).collect();
         self.draw(&Polygon::new(corners, fill))
+    }
+
+    /// A region between closed lines, of one colour, under all else; those drawn later cover those
+    /// drawn before. What lies inside an even number of the lines is outside.
+    pub(crate) fn shade(&self, outlines: &[Vec<PagePoint>], fill: RGBAColor) {
+        let mut shades = self.shades.borrow_mut();
+        // Writing to a String cannot fail.
+        let _ = shades.write_str("<path fill-rule=\"evenodd\" d=\"");
+        for outline in outlines {
+            let mut corners: Vec<_> = outline.iter().map(|corner| units(*corner)).collect();
+            corners.dedup();
+            for (k, (x, y)) in corners.into_iter().enumerate() {
+                let step = if k == 0 { 'M' } else { 'L' };
+                let _ = write!(shades, "{step}{x} {y}");
+            }
+            shades.push('Z');
+        }
+        let RGBAColor(red, green, blue, _) = fill;
+        let _ = writeln!(shades, "\" fill=\"#{red:02X}{green:02X}{blue:02X}\"/>");
     }
 
     /// A disc.
@@ -149,12 +210,7 @@ impl Canvas<'_> {
         let style = TextStyle::from(font)
             .color(&lettering.color)
             .pos(Pos::new(lettering.anchor, VPos::Center));
-        let in_xml = |c: char| !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}');
-        let text: String = text
-            .chars()
-            .map(|c| if in_xml(c) { c } else { ' ' })
-            .collect();
-        self.draw(&Text::new(text, units(at), style))
+        self.draw(&Text::new(in_xml(text), units(at), style))
     }
 
     fn draw<E>(&self, element: &E) -> Result<(), FigureError>
@@ -253,7 +309,13 @@ mod tests {
             anchor: HPos::Left,
         };
         let text = "a\u{1}b<c>&\n\u{ffff}d";
-        let svg = svg(|canvas| canvas.text(text, [10.0, 10.0], lettering)).unwrap();
+        let sheet = Sheet {
+            height: HEIGHT,
+            title: text,
+            description: "",
+        };
+        let svg = svg(sheet, |canvas| canvas.text(text, [10.0, 10.0], lettering)).unwrap();
+        assert!(svg.contains("<title>a b&lt;c&gt;&amp;  d</title>"), "{svg}");
         assert!(svg.contains("a b&lt;c&gt;&amp;  d"), "{svg}");
     }
 }

@@ -67,6 +67,21 @@ pub(crate) fn drawable(what: &str, points: &[Point]) -> Result<(), FigureError> 
     near(what, points)
 }
 
+/// That all numbers are finite and small enough to be drawn.
+pub(crate) fn numbers(what: &str, numbers: &[f64]) -> Result<(), FigureError> {
+    // Also false for a NaN.
+    let is_near = |number: &f64| number.abs() <= FARTHEST;
+    match numbers.iter().position(|number| !is_near(number)) {
+        Some(index) => Err(FigureError::InvalidNumber {
+            what: what.into(),
+            index,
+            value: numbers[index],
+            limit: FARTHEST,
+        }),
+        None => Ok(()),
+    }
+}
+
 fn finite(what: &str, vectors: &[Point]) -> Result<(), FigureError> {
     let is_finite = |vector: &Point| vector.iter().all(|component| component.is_finite());
     match vectors.iter().position(|vector| !is_finite(vector)) {

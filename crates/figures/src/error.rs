@@ -46,6 +46,42 @@ pub enum FigureError {
         /// The largest coordinate that can be drawn \[m\].
         limit: f64,
     },
+    /// A number that is not finite, or too large to draw.
+    #[error("{what}: entry {index} is {value}, not a finite number within {limit:e}")]
+    InvalidNumber {
+        /// Which list.
+        what: String,
+        /// Its entry, counted from 0.
+        index: usize,
+        /// The entry as given.
+        value: f64,
+        /// The largest number that can be drawn.
+        limit: f64,
+    },
+    /// A list of values of another length than the places they are for.
+    #[error("{what}: {values} values for {points} points, one each is needed")]
+    ValuesMismatch {
+        /// Which list.
+        what: String,
+        /// Number of points.
+        points: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// Coordinates of a grid that are fewer than two or do not ascend.
+    #[error("{what}: a grid needs two coordinates or more, ascending")]
+    NoGrid {
+        /// Which list.
+        what: String,
+    },
+    /// More lines in a diagram than can be told apart.
+    #[error("a diagram has {lines} lines, of which at most {most} can be told apart")]
+    TooManyLines {
+        /// Number of lines.
+        lines: usize,
+        /// The most that can be drawn.
+        most: usize,
+    },
     /// A magnification that is not a finite number above zero.
     #[error("the magnification is {factor}; it must be a finite number above zero")]
     InvalidFactor {

@@ -5,12 +5,17 @@
 mod axes_box;
 mod canvas;
 mod checks;
+mod contours;
 mod deformed;
 mod error;
 mod geometry;
+mod lines;
+mod map;
 mod numbers;
 mod page;
+mod plane_axes;
 mod png;
+mod quantity;
 mod round;
 mod scale;
 mod style;
@@ -18,5 +23,8 @@ mod trajectory;
 
 pub use deformed::{Axis, Curve, DeformedFigure, RigidBody, SecondPoints};
 pub use error::FigureError;
+pub use lines::{Diagram, LineFigure, MOST_SERIES, Series};
+pub use map::{MapFigure, MapPanel, Samples};
+pub use quantity::Quantity;
 pub use scale::Scale;
 pub use trajectory::{SecondMethod, TrajectoryFigure};

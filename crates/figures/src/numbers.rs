@@ -47,6 +47,16 @@ pub(crate) fn tick(value: f64, step: f64) -> String {
     }
 }
 
+/// A number of four digits, with a minus that is none of a hyphen.
+pub(crate) fn short(value: f64) -> String {
+    // Zero has no sign.
+    let text = number(rounded(value, 3) + 0.0);
+    match text.strip_prefix('-') {
+        Some(magnitude) => format!("−{magnitude}"),
+        None => text,
+    }
+}
+
 /// The value with so many decimals in scientific notation.
 fn rounded(value: f64, decimals: usize) -> f64 {
     format!("{value:.decimals$e}")

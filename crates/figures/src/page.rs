@@ -1,7 +1,7 @@
 //! The parts that all figures share: title, drawing, legend, captions.
 
 use crate::axes_box;
-use crate::canvas::{self, Canvas, Lettering, SIZE, Stroke, text_width};
+use crate::canvas::{self, Canvas, HEIGHT, Lettering, Sheet, Stroke, WIDTH, text_width};
 use crate::error::FigureError;
 use crate::geometry::{Area, Bounds, PagePoint, View};
 use crate::numbers;
@@ -9,7 +9,7 @@ use crate::style;
 use plotters::style::RGBAColor;
 
 /// Free space at the edges of the page \[pixels\].
-const MARGIN: f64 = 28.0;
+pub(crate) const MARGIN: f64 = 28.0;
 
 /// Where the box of axes may be, without its ticks and names.
 const DRAWING: Area = Area {
@@ -57,8 +57,16 @@ impl Page<'_> {
     ) -> Result<String, FigureError> {
         let bounds = self.bounds.roomy();
         let view = View::fit(&bounds, DRAWING);
-        canvas::svg(|canvas| {
-            let [width, height] = [SIZE.0, SIZE.1].map(f64::from);
+        let description = [std::slice::from_ref(&self.subtitle), &*self.captions]
+            .concat()
+            .join(" ");
+        let sheet = Sheet {
+            height: HEIGHT,
+            title: self.title,
+            description: &description,
+        };
+        canvas::svg(sheet, |canvas| {
+            let [width, height] = [WIDTH, HEIGHT].map(f64::from);
             let room = width - 2.0 * MARGIN;
             fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE)?;
             fitted(
@@ -109,7 +117,7 @@ impl Sample {
 }
 
 /// Text that is made smaller, and in the end cut, to stay within `room` \[pixels\].
-fn fitted(
+pub(crate) fn fitted(
     canvas: &Canvas<'_>,
     text: &str,
     at: PagePoint,

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb::Database};
 
-use crate::canvas::SIZE;
 use crate::error::FigureError;
 
 /// Pixels of the PNG to a pixel of the SVG, along each side.
@@ -23,7 +22,8 @@ pub(crate) fn render(svg: &str) -> Result<Vec<u8>, FigureError> {
         ..Options::default()
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Png(Box::new(error)))?;
-    let [width, height] = [SIZE.0, SIZE.1].map(|side| (side as f32 * DENSITY) as u32);
+    let size = tree.size();
+    let [width, height] = [size.width(), size.height()].map(|side| (side * DENSITY) as u32);
     let mut pixels = Pixmap::new(width, height).expect("a page has a size");
     let to_pixels = Transform::from_scale(DENSITY, DENSITY);
     resvg::render(&tree, to_pixels, &mut pixels.as_mut());

@@ -66,3 +66,40 @@ pub(crate) const CAPTION: Lettering = lettering(14.0, DARK, HPos::Left);
 pub(crate) const LEGEND: Lettering = lettering(14.5, BLACK, HPos::Left);
 pub(crate) const TICK: Lettering = lettering(13.0, DARK, HPos::Center);
 pub(crate) const AXIS_NAME: Lettering = lettering(15.0, BLACK, HPos::Center);
+/// Labels of ticks that end at their tick.
+pub(crate) const TICK_RIGHT: Lettering = lettering(13.0, DARK, HPos::Left);
+pub(crate) const TICK_LEFT: Lettering = lettering(13.0, DARK, HPos::Right);
+pub(crate) const AXIS_NAME_LEFT: Lettering = lettering(15.0, BLACK, HPos::Left);
+pub(crate) const PANEL: Lettering = lettering(14.5, BLACK, HPos::Center);
+pub(crate) const CONTOUR_LABEL: Lettering = lettering(11.5, BLACK, HPos::Center);
+pub(crate) const CONTOUR_HALO: RGBAColor = RGBAColor(255, 255, 255, 0.78);
+/// Contours over light and over dark colours.
+pub(crate) const CONTOUR: Stroke = Stroke::solid(RGBAColor(25, 25, 25, 0.75), 0.9);
+pub(crate) const CONTOUR_ON_DARK: Stroke = Stroke::solid(RGBAColor(255, 255, 255, 0.8), 0.9);
+/// Poses without a result.
+pub(crate) const MISSING: Stroke = Stroke::solid(GREY, 1.0);
+/// Lines of a diagram, one after the other.
+pub(crate) const SERIES: [Stroke; 6] = [
+    Stroke::solid(BLUE, 2.2),
+    Stroke {
+        color: VERMILLION,
+        width: 2.2,
+        dashes: &[9.0, 5.0],
+    },
+    Stroke {
+        color: GREEN,
+        width: 2.2,
+        dashes: &[2.0, 4.5],
+    },
+    Stroke {
+        color: RGBAColor(204, 121, 167, 1.0),
+        width: 2.2,
+        dashes: &[9.0, 4.0, 2.0, 4.0],
+    },
+    Stroke::solid(RGBAColor(230, 159, 0, 1.0), 2.2),
+    Stroke {
+        color: RGBAColor(86, 180, 233, 1.0),
+        width: 2.2,
+        dashes: &[14.0, 5.0],
+    },
+];

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_assembly::{Geometry, ModalOptions, Model};
 
 use crate::design::{Design, Designs, Varied};
 use crate::error::{LoadError, Location};
@@ -12,6 +12,7 @@ use crate::fields::Fields;
 use crate::figures::{self, Figure};
 use crate::fragment::{Fragment, first_at};
 use crate::mechanism::Mechanism;
+use crate::modes;
 use crate::overlay::Overlay;
 use crate::poses::Poses;
 use crate::prebuilt::PoseError;
@@ -37,6 +38,8 @@ pub struct Job {
     pub name: String,
     /// Figures to draw, of the first design, in the order of the file.
     pub figures: Vec<Figure>,
+    /// Natural frequencies to find at every pose.
+    pub modes: Option<ModalOptions>,
     recipe: Recipe,
     poses: Arc<Poses>,
     /// Where `vary` is given.
@@ -65,6 +68,7 @@ impl Batch {
                 "figures",
                 "vary",
                 "zip",
+                "modes",
             ];
             let fields = Fields::read(fragment, "a job", &known, &[])?;
             let at = fields.required("name")?;
@@ -131,6 +135,7 @@ impl Job {
             Some(list) => figures::read(list, poses.len())?,
             None => Vec::new(),
         };
+        let modes = fields.get("modes").map(modes::read).transpose()?;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
                 let designs = Designs::check(variation, known.into_inner(), &recipe)?;
@@ -142,6 +147,7 @@ impl Job {
         Ok(Self {
             name,
             figures,
+            modes,
             recipe,
             poses: Arc::new(poses),
             designs,

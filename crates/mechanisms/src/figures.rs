@@ -6,7 +6,7 @@ use crate::fragment::Fragment;
 use crate::names;
 
 /// A figure that a job asks for.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Figure {
     /// The deflected trajectory over the commanded one (Fig. 8).
     Trajectory {
@@ -19,6 +19,13 @@ pub enum Figure {
         pose: usize,
         /// Magnification of the deflection.
         scale: Scale,
+    },
+    /// A quantity over a plane of the poses, or over all of their planes.
+    Map {
+        /// Name of the quantity: a column of the job's table, or what is found from columns.
+        value: String,
+        /// The coordinate that the plane is normal to, of `x y z rx ry rz`, and its value.
+        plane: Option<(&'static str, f64)>,
     },
 }
 
@@ -39,20 +46,28 @@ pub(crate) fn read(list: Fragment<'_>, poses: usize) -> Result<Vec<Figure>, Load
 
 fn figure(whole: Fragment<'_>, poses: usize) -> Result<Figure, LoadError> {
     let (kind, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
-    let known: &[&str] = match kind.text() {
-        "Trajectory" => &["scale"],
-        "Deformed" => &["pose", "scale"],
-        other => {
-            return Err(kind
-                .error(format!("unknown figure `{other}`"))
-                .with_help(names::help(other, "figures", ["Trajectory", "Deformed"])));
-        }
-    };
+    let known: &[&str] =
+        match kind.text() {
+            "Trajectory" => &["scale"],
+            "Deformed" => &["pose", "scale"],
+            "Map" => &["value", "plane"],
+            other => {
+                return Err(kind.error(format!("unknown figure `{other}`")).with_help(
+                    names::help(other, "figures", ["Trajectory", "Deformed", "Map"]),
+                ));
+            }
+        };
     let owner = format!("`{}`", kind.text());
     let fields = match arguments {
         Some(given) => Fields::read(given, owner, known, &[])?,
         None => Fields::none(whole, owner),
     };
+    if kind.text() == "Map" {
+        return Ok(Figure::Map {
+            value: fields.required("value")?.string()?,
+            plane: fields.get("plane").map(plane).transpose()?,
+        });
+    }
     let scale = fields.get("scale").map_or(Ok(Scale::Auto), scale)?;
     if kind.text() == "Deformed" {
         let pose = fields.get("pose").map_or(Ok(0), |at| pose(at, poses))?;
@@ -64,6 +79,22 @@ fn figure(whole: Fragment<'_>, poses: usize) -> Result<Figure, LoadError> {
             .with_help("use `Deformed` to see a single pose"));
     }
     Ok(Figure::Trajectory { scale })
+}
+
+/// Reads a plane such as `z(0.5)`.
+fn plane(fragment: Fragment<'_>) -> Result<(&'static str, f64), LoadError> {
+    const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+    let expected = "a plane, such as `z(0.5)`";
+    let (kind, Some(arguments)) = fragment.variant(expected)? else {
+        return Err(fragment.expected(expected));
+    };
+    let known = COORDINATES.into_iter().find(|name| *name == kind.text());
+    let coordinate = known.ok_or_else(|| {
+        kind.error(format!("`{}` is no coordinate of a pose", kind.text()))
+            .with_help(names::help(kind.text(), "coordinates", COORDINATES))
+    })?;
+    let [value] = arguments.array(expected)?;
+    Ok((coordinate, value.number()?))
 }
 
 fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {

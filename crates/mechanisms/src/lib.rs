@@ -25,6 +25,7 @@ mod load;
 mod loads;
 mod materials;
 mod mechanism;
+mod modes;
 mod mover;
 mod names;
 mod nodes;

@@ -17,6 +17,14 @@ pub(crate) enum Profile {
 }
 
 impl Profile {
+    /// The section at both ends.
+    pub(crate) fn ends(&self) -> [Section; 2] {
+        match self {
+            Self::Uniform(section) => [section.clone(), section.clone()],
+            Self::Tapered(taper) => [taper.from().clone(), taper.to().clone()],
+        }
+    }
+
     /// The section at `first` and, where it changes, that at `last` (0 to 1).
     pub(crate) fn part(&self, first: f64, last: f64) -> (Section, Option<Section>) {
         match self {

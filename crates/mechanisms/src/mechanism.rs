@@ -1,6 +1,7 @@
 //! One mechanism, as a file describes it.
 
 use hyperstat_assembly::{BodyId, JointId, Model};
+use hyperstat_elements::{Material, Section};
 use nalgebra::Point3;
 
 use crate::bodies::{self, Tables, check_name};
@@ -22,6 +23,8 @@ pub struct Mechanism {
     joints: Vec<Place>,
     loads: Vec<Place>,
     output: Place,
+    materials: Vec<(String, Material)>,
+    sections: Vec<(String, [Section; 2])>,
 }
 
 impl Mechanism {
@@ -75,6 +78,12 @@ impl Mechanism {
             joints,
             loads,
             output: output.place(),
+            materials: (tables.materials.entries())
+                .map(|(name, material)| (name.to_owned(), material.clone()))
+                .collect(),
+            sections: (tables.sections.entries())
+                .map(|(name, profile)| (name.to_owned(), profile.ends()))
+                .collect(),
         })
     }
 
@@ -84,6 +93,16 @@ impl Mechanism {
             self.loads = loads;
         }
         Ok(())
+    }
+
+    /// The materials by their names in the file.
+    pub fn materials(&self) -> &[(String, Material)] {
+        &self.materials
+    }
+
+    /// The sections by their names in the file: what each is at its two ends.
+    pub fn sections(&self) -> &[(String, [Section; 2])] {
+        &self.sections
     }
 
     /// Place of a body's name.

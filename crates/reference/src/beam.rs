@@ -22,9 +22,9 @@ pub(crate) struct Element {
     /// First and second node; local x runs from the first to the second.
     pub nodes: [usize; 2],
     /// Columns are local x, y, z in global axes.
-    frame: Matrix3<f64>,
+    pub frame: Matrix3<f64>,
     /// Length [m].
-    length: f64,
+    pub length: f64,
     /// E A [N].
     axial: f64,
     /// G J [N·m²].

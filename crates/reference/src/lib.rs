@@ -5,6 +5,7 @@
 mod beam;
 mod error;
 mod flexible;
+mod frequencies;
 mod independence;
 mod joint;
 mod kinematics;
@@ -16,5 +17,6 @@ mod taper;
 mod traditional;
 
 pub use error::ReferenceError;
+pub use frequencies::natural_frequencies;
 pub use solution::{ReferenceSolution, solve};
 pub use traditional::{TraditionalOptions, TraditionalSolution, traditional};

@@ -5,13 +5,14 @@ use hyperstat_assembly::{JointId, Model, NodeId, Solution, analyse, redundant_co
 use hyperstat_joints::rigid_motion;
 use hyperstat_tests::agreement::agrees_with_reference;
 use hyperstat_tests::build::{circle, node, steel};
+use hyperstat_tests::gripper::gripper;
 use hyperstat_tests::lattice::{PITCH, jointed_lattice, lattice};
 use hyperstat_tests::turned;
 use nalgebra::Vector6;
 
 #[test]
 fn small_lattices_agree_with_the_independent_solver() {
-    for model in [lattice(3, 2, 4), jointed_lattice(2, 2, 3)] {
+    for model in [lattice(3, 2, 4), jointed_lattice(2, 2, 3), gripper(3)] {
         let agree = agrees_with_reference(&model).expect("the same results");
         assert!(agree, "{} does not count", model.name);
     }
@@ -50,7 +51,7 @@ fn imbalance(model: &Model, solution: &Solution) -> (Vector6<f64>, Vector6<f64>)
 
 #[test]
 fn large_lattices_are_in_equilibrium() {
-    for model in [lattice(6, 6, 40), jointed_lattice(3, 3, 30)] {
+    for model in [lattice(6, 6, 40), jointed_lattice(3, 3, 30), gripper(60)] {
         let solution = solve(&model).expect("a solution");
         assert!(solution.warnings.is_empty(), "{:?}", solution.warnings);
         assert!(solution.idle.is_empty());

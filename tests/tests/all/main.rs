@@ -1,9 +1,11 @@
 //! The tests that need two crates or more, or reference data: one program, so that they are linked once.
 
+mod answers;
 mod axis_parallel;
 mod bodies;
 mod book;
 mod closure;
+mod designs;
 mod equilibrium;
 mod frame3dd_example_b;
 mod lanes_agree;

@@ -53,6 +53,8 @@ fn mechanism() -> Model {
     let taper = Some(section(0.01, 0.02, false));
     let rod = [member([0, 1], section(0.02, 0.01, false), taper, None)];
     model.add_elastic("rod", &[b, d], &rod).expect("a rod");
+    // Nothing is absorbed into a rigid body.
+    model.add_rigid("hub", &[b]).expect("a hub");
     model.add_rigid("platform", &[c]).expect("a platform");
     let span = f.1 - c.1;
     let frame = hyperstat_elements::element_frame(&span, None).expect("a frame");
@@ -64,7 +66,8 @@ fn mechanism() -> Model {
         .expect("a body");
     let joints = [
         ("ground", "arm", "A"),
-        ("arm", "rod", "B"),
+        ("hub", "arm", "B"),
+        ("hub", "rod", "B"),
         ("arm", "platform", "C"),
         ("rod", "ground", "D"),
         ("platform", "given", "C"),
@@ -232,14 +235,22 @@ fn the_first_node_follows_by_equilibrium() {
         poses: std::slice::from_ref(&at),
     });
     // A rigid motion of the tapered rod strains nothing.
-    let rod = model.body("rod").expect("the rod");
-    let [b, d] = ["B", "D"].map(|p| at.positions[model.node_of(rod, p).expect("a node").0]);
+    let rod = plan.topology.clusters.iter().position(|c| {
+        let node = &model.nodes()[c.nodes[0].0];
+        model.bodies()[node.body.0].name == "rod"
+    });
+    let rod = rod.expect("the rod");
+    let [b, d] = [0, 1].map(|k| at.positions[plan.topology.clusters[rod].nodes[k].0]);
     let first = Vector6::new(1.0, -2.0, 0.5, 0.3, 0.2, -0.7);
     let turn = first.fixed_rows::<3>(3).into_owned();
     let mut second = first;
     let moved = first.fixed_rows::<3>(0) + turn.cross(&(d - b));
     second.fixed_rows_mut::<3>(0).copy_from(&moved);
-    let blocks = &found[1][0];
+    let element = plan
+        .elements
+        .iter()
+        .position(|e| e.source == Source::Cluster(rod));
+    let blocks = &found[element.expect("its element")][0];
     for (r, s) in [(0, 0), (0, 1), (1, 1)] {
         assert!(blocks[place(r, s)..][..36].iter().all(|v| v.is_finite()));
     }

@@ -37,6 +37,12 @@ pub(super) struct Lowest {
 /// Finds the `count` lowest modes; fewer where there are no more.
 pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, SolveError> {
     let mut basis = Basis::default();
+    if system.size() == 0 {
+        return Ok(Lowest {
+            modes: Vec::new(),
+            complete: true,
+        });
+    }
     let mut wanted = count + 2;
     let mut complete = false;
     for _ in 0..MOST_ROUNDS {
@@ -169,6 +175,9 @@ impl Basis {
     /// Ritz values and vectors, largest first.
     fn ritz(&self) -> Vec<(f64, Vec<f64>)> {
         let count = self.projected.len();
+        if count == 0 {
+            return Vec::new();
+        }
         let entry = |r: usize, c: usize| self.projected[r.max(c)][r.min(c)];
         let eigen = SymmetricEigen::new(DMatrix::from_fn(count, count, entry));
         let columns = eigen.eigenvectors.column_iter();

@@ -93,7 +93,8 @@ impl MassPlan {
             .clone()
             .chain(holders.iter().map(|h| &h.columns[..]));
         let unknowns = plan.unknowns;
-        let pattern = Pattern::new(unknowns, groups).ok_or(SolveError::TooLarge { unknowns })?;
+        let pattern =
+            Pattern::new(unknowns, groups, None).ok_or(SolveError::TooLarge { unknowns })?;
         let stiffness_places = elements.flat_map(|c| places(&pattern, c)).collect();
         for holder in &mut holders {
             holder.places = places(&pattern, &holder.columns).collect();

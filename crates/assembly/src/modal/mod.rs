@@ -173,6 +173,11 @@ impl ModalPlan {
         })
     }
 
+    /// Number of modes that are asked for.
+    pub fn count(&self) -> usize {
+        self.options.count
+    }
+
     /// Natural frequencies and modes in a configuration of the model.
     ///
     /// # Errors

@@ -2,22 +2,26 @@
 
 mod figures;
 mod record;
+mod statistics;
 mod summary;
 mod sweep;
 mod table;
 
 use std::fs;
 
-use hyperstat_mechanisms::{Batch, Registry};
+use hyperstat_mechanisms::{Batch, Job, Registry};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
+use crate::atomic::AtomicFile;
 use crate::case::Source;
 use crate::error::CliError;
+use crate::report::json;
 use record::Columns;
+use statistics::Statistics;
 use summary::Summary;
-use sweep::Sweep;
+use sweep::{Chunk, Sweep};
 use table::Table;
 
 /// Runs a batch. `tell` gets the summary of every job.
@@ -50,13 +54,16 @@ pub(crate) fn run(
 
 /// Checks all jobs before the first runs.
 fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
-    let prepare = |job| {
-        Sweep::new(job).map_err(|unsolvable| {
-            let (model, error) = *unsolvable;
-            Source::Job(job).unsolvable(&model, error)
-        })
-    };
-    batch.jobs.iter().map(prepare).collect()
+    batch.jobs.iter().map(prepare_job).collect()
+}
+
+fn prepare_job(job: &Job) -> Result<Sweep<'_>, CliError> {
+    let columns: Vec<_> = table::columns(&Columns::of(job)).collect();
+    figures::check(job, &columns)?;
+    Sweep::new(job).map_err(|unsolvable| {
+        let (model, error) = *unsolvable;
+        Source::Job(job).unsolvable(&model, error)
+    })
 }
 
 /// Writes a job's table and its figures.
@@ -76,14 +83,28 @@ fn run_job(
     };
     let mut table = Table::create(&path, args.format, &Columns::of(job)).map_err(cannot_write)?;
     let mut summary = Summary::new(job);
+    let mut statistics = Statistics::default();
     let mut trajectory = figures::Trajectory::wanted_by(job);
-    let render = |chunk: &mut _| Table::render(args.format, chunk);
+    let render = |chunk: &mut Chunk| {
+        Table::render(args.format, chunk);
+        chunk.measures.clear();
+        if args.summary {
+            let measures = chunk.records.iter().map(statistics::measure);
+            chunk.measures.extend(measures);
+        }
+    };
     sweep.run(pool, render, |chunk| -> Result<(), CliError> {
         if let Some(refused) = chunk.refused.take() {
             return Err(refused.into());
         }
         table.append(chunk).map_err(cannot_write)?;
         summary.add(&chunk.records);
+        for (k, values) in chunk.measures.iter().enumerate() {
+            if let Some(values) = values {
+                let row = chunk.rows.start + k;
+                statistics.add(row, &chunk.records[k].pose, values);
+            }
+        }
         if let Some(trajectory) = &mut trajectory {
             // Figures are of the first design.
             let more = job.len().saturating_sub(chunk.rows.start);
@@ -94,8 +115,18 @@ fn run_job(
     })?;
     table.commit().map_err(cannot_write)?;
     summary.wrote(path.clone());
+    if let Some(found) = args.summary.then(|| statistics.report()).flatten() {
+        let path = args.out.join(format!("{}-summary.json", job.name));
+        let text = json(&found)?;
+        AtomicFile::write(&path, text.as_bytes()).map_err(|source| CliError::Write {
+            path: path.clone(),
+            source,
+        })?;
+        summary.wrote(path);
+        summary.measured(found);
+    }
     bar.set_message(format!("{}: figures", job.name));
-    pool.install(|| figures::draw(job, trajectory.as_ref(), &args.out, &mut summary))?;
+    pool.install(|| figures::draw(job, trajectory.as_ref(), &path, &mut summary))?;
     Ok(summary)
 }
 
@@ -148,6 +179,7 @@ mod tests {
             out: out.clone(),
             format: TableFormat::Parquet,
             threads: 3,
+            summary: false,
         };
         let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
         assert!(!summary.is_complete());

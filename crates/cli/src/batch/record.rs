@@ -95,10 +95,17 @@ impl<'a> Columns<'a> {
         Self {
             further: cases
                 .flat_map(|case| components.map(|component| format!("{case}.{component}")))
+                .chain(frequencies(job))
                 .collect(),
             varied: job.varied(),
         }
     }
+}
+
+/// Names of the columns of natural frequencies.
+fn frequencies(job: &Job) -> impl Iterator<Item = String> {
+    let count = job.modes.as_ref().map_or(0, |options| options.count);
+    (1..=count).map(|k| format!("f{k}"))
 }
 
 /// Six components of the displacement and the upper triangle of the stiffness.

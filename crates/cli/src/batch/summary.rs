@@ -7,6 +7,7 @@ use hyperstat_mechanisms::Job;
 use nalgebra::Matrix6;
 
 use super::record::Record;
+use super::statistics::{Report, Told};
 use crate::report::{rows, stiffness_table};
 
 /// The outcome of a job.
@@ -23,8 +24,10 @@ pub(crate) struct Summary {
     /// Of the last pose that has one; told where it is the only pose.
     stiffness: Option<Matrix6<f64>>,
     files: Vec<PathBuf>,
-    figures_left_out: Vec<String>,
+    /// With the reason of each.
+    figures_left_out: Vec<(String, String)>,
     largest_difference: Option<f64>,
+    measures: Vec<Report>,
 }
 
 /// The poses of one status.
@@ -50,6 +53,7 @@ impl Summary {
             files: Vec::new(),
             figures_left_out: Vec::new(),
             largest_difference: None,
+            measures: Vec::new(),
         }
     }
 
@@ -80,9 +84,9 @@ impl Summary {
         self.files.push(path);
     }
 
-    /// Notes a figure that could not be drawn because its poses have no result.
-    pub(crate) fn left_out(&mut self, figure: String) {
-        self.figures_left_out.push(figure);
+    /// Notes a figure that could not be drawn, and why.
+    pub(crate) fn left_out(&mut self, figure: String, why: String) {
+        self.figures_left_out.push((figure, why));
     }
 
     /// Notes how far the reference solver's points of a figure are off, relative to the largest
@@ -90,6 +94,11 @@ impl Summary {
     pub(crate) fn compared(&mut self, difference: f64) {
         let largest = self.largest_difference.unwrap_or(0.0);
         self.largest_difference = Some(largest.max(difference));
+    }
+
+    /// Notes the measures over the workspace.
+    pub(crate) fn measured(&mut self, measures: Vec<Report>) {
+        self.measures = measures;
     }
 
     /// Whether every pose has a result.
@@ -133,8 +142,8 @@ impl fmt::Display for Summary {
         for path in &self.files {
             writeln!(f, "  {}", path.display())?;
         }
-        for figure in &self.figures_left_out {
-            writeln!(f, "  no {figure}: the poses it would show have no result")?;
+        for (figure, why) in &self.figures_left_out {
+            writeln!(f, "  no {figure}: {why}")?;
         }
         if let Some(difference) = self.largest_difference {
             writeln!(
@@ -142,6 +151,9 @@ impl fmt::Display for Summary {
                 "  largest difference from the reference solver in the figures: {difference:.1e} \
                  of the largest displacement"
             )?;
+        }
+        if !self.measures.is_empty() {
+            write!(f, "{}", Told(&self.measures))?;
         }
         if let (1, Some(stiffness)) = (self.poses, &self.stiffness) {
             write!(

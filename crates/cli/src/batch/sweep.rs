@@ -5,14 +5,18 @@ use std::ops::Range;
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hyperstat_assembly::{LANES, Lanes, Model, Plan, SolveError};
+use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Model, Plan, SolveError};
 use hyperstat_mechanisms::{Design, Job, LoadError, Value};
 use rayon::{Scope, ThreadPool};
 
 use super::record::{Columns, Failure, Found, Record};
+use super::statistics::Values;
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
+
+/// The same where natural frequencies make a row take long.
+const SHORT_CHUNK: usize = LANES;
 
 /// A job whose topology is worked out.
 #[derive(Debug)]
@@ -27,6 +31,8 @@ pub(crate) struct Sweep<'a> {
 struct Planned {
     model: Model,
     plan: Plan,
+    /// Where natural frequencies are asked for.
+    modal: Option<ModalPlan>,
 }
 
 /// Neighbouring rows of a job's table. Used again and again, so that nothing is allocated for it.
@@ -36,6 +42,8 @@ pub(crate) struct Chunk {
     pub(crate) rows: Range<usize>,
     /// A record for each of them.
     pub(crate) records: Vec<Record>,
+    /// Their measures, where a summary is wanted.
+    pub(crate) measures: Vec<Option<Values>>,
     /// Their lines, where the table is one of text.
     pub(crate) text: String,
     /// Rows of a design.
@@ -88,10 +96,13 @@ impl<'a> Sweep<'a> {
     pub(crate) fn new(job: &'a Job) -> Result<Self, Box<(Model, SolveError)>> {
         let first = match job.model() {
             Err(error) => Err(error.into()),
-            Ok(model) => match Plan::new(&model) {
-                Err(error) => return Err(Box::new((model, error))),
-                Ok(plan) => Ok(Arc::new(Planned { model, plan })),
-            },
+            Ok(model) => {
+                let planned = Plan::new(&model);
+                match planned.and_then(|plan| Planned::of(plan, model.clone(), job)) {
+                    Err(error) => return Err(Box::new((model, error))),
+                    Ok(planned) => Ok(Arc::new(planned)),
+                }
+            }
         };
         Ok(Self { job, first })
     }
@@ -134,8 +145,12 @@ impl<'a> Sweep<'a> {
             render(chunk);
         };
         let further = Columns::of(self.job).further.len();
-        let chunks = (0..self.len()).step_by(CHUNK);
-        let mut ranges = chunks.map(|first| first..(first + CHUNK).min(self.len()));
+        let size = match self.job.modes {
+            Some(_) => SHORT_CHUNK,
+            None => CHUNK,
+        };
+        let chunks = (0..self.len()).step_by(size);
+        let mut ranges = chunks.map(|first| first..(first + size).min(self.len()));
         pool.in_place_scope(|scope| {
             let ahead = ranges.by_ref().take(2 * threads + 2);
             let mut under_way: VecDeque<_> = ahead
@@ -188,7 +203,7 @@ impl<'a> Sweep<'a> {
         let design = self.job.design(number)?;
         let planned = match number {
             0 => self.first.clone(),
-            _ => Planned::new(&design).map(Arc::new),
+            _ => Planned::new(&design, self.job, &self.first).map(Arc::new),
         };
         let ready = planned.map(|planned| {
             let lanes = planned.plan.lanes(&planned.model);
@@ -199,10 +214,39 @@ impl<'a> Sweep<'a> {
 }
 
 impl Planned {
-    fn new(design: &Design) -> Result<Self, Failure> {
+    /// A design, whose plan shares with the first's what it can: never with that of the design
+    /// before it, which differs from thread to thread.
+    fn new(
+        design: &Design,
+        job: &Job,
+        first: &Result<Arc<Self>, Failure>,
+    ) -> Result<Self, Failure> {
         let model = design.model()?;
-        let plan = Plan::new(&model)?;
-        Ok(Self { model, plan })
+        let plan = match first {
+            Ok(first) => first.plan.for_design(&model)?,
+            Err(_) => Plan::new(&model)?,
+        };
+        Ok(Self::of(plan, model, job)?)
+    }
+
+    fn of(plan: Plan, model: Model, job: &Job) -> Result<Self, SolveError> {
+        let modal = job.modes.as_ref();
+        let modal = modal.map(|options| ModalPlan::new(&model, options));
+        Ok(Self {
+            modal: modal.transpose()?,
+            plan,
+            model,
+        })
+    }
+
+    /// Numbers of a table's further columns in a configuration.
+    fn further(&self, geometry: &Geometry) -> Result<Vec<Option<f64>>, SolveError> {
+        let Some(modal) = &self.modal else {
+            return Ok(Vec::new());
+        };
+        let mut found: Vec<_> = modal.frequencies(geometry)?.into_iter().map(Some).collect();
+        found.resize(modal.count(), None);
+        Ok(found)
     }
 }
 
@@ -253,10 +297,16 @@ impl Solver {
             let mut found = planned.plan.sweep_lanes(&planned.model, lanes, filled);
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
-                    (Some(Ok(pose)), Some(result)) => records.push(Record {
-                        pose,
-                        result: result.map_err(Failure::Solve).and_then(Found::try_from),
-                    }),
+                    (Some(Ok(pose)), Some(result)) => {
+                        let mut result = result.map_err(Failure::Solve).and_then(Found::try_from);
+                        if let Ok(found) = &mut result {
+                            match planned.further(lanes.geometry_mut(lane)) {
+                                Ok(further) => found.further.extend(further),
+                                Err(error) => result = Err(error.into()),
+                            }
+                        }
+                        records.push(Record { pose, result });
+                    }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),
                     _ => {}
                 }

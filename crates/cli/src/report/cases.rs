@@ -1,6 +1,6 @@
 //! The cases of a mechanism in the report of `hyperstat solve`: each with what the base state has.
 
-use hyperstat_assembly::{CaseSolution, Model, NodeId, Solution, State};
+use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, State};
 use serde::Serialize;
 
 use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
@@ -50,7 +50,10 @@ impl CaseReport {
                 .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
                 .collect(),
             segments: segments
-                .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
+                .enumerate()
+                .map(|(k, (segment, forces))| {
+                    SegmentReport::new(model, SegmentId(k), segment, forces)
+                })
                 .collect(),
         }
     }

@@ -24,8 +24,19 @@ pub(super) fn inner_displacements_of(
     find: impl Fn(SegmentId) -> Result<Vec<Vector6<f64>>, SolveError>,
 ) -> Result<Entries<[f64; 6]>, SolveError> {
     let mut entries = Vec::new();
+    for (k, name) in segment_names(model).into_iter().enumerate() {
+        let found = find(SegmentId(k))?;
+        let named = found.iter().enumerate();
+        entries.extend(named.map(|(k, u)| (format!("{name}.{}", k + 1), numbers(u))));
+    }
+    Ok(Entries(entries))
+}
+
+/// Names of all segments: `body.A-B`.
+pub(super) fn segment_names(model: &Model) -> Vec<String> {
+    let mut names = Vec::with_capacity(model.segments().len());
     let mut taken = HashMap::new();
-    for (k, segment) in model.segments().iter().enumerate() {
+    for segment in model.segments() {
         let body = &model.bodies()[segment.body.0].name;
         let [from, to] = segment.ends.map(|node| &model.nodes()[node.0].point);
         let mut name = format!("{body}.{from}-{to}");
@@ -36,11 +47,9 @@ pub(super) fn inner_displacements_of(
         if count > 1 {
             name += &format!("#{count}");
         }
-        let found = find(SegmentId(k))?;
-        let named = found.iter().enumerate();
-        entries.extend(named.map(|(k, u)| (format!("{name}.{}", k + 1), numbers(u))));
+        names.push(name);
     }
-    Ok(Entries(entries))
+    names
 }
 
 #[cfg(test)]

@@ -2,9 +2,13 @@
 
 mod cases;
 mod check;
+mod forces;
 mod inner;
+mod modes;
+mod parameters;
 mod solve;
 mod table;
+mod why;
 
 use std::fmt::Write as _;
 
@@ -16,8 +20,10 @@ use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
 use inner::inner_displacements_of;
+pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
+pub(crate) use why::Why;
 
 /// The name of a mechanism and, where it is from a batch, of which job, design and pose.
 fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {

@@ -2,16 +2,18 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, Segment, SegmentForces, Solution, describe_motions};
+use hyperstat_assembly::{Model, Segment, SegmentForces, SegmentId, Solution, describe_motions};
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
 use nalgebra::Vector6;
 use serde::Serialize;
 
 use super::cases::{CaseReport, cases};
+use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, Rows, Table, WRENCH, heads, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -40,6 +42,11 @@ pub(crate) struct SolveReport {
     warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
+    #[serde(flatten)]
+    modes: Option<ModesReport>,
+    bodies: Entries<BodyReport>,
+    #[serde(flatten)]
+    why: Option<Why>,
     #[serde(skip_serializing_if = "Entries::is_empty")]
     cases: Entries<CaseReport>,
 }
@@ -59,6 +66,8 @@ struct OutputReport {
 pub(super) struct JointReport {
     /// On the second body of `between`, at the joint, in the joint frame.
     wrench: Option<[f64; 6]>,
+    /// The same on the first body.
+    first: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -72,6 +81,7 @@ pub(super) struct SegmentReport {
     /// Wrench on the segment at its first and second node, in the element frame.
     end_forces: [[f64; 6]; 2],
     stress: Option<StressReport>,
+    section_forces: Vec<SectionForces>,
 }
 
 /// Largest stresses over the segment [Pa].
@@ -119,19 +129,36 @@ impl SolveReport {
                 .map(|joint| model.joints()[joint.0].name.clone())
                 .collect(),
             segments: segments
-                .map(|(segment, forces)| SegmentReport::new(model, segment, forces))
+                .enumerate()
+                .map(|(k, (segment, forces))| {
+                    SegmentReport::new(model, SegmentId(k), segment, forces)
+                })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,
+            modes: None,
+            bodies: bodies(model, solution),
+            why: None,
             cases: cases(model, solution),
         }
+    }
+
+    /// Adds what is soft and why.
+    pub(crate) fn add_why(&mut self, why: Why) {
+        self.why = Some(why);
     }
 
     /// Adds displacements of nodes that the model does not name.
     pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
         self.displacements.0.extend(displacements.0);
+    }
+
+    /// Adds natural frequencies and modes.
+    pub(crate) fn add_modes(&mut self, modes: ModesReport) {
+        self.warnings.extend_from_slice(modes.remarks());
+        self.modes = Some(modes);
     }
 
     /// The report as tables.
@@ -163,6 +190,13 @@ impl SolveReport {
         self.write_segments(&mut text);
         for (name, case) in &self.cases.0 {
             case.write(name, &mut text);
+        }
+        if let Some(modes) = &self.modes {
+            modes.write(&mut text);
+        }
+        write_worst(&self.bodies, &mut text);
+        if let Some(why) = &self.why {
+            why.write(&mut text);
         }
         self.write_verification(&mut text);
         text
@@ -247,6 +281,7 @@ impl JointReport {
     pub(super) fn new(wrench: Option<&Vector6<f64>>) -> Self {
         Self {
             wrench: wrench.map(numbers),
+            first: wrench.map(|wrench| numbers(&-wrench)),
         }
     }
 }
@@ -312,7 +347,12 @@ impl OutputReport {
 }
 
 impl SegmentReport {
-    pub(super) fn new(model: &Model, segment: &Segment, forces: &SegmentForces) -> Self {
+    pub(super) fn new(
+        model: &Model,
+        id: SegmentId,
+        segment: &Segment,
+        forces: &SegmentForces,
+    ) -> Self {
         let frame = forces.frame.matrix();
         Self {
             body: model.bodies()[segment.body.0].name.clone(),
@@ -321,6 +361,7 @@ impl SegmentReport {
             axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
             end_forces: forces.ends.each_ref().map(numbers),
             stress: StressReport::new(segment, forces),
+            section_forces: section_forces(model, id, forces),
         }
     }
 }

@@ -87,40 +87,61 @@ fn parquet_holds_the_doubles_of_the_csv() {
         bench.hyperstat(&arguments).ends_with(1);
     }
     assert_eq!(bench.names("out"), ["mixed.csv", "mixed.parquet"]);
+    let nulls = same_cells(&bench, "out/mixed", ROWS);
     let csv = bench.read("out/mixed.csv");
+    let unreachable = csv.matches("unreachable").count();
+    assert!(unreachable > ROWS / 10 && unreachable < ROWS / 2);
+    assert_eq!(nulls, 27 * unreachable);
+}
+
+#[test]
+fn parquet_holds_the_designs_and_what_varies() {
+    let bench = Bench::new("tables-designs");
+    let poses = "List([(0.0, 0.0, 0.45), (0.05, -0.02, 0.5), (0.0, 0.0, 5.0)])";
+    let vary =
+        r#"vary: { "rod.section.diameter": Range(0.01, 0.02, 70), "arm_length": [0.3, 0.31] }"#;
+    bench.file("d.ron", &delta_batch("d", poses, vary));
+    for format in ["csv", "parquet"] {
+        let arguments = ["run", "d.ron", "--out", "out", "--format", format];
+        bench.hyperstat(&arguments).ends_with(1);
+    }
+    let csv = bench.read("out/d.csv");
+    let header = csv.lines().next().unwrap();
+    assert!(header.contains(",k66,design,rod.section.diameter,arm_length"));
+    let nulls = same_cells(&bench, "out/d", 3 * 140);
+    assert_eq!(nulls, 27 * 140);
+}
+
+/// Compares a Parquet file with the CSV file beside it, cell by cell; returns the number of nulls.
+fn same_cells(bench: &Bench, path: &str, count: usize) -> usize {
+    let csv = bench.read(&format!("{path}.csv"));
     let mut lines = csv.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
-    assert_eq!(rows.len(), ROWS);
+    assert_eq!(rows.len(), count);
 
-    let mut file = File::open(bench.path("out/mixed.parquet")).unwrap();
+    let mut file = File::open(bench.path(&format!("{path}.parquet"))).unwrap();
     let metadata = read_metadata(&mut file).unwrap();
-    assert_eq!(metadata.num_rows, ROWS);
-    let fields: Vec<&str> = metadata
-        .schema()
-        .fields()
-        .iter()
-        .map(|f| f.name())
-        .collect();
+    assert_eq!(metadata.num_rows, count);
+    let fields = metadata.schema().fields().iter();
+    let fields: Vec<&str> = fields.map(|f| f.name()).collect();
     assert_eq!(fields, names);
     let mut nulls = 0;
     for (place, name) in names.iter().enumerate() {
         let column = read(&metadata, &mut file, place);
-        assert_eq!(column.len(), ROWS, "{name}");
+        assert_eq!(column.len(), count, "{name}");
         for (row, cell) in rows.iter().zip(column) {
             let expected = match row[place] {
                 "" => Cell::Null,
                 text if *name == "status" => Cell::Text(text.into()),
-                text if *name == "pose" => Cell::Whole(text.parse().unwrap()),
+                text if ["pose", "design"].contains(name) => Cell::Whole(text.parse().unwrap()),
                 text => Cell::Double(text.parse::<f64>().unwrap().to_bits()),
             };
             nulls += usize::from(cell == Cell::Null);
             assert_eq!(cell, expected, "{name} of pose {}", row[0]);
         }
     }
-    let unreachable = csv.matches("unreachable").count();
-    assert!(unreachable > ROWS / 10 && unreachable < ROWS / 2);
-    assert_eq!(nulls, 27 * unreachable);
+    nulls
 }
 
 /// A value of a table; doubles as their bits.

@@ -145,16 +145,11 @@ fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Parts) ->
     }
 }
 
-/// A material, with the Poisson's ratio of few digits that gives its shear modulus, if one does.
+/// A material, as it was given.
 fn material(material: &Material) -> String {
-    let (young, shear) = (material.young(), material.shear());
-    let poisson = young / (2.0 * shear) - 1.0;
-    let short = (poisson * 1e6).round() / 1e6;
-    let again = Material::new(young, Elasticity::Poisson(short), None);
-    let second = if again.is_ok_and(|again| again.shear() == shear) {
-        format!("poisson: {}", number(short))
-    } else {
-        format!("shear: {}", number(shear))
+    let second = match material.elasticity() {
+        Elasticity::Poisson(poisson) => format!("poisson: {}", number(poisson)),
+        Elasticity::Shear(shear) => format!("shear: {}", number(shear)),
     };
     let more = [
         ("density", material.density()),
@@ -164,7 +159,7 @@ fn material(material: &Material) -> String {
     let more = more
         .into_iter()
         .filter_map(|(name, value)| Some((name, value?)));
-    let young = number(young);
+    let young = number(material.young());
     fields(vec![format!("young: {young}"), second], more)
 }
 

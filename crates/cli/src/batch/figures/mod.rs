@@ -5,56 +5,95 @@ mod trajectory;
 
 use std::path::Path;
 
-use hyperstat_figures::{DeformedFigure, FigureError, TrajectoryFigure};
+use hyperstat_figures::{DeformedFigure, FigureError, MapFigure, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job, Scale};
 use nalgebra::Vector6;
 
 use super::summary::Summary;
-use crate::atomic::AtomicFile;
 use crate::error::CliError;
+use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
 pub(crate) use trajectory::Trajectory;
 
 /// Name of the second method in the figures.
 const SECOND: &str = "reference solver";
 
-/// Draws the figures of a job and writes them beside its CSV file.
+/// That the job's maps are of quantities that its table, with these columns, will hold.
+pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
+    let unknown = job.figures.iter().find_map(|figure| match figure {
+        Figure::Map { value, .. } if Drawn::named(value, columns).is_none() => Some(value),
+        _ => None,
+    });
+    match unknown {
+        Some(value) => Err(CliError::UnknownQuantity {
+            location: Box::new(job.location()),
+            job: job.name.clone(),
+            value: value.clone(),
+            help: quantities(columns),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Draws the figures of a job and writes them beside its table.
 pub(crate) fn draw(
     job: &Job,
     trajectory: Option<&Trajectory>,
-    folder: &Path,
+    table: &Path,
     summary: &mut Summary,
 ) -> Result<(), CliError> {
     for (place, figure) in job.figures.iter().enumerate() {
         let name = file_name(job, place);
-        let drawing = match *figure {
+        let drawing = match figure {
             Figure::Trajectory { scale } => trajectory
                 .filter(|trajectory| !trajectory.is_empty())
-                .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, scale))),
-            Figure::Deformed { pose, scale } => {
-                deformed::figure(job, pose, scale).map(Drawing::Deformed)
-            }
+                .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, *scale)))
+                .ok_or_else(|| NO_RESULT.to_string()),
+            Figure::Deformed { pose, scale } => deformed::figure(job, *pose, *scale)
+                .map(Drawing::Deformed)
+                .ok_or_else(|| NO_RESULT.to_string()),
+            Figure::Map { value, plane } => map(table, value, *plane).map_err(|error| {
+                let help = error
+                    .help()
+                    .map_or_else(String::new, |help| format!("; {help}"));
+                format!("{error}{help}")
+            }),
         };
-        let Some(drawing) = drawing else {
-            summary.left_out(name);
-            continue;
+        let drawing = match drawing {
+            Ok(drawing) => drawing,
+            Err(why) => {
+                summary.left_out(name, why);
+                continue;
+            }
         };
         if let Some(difference) = drawing.difference() {
             summary.compared(difference);
         }
-        for (extension, content) in [("svg", drawing.svg()), ("png", drawing.png())] {
-            let path = folder.join(format!("{name}.{extension}"));
-            let content = content.map_err(|source| CliError::Figure {
-                path: path.clone(),
-                source,
-            })?;
-            AtomicFile::write(&path, &content).map_err(|source| CliError::Write {
-                path: path.clone(),
-                source,
-            })?;
+        for path in plot::write(&table.with_file_name(name), drawing.svg(), drawing.png())? {
             summary.wrote(path);
         }
     }
     Ok(())
+}
+
+/// Why a figure of poses without a result is left out.
+const NO_RESULT: &str = "the poses it would show have no result";
+
+/// The map of the job's table that is now complete, as `plot` draws it.
+fn map(table: &Path, value: &str, plane: Option<(&str, f64)>) -> Result<Drawing, PlotError> {
+    let map = Map {
+        value: value.into(),
+        planes: plane
+            .map(|(axis, at)| (axis.into(), at))
+            .into_iter()
+            .collect(),
+        axes: None,
+        choice: Choice {
+            design: Some(0),
+            pose: None,
+        },
+        title: None,
+    };
+    plot::map(&Table::open(table)?, &map).map(Drawing::Map)
 }
 
 /// `<job>-<figure>`, numbered from 1 where the job has several figures of the kind.
@@ -73,26 +112,29 @@ fn kind(figure: &Figure) -> &'static str {
     match figure {
         Figure::Trajectory { .. } => "trajectory",
         Figure::Deformed { .. } => "deformed",
+        Figure::Map { .. } => "map",
     }
 }
 
-/// A figure of either kind.
+/// A figure of any kind.
 enum Drawing {
+    Map(MapFigure),
     Trajectory(TrajectoryFigure),
     Deformed(DeformedFigure),
 }
 
 impl Drawing {
-    fn svg(&self) -> Result<Vec<u8>, FigureError> {
-        let svg = match self {
+    fn svg(&self) -> Result<String, FigureError> {
+        match self {
+            Self::Map(figure) => figure.svg(),
             Self::Trajectory(figure) => figure.svg(),
             Self::Deformed(figure) => figure.svg(),
-        };
-        svg.map(String::into_bytes)
+        }
     }
 
     fn png(&self) -> Result<Vec<u8>, FigureError> {
         match self {
+            Self::Map(figure) => figure.png(),
             Self::Trajectory(figure) => figure.png(),
             Self::Deformed(figure) => figure.png(),
         }
@@ -100,6 +142,7 @@ impl Drawing {
 
     fn difference(&self) -> Option<f64> {
         match self {
+            Self::Map(_) => None,
             Self::Trajectory(figure) => figure.second.as_ref().map(|second| second.difference),
             Self::Deformed(figure) => figure.second.as_ref().map(|second| second.difference),
         }

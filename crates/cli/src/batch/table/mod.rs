@@ -18,7 +18,7 @@ const DESIGN: &str = "design";
 
 /// Names of the columns: the number of the pose, the pose, the status, and the numbers found; of a
 /// job that varies the number of the design and its values after them.
-fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
+pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     let varied = columns.varied;
     let pose = ["pose", "x", "y", "z", "rx", "ry", "rz"];
     let displacement = ["dx", "dy", "dz", "drx", "dry", "drz"];

@@ -1,0 +1,260 @@
+//! `run --summary`: what the stiffness is over a workspace, smallest, mean, percentiles, and where.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use hyperstat_assembly::measures::principal;
+use nalgebra::{Cholesky, Matrix3, Matrix6};
+use serde::Serialize;
+
+use super::record::{Found, Record};
+use crate::report::{Table, number};
+
+/// Neighbouring values that a percentile does not tell apart: their logarithms differ by less.
+const RESOLUTION: f64 = 1e-3;
+/// Percentiles that are told, in percent.
+const PERCENTILES: [f64; 3] = [5.0, 50.0, 95.0];
+
+/// What is measured at every pose: name in JSON, in words, unit.
+const MEASURES: [(&str, &str, &str); COUNT] = [
+    ("deflection", "deflection under the loads", "m"),
+    ("compliance_x", "compliance along x", "m/N"),
+    ("compliance_y", "compliance along y", "m/N"),
+    ("compliance_z", "compliance along z", "m/N"),
+    ("softest_force", "compliance, softest direction", "m/N"),
+    ("softest_moment", "compliance, softest moment", "rad/(N·m)"),
+    ("stiffness_least", "stiffness, least principal", "N/m"),
+    ("stiffness_most", "stiffness, greatest principal", "N/m"),
+    ("virtual_work_index", "virtual-work index of forces", "J"),
+];
+const COUNT: usize = 9;
+
+/// The measures of one pose.
+pub(crate) type Values = [f64; COUNT];
+
+/// The measures at a pose; `None` where it has no result, or no compliance to speak of.
+pub(crate) fn measure(record: &Record) -> Option<Values> {
+    let Found {
+        stiffness,
+        displacement,
+        ..
+    } = record.result.as_ref().ok()?;
+    let scale = stiffness.diagonal().map(f64::sqrt);
+    let unit = Matrix6::from_fn(|r, c| stiffness[(r, c)] / (scale[r] * scale[c]));
+    let inverse = Cholesky::new(unit)?.inverse();
+    let compliance = Matrix6::from_fn(|r, c| inverse[(r, c)] / (scale[r] * scale[c]));
+    let block = |m: &Matrix6<f64>, k: usize| -> Matrix3<f64> { m.fixed_view::<3, 3>(k, k).into() };
+    let forces = block(&compliance, 0);
+    let stiffnesses = principal(&block(stiffness, 0)).values;
+    let values = [
+        displacement.fixed_rows::<3>(0).norm(),
+        forces[(0, 0)],
+        forces[(1, 1)],
+        forces[(2, 2)],
+        principal(&forces).values[2],
+        principal(&block(&compliance, 3)).values[2],
+        stiffnesses[0],
+        stiffnesses[2],
+        forces.trace() / 3.0,
+    ];
+    values.iter().all(|v| v.is_finite()).then_some(values)
+}
+
+/// Statistics of the measures over the poses of a job; its memory does not grow with their number.
+#[derive(Debug, Default)]
+pub(crate) struct Statistics {
+    count: u64,
+    of: [Spread; COUNT],
+}
+
+/// The values of one measure.
+#[derive(Debug, Default)]
+struct Spread {
+    least: Option<Extreme>,
+    most: Option<Extreme>,
+    sum: f64,
+    /// Counts of values by their logarithm over the resolution; `i32::MIN` is zero.
+    counts: HashMap<i32, u64>,
+}
+
+/// A value and where it is.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Extreme {
+    value: f64,
+    /// Row of the table, from 0.
+    row: usize,
+    /// Pose of the output.
+    at: [f64; 6],
+}
+
+impl Statistics {
+    /// Adds the pose of a row.
+    pub(crate) fn add(&mut self, row: usize, at: &[f64; 6], values: &Values) {
+        self.count += 1;
+        for (spread, value) in self.of.iter_mut().zip(values) {
+            spread.add(Extreme {
+                value: *value,
+                row,
+                at: *at,
+            });
+        }
+    }
+
+    /// The statistics as they are reported; `None` of no pose.
+    pub(crate) fn report(&self) -> Option<Vec<Report>> {
+        let measures = MEASURES.into_iter().zip(&self.of);
+        measures
+            .map(|((name, words, unit), spread)| {
+                Some(Report {
+                    measure: name,
+                    words,
+                    unit,
+                    poses: self.count,
+                    min: spread.least?,
+                    mean: spread.sum / self.count as f64,
+                    percentiles: PERCENTILES.map(|p| Percentile {
+                        percent: p,
+                        value: spread.percentile(p, self.count),
+                    }),
+                    max: spread.most?,
+                })
+            })
+            .collect()
+    }
+}
+
+impl Spread {
+    fn add(&mut self, found: Extreme) {
+        if self.least.is_none_or(|least| found.value < least.value) {
+            self.least = Some(found);
+        }
+        if self.most.is_none_or(|most| found.value > most.value) {
+            self.most = Some(found);
+        }
+        self.sum += found.value;
+        let bin = if found.value > 0.0 {
+            (found.value.ln() / RESOLUTION).floor() as i32
+        } else {
+            i32::MIN
+        };
+        *self.counts.entry(bin).or_default() += 1;
+    }
+
+    /// The value that this part of the poses does not exceed, to the resolution.
+    fn percentile(&self, percent: f64, count: u64) -> f64 {
+        let wanted = (percent / 100.0 * count as f64).ceil().max(1.0) as u64;
+        let mut bins: Vec<_> = self.counts.iter().collect();
+        bins.sort_unstable();
+        let mut below = 0;
+        for (bin, number) in bins {
+            below += number;
+            if below >= wanted {
+                if *bin == i32::MIN {
+                    return 0.0;
+                }
+                let middle = ((f64::from(*bin) + 0.5) * RESOLUTION).exp();
+                let bounds = self.least.zip(self.most);
+                return bounds.map_or(middle, |(least, most)| {
+                    middle.clamp(least.value, most.value)
+                });
+            }
+        }
+        0.0
+    }
+}
+
+/// What is told of one measure. Field names are those of the JSON file.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    measure: &'static str,
+    #[serde(skip)]
+    words: &'static str,
+    unit: &'static str,
+    /// Number of poses that have it.
+    poses: u64,
+    min: Extreme,
+    mean: f64,
+    percentiles: [Percentile; 3],
+    max: Extreme,
+}
+
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Percentile {
+    percent: f64,
+    value: f64,
+}
+
+/// The statistics as a table.
+#[derive(Debug)]
+pub(crate) struct Told<'r>(pub(crate) &'r [Report]);
+
+impl fmt::Display for Told<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let heads = [
+            "over the workspace",
+            "min",
+            "5 %",
+            "median",
+            "mean",
+            "95 %",
+            "max",
+        ];
+        let mut table = Table::new(1, &heads);
+        for report in self.0 {
+            let [low, median, high] = report.percentiles.map(|p| p.value);
+            let name = format!("{} [{}]", report.words, report.unit);
+            table.row(
+                &[&name],
+                [
+                    report.min.value,
+                    low,
+                    median,
+                    report.mean,
+                    high,
+                    report.max.value,
+                ],
+            );
+        }
+        write!(f, "{table}")?;
+        // Where the output is softest.
+        if let Some(worst) = self.0.iter().find(|r| r.measure == "softest_force") {
+            let [x, y, z] = [0, 1, 2].map(|k| number(worst.max.at[k]));
+            writeln!(f, "  softest at ({x}, {y}, {z}) m, row {}", worst.max.row)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_of_many_values_are_right_to_the_resolution() {
+        let mut statistics = Statistics::default();
+        let count = 10_000;
+        for row in 0..count {
+            // A shuffled 1..=10000, cubed.
+            let value = f64::from((row * 7919) % count + 1).powi(3);
+            statistics.add(row as usize, &[f64::from(row); 6], &[value; COUNT]);
+        }
+        let report = &statistics.report().unwrap()[4];
+        assert_eq!((report.min.value, report.max.value), (1.0, 1e12));
+        assert_eq!((report.min.row, report.min.at[0]), (0, 0.0));
+        for (found, expected) in report.percentiles.iter().zip([500.0_f64, 5000.0, 9500.0]) {
+            assert!((found.value / expected.powi(3) - 1.0).abs() < RESOLUTION);
+        }
+        let n = f64::from(count);
+        let mean = n * (n + 1.0) * (n + 1.0) / 4.0;
+        assert!((report.mean / mean - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn no_load_is_no_deflection() {
+        let mut statistics = Statistics::default();
+        statistics.add(0, &[0.0; 6], &[0.0; COUNT]);
+        let report = statistics.report().unwrap();
+        assert_eq!(report[0].percentiles[1].value, 0.0);
+        assert!(Statistics::default().report().is_none());
+    }
+}

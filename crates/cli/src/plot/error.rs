@@ -1,0 +1,140 @@
+//! Why a table cannot be drawn.
+
+use std::io;
+use std::path::PathBuf;
+
+use hyperstat_mechanisms::Location;
+use parquet::errors::ParquetError;
+use thiserror::Error;
+
+/// A table that cannot be drawn, or does not hold what is asked for.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub(crate) enum PlotError {
+    /// A file that cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read { path: PathBuf, source: io::Error },
+    /// A file that is neither of the tables that `run` writes.
+    #[error("{} is no table: its name ends with neither `.csv` nor `.parquet`", .path.display())]
+    Extension { path: PathBuf },
+    /// A Parquet file that cannot be read as one.
+    #[error("{} cannot be read as Parquet: {source}", .path.display())]
+    Parquet { path: PathBuf, source: ParquetError },
+    /// A table without a column that each table of a run has.
+    #[error("not a table of `hyperstat run`: it has no column `{missing}`")]
+    NoRun {
+        location: Box<Location>,
+        missing: &'static str,
+    },
+    /// A line of another number of cells than the table has columns.
+    #[error("expected {expected} cells, one a column, found {found}")]
+    Cells {
+        location: Box<Location>,
+        expected: usize,
+        found: usize,
+    },
+    /// A cell that must hold a number and holds something else.
+    #[error("expected a number in the column `{column}`, found `{text}`")]
+    NoNumber {
+        location: Box<Location>,
+        column: String,
+        text: String,
+    },
+    /// A column of texts where numbers are needed.
+    #[error("the column `{column}` of {} holds no numbers", .path.display())]
+    Texts { path: PathBuf, column: String },
+    /// A quantity that the table does not hold.
+    #[error("{} holds no column `{name}`", .path.display())]
+    UnknownColumn {
+        path: PathBuf,
+        name: String,
+        help: String,
+    },
+    /// A plane at which the table has no pose.
+    #[error("there is no plane {axis} = {value}")]
+    NoPlane {
+        axis: String,
+        value: f64,
+        known: Vec<f64>,
+    },
+    /// A plane normal to one of the axes that lie in it.
+    #[error("a plane at one {axis} does not lie along {axis}")]
+    AlongNormal { axis: String },
+    /// Several poses at one place of the plane.
+    #[error("the table has several poses at {} = {}, {} = {}", .axes[0], .at[0], .axes[1], .at[1])]
+    Several {
+        axes: [String; 2],
+        at: [f64; 2],
+        /// Coordinates in which they differ.
+        differ: Vec<String>,
+    },
+    /// Nothing left to draw.
+    #[error("no pose of {} has a result there: there is nothing to draw", .path.display())]
+    Nothing { path: PathBuf },
+    /// A design or a pose that the table does not hold.
+    #[error("{} holds no {what} {number}", .path.display())]
+    NoRows {
+        path: PathBuf,
+        what: &'static str,
+        number: usize,
+    },
+}
+
+impl PlotError {
+    /// The place in the table that the error is about.
+    pub(crate) fn location(&self) -> Option<&Location> {
+        match self {
+            Self::NoRun { location, .. }
+            | Self::Cells { location, .. }
+            | Self::NoNumber { location, .. } => Some(location),
+            _ => None,
+        }
+    }
+
+    /// What would be right.
+    pub(crate) fn help(&self) -> Option<String> {
+        match self {
+            Self::Extension { .. } | Self::NoRun { .. } => {
+                Some("give a table that `hyperstat run` wrote, such as `out/delta-map.csv`".into())
+            }
+            Self::Cells { .. } | Self::NoNumber { .. } => {
+                Some("the table is not as `hyperstat run` wrote it; run the batch again".into())
+            }
+            Self::Texts { .. } => Some("choose a column of numbers".into()),
+            Self::UnknownColumn { help, .. } => Some(help.clone()),
+            Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
+            Self::AlongNormal { .. } => Some("choose other `--axes`, or another `--plane`".into()),
+            Self::Several { differ, .. } => Some(match &**differ {
+                [] => "the same pose is there more than once: draw `--lines` over `pose`".into(),
+                differ => {
+                    let planes: Vec<_> = differ
+                        .iter()
+                        .map(|axis| format!("`--plane {axis}=…`"))
+                        .collect();
+                    format!("choose among them with {}", planes.join(" and "))
+                }
+            }),
+            Self::NoRows { what, .. } => Some(format!("{what}s are counted from 0")),
+            _ => None,
+        }
+    }
+}
+
+/// The planes that there are, in words.
+fn planes(axis: &str, known: &[f64]) -> String {
+    const MOST: usize = 12;
+    let list = |values: &[f64]| {
+        let values: Vec<_> = values.iter().map(f64::to_string).collect();
+        values.join(", ")
+    };
+    match known {
+        [] => "the table has no pose".into(),
+        known if known.len() <= MOST => format!("there are planes at {axis} = {}", list(known)),
+        [first, .., last] => format!(
+            "there are {} planes from {axis} = {first} to {last}: {}, …",
+            known.len(),
+            list(&known[..MOST])
+        ),
+        [only] => format!("there is one at {axis} = {only}"),
+    }
+}

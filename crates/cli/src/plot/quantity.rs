@@ -1,0 +1,363 @@
+//! What can be drawn of a table: its columns, and quantities derived from them, with units and in
+//! words.
+
+use hyperstat_figures::Quantity;
+use nalgebra::{Cholesky, Matrix3, Matrix6};
+
+use super::error::PlotError;
+use super::table::{Column, Table};
+
+/// A quantity of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Drawn {
+    pub(crate) quantity: Quantity,
+    /// What it is, in words.
+    pub(crate) words: String,
+    rule: Rule,
+    /// The columns that it is found from.
+    columns: Vec<String>,
+}
+
+/// How a quantity is found from columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Rule {
+    Same,
+    /// Length of a vector.
+    Length,
+    /// Of the upper triangle of the stiffness: the inverse of an eigenvalue of a 3×3 block of the
+    /// compliance, the first of them the translations'; the largest eigenvalue, or the least.
+    Principal {
+        block: usize,
+        largest: bool,
+    },
+    /// Of the same: the inverse of an entry of the compliance's diagonal.
+    Along(usize),
+}
+
+/// Quantities that are found from others, by name.
+pub(crate) const DERIVED: [&str; 12] = [
+    "deflection",
+    "rotation",
+    "stiffness_min",
+    "stiffness_max",
+    "stiffness_x",
+    "stiffness_y",
+    "stiffness_z",
+    "rotational_stiffness_min",
+    "rotational_stiffness_max",
+    "rotational_stiffness_x",
+    "rotational_stiffness_y",
+    "rotational_stiffness_z",
+];
+
+impl Drawn {
+    /// The quantity `name` of a table with these columns; `None` where there is none.
+    pub(crate) fn named(name: &str, known: &[String]) -> Option<Self> {
+        let is_known = |column: &String| known.contains(column);
+        let same = |name: &str| Self {
+            quantity: Quantity::new(name, unit(name)),
+            words: words(name),
+            rule: Rule::Same,
+            columns: vec![name.into()],
+        };
+        let drawn = if known.iter().any(|column| column == name) {
+            same(name)
+        } else {
+            derived(name)?
+        };
+        drawn.columns.iter().all(is_known).then_some(drawn)
+    }
+
+    /// The quantity `name` of a table.
+    pub(crate) fn of_table(name: &str, table: &Table) -> Result<Self, PlotError> {
+        Self::named(name, table.names()).ok_or_else(|| PlotError::UnknownColumn {
+            path: table.path().into(),
+            name: name.into(),
+            help: known(table.names()),
+        })
+    }
+
+    /// Its value at every row; `None` where a column that it needs has none.
+    pub(crate) fn read(&self, table: &Table) -> Result<Column, PlotError> {
+        let places: Vec<_> = (self.columns.iter())
+            .filter_map(|name| table.find(name))
+            .collect();
+        let mut columns = table.read(&places)?;
+        if self.rule == Rule::Same {
+            return Ok(columns.pop().unwrap_or_default());
+        }
+        let rows = columns.first().map_or(0, Vec::len);
+        let value = |row| {
+            let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
+            self.rule.value(&numbers?)
+        };
+        Ok((0..rows).map(value).collect())
+    }
+}
+
+impl Rule {
+    fn value(self, numbers: &[f64]) -> Option<f64> {
+        match self {
+            Self::Same => numbers.first().copied(),
+            Self::Length => Some(numbers.iter().fold(0.0_f64, |sum, n| sum.hypot(*n))),
+            Self::Along(place) => {
+                let compliance = compliance(numbers)?;
+                Some(1.0 / compliance[(place, place)])
+            }
+            Self::Principal { block, largest } => {
+                let compliance = compliance(numbers)?;
+                let block: Matrix3<f64> = compliance.fixed_view::<3, 3>(block, block).into();
+                let values = block.symmetric_eigenvalues();
+                Some(1.0 / if largest { values.max() } else { values.min() })
+            }
+        }
+        .filter(|value| value.is_finite())
+    }
+}
+
+/// The compliance from the upper triangle of a stiffness, by rows; `None` where it is not
+/// positive definite.
+fn compliance(upper: &[f64]) -> Option<Matrix6<f64>> {
+    let mut stiffness = Matrix6::zeros();
+    let places = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
+    for ((row, column), value) in places.zip(upper) {
+        stiffness[(row, column)] = *value;
+        stiffness[(column, row)] = *value;
+    }
+    Some(Cholesky::new(stiffness)?.inverse())
+}
+
+fn derived(name: &str) -> Option<Drawn> {
+    let (case, kind) = match name.rsplit_once('.') {
+        Some((case, kind)) => (format!("{case}."), kind),
+        None => (String::new(), name),
+    };
+    let of_case = match &*case {
+        "" => String::new(),
+        case => format!(", case {}", case.trim_end_matches('.')),
+    };
+    let vector = |axes: [&str; 3], unit: &str, words: &str| Drawn {
+        quantity: Quantity::new(name, unit),
+        words: format!("{words}{of_case}"),
+        rule: Rule::Length,
+        columns: axes.map(|axis| format!("{case}{axis}")).to_vec(),
+    };
+    match kind {
+        "deflection" => {
+            let words = "length of the output's displacement";
+            return Some(vector(["dx", "dy", "dz"], "m", words));
+        }
+        "rotation" => {
+            let words = "angle of the output's rotation";
+            return Some(vector(["drx", "dry", "drz"], "rad", words));
+        }
+        _ => {}
+    }
+    if !case.is_empty() {
+        return None;
+    }
+    let (rest, first, unit, cause, effect) = match kind.strip_prefix("rotational_stiffness_") {
+        Some(rest) => (rest, 3, "N·m/rad", "moment", "rotation"),
+        None => (
+            kind.strip_prefix("stiffness_")?,
+            0,
+            "N/m",
+            "force",
+            "displacement",
+        ),
+    };
+    let stiffness = |rule, words| Drawn {
+        quantity: Quantity::new(name, unit),
+        words,
+        rule,
+        columns: upper_triangle().collect(),
+    };
+    let axis = ["x", "y", "z"].iter().position(|axis| *axis == rest);
+    Some(match (rest, axis) {
+        (_, Some(axis)) => stiffness(
+            Rule::Along(first + axis),
+            format!("{cause} along {rest} alone per {effect} along {rest}"),
+        ),
+        ("min", _) => stiffness(
+            Rule::Principal {
+                block: first,
+                largest: true,
+            },
+            format!("least stiffness against a {cause} alone, of all its directions"),
+        ),
+        ("max", _) => stiffness(
+            Rule::Principal {
+                block: first,
+                largest: false,
+            },
+            format!("largest principal stiffness against a {cause} alone"),
+        ),
+        _ => return None,
+    })
+}
+
+fn upper_triangle() -> impl Iterator<Item = String> {
+    (1..=6).flat_map(|row| (row..=6).map(move |column| format!("k{row}{column}")))
+}
+
+/// Row and column, from 1, of a stiffness column `k11` to `k66`.
+fn entry(name: &str) -> Option<[usize; 2]> {
+    let digits: Vec<usize> = (name.strip_prefix('k')?.chars())
+        .map(|c| {
+            c.to_digit(10)
+                .filter(|d| (1..=6).contains(d))
+                .map(|d| d as usize)
+        })
+        .collect::<Option<_>>()?;
+    digits.try_into().ok()
+}
+
+/// The SI unit of a column; empty where it has none or is unknown.
+fn unit(name: &str) -> &'static str {
+    if let Some([row, column]) = entry(name) {
+        return match (row > 3, column > 3) {
+            (false, false) => "N/m",
+            (false, true) => "N/rad",
+            (true, false) => "N",
+            (true, true) => "N·m/rad",
+        };
+    }
+    let last = name.rsplit('.').next().unwrap_or(name);
+    let stiffness = name.contains("stiffness");
+    match last {
+        "x" | "y" | "z" if stiffness => "N/m",
+        "u" | "v" | "w" | "drive_stiffness" if stiffness => "N·m/rad",
+        "x" | "y" | "z" | "dx" | "dy" | "dz" => "m",
+        "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => "rad",
+        "diameter" | "outer" | "inner" | "width" | "height" | "thickness" => "m",
+        "young" | "shear" | "yield" => "Pa",
+        "density" => "kg/m³",
+        _ if is_frequency(last) => "Hz",
+        _ if ["_length", "_radius", "_spacing"]
+            .iter()
+            .any(|end| last.ends_with(end)) =>
+        {
+            "m"
+        }
+        _ => "",
+    }
+}
+
+/// Whether a column is a natural frequency: `f1`, `f2` …
+fn is_frequency(name: &str) -> bool {
+    let number = name.strip_prefix('f').unwrap_or_default();
+    !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
+}
+
+/// What a column is, in words.
+fn words(name: &str) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
+    if let Some([row, column]) = entry(name) {
+        let of =
+            |k: usize, words: [&str; 2]| format!("{} {}", words[(k - 1) / 3], AXES[(k - 1) % 3]);
+        let force = of(row, ["force along", "moment about"]);
+        let motion = of(column, ["displacement along", "rotation about"]);
+        return format!("{force} per {motion}, all other displacements zero");
+    }
+    let (case, last) = match name.rsplit_once('.') {
+        Some((case, last)) => (format!(", case {case}"), last),
+        None => (String::new(), name),
+    };
+    let axis = |rest: &str| AXES.contains(&rest);
+    match (last.strip_prefix("dr"), last.strip_prefix('d')) {
+        (Some(rest), _) if axis(rest) => format!("rotation of the output about {rest}{case}"),
+        (_, Some(rest)) if axis(rest) => format!("displacement of the output along {rest}{case}"),
+        _ if is_frequency(name) => format!("natural frequency {}", &name[1..]),
+        _ => name.into(),
+    }
+}
+
+/// What a table with these columns holds, in words.
+pub(crate) fn known(names: &[String]) -> String {
+    let not_drawn = |name: &&String| name.as_str() != "status";
+    let columns: Vec<_> = names.iter().filter(not_drawn).map(String::as_str).collect();
+    let derived: Vec<_> = (DERIVED.into_iter())
+        .filter(|name| Drawn::named(name, names).is_some())
+        .collect();
+    format!(
+        "its columns are {}; found from them are {}",
+        columns.join(", "),
+        derived.join(", ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Drawn, Rule, unit, words};
+
+    #[test]
+    fn columns_have_units_and_words() {
+        for (name, expected) in [
+            ("k11", "N/m"),
+            ("k35", "N/rad"),
+            ("k66", "N·m/rad"),
+            ("dz", "m"),
+            ("own weight.drx", "rad"),
+            ("f3", "Hz"),
+            ("rod.section.diameter", "m"),
+            ("joints.wrist.stiffness.x", "N/m"),
+            ("drive_stiffness", "N·m/rad"),
+            ("elements", ""),
+        ] {
+            assert_eq!(unit(name), expected, "{name}");
+        }
+        assert_eq!(
+            words("k15"),
+            "force along x per rotation about y, all other displacements zero"
+        );
+        assert_eq!(
+            words("gravity.dz"),
+            "displacement of the output along z, case gravity"
+        );
+    }
+
+    #[test]
+    fn principal_stiffness_of_springs_at_an_angle() {
+        // 1e6 N/m along (1, 1)/√2 in x-y, 4e6 across it, 2e6 along z, rotations apart.
+        let mut upper = vec![0.0; 21];
+        for (place, value) in [(0, 2.5e6), (1, -1.5e6), (6, 2.5e6), (11, 2e6)] {
+            upper[place] = value;
+        }
+        for (place, value) in [(15, 10.0), (18, 20.0), (20, 30.0)] {
+            upper[place] = value;
+        }
+        let of = |block, largest| Rule::Principal { block, largest }.value(&upper).unwrap();
+        for (found, expected) in [
+            (of(0, true), 1e6),
+            (of(0, false), 4e6),
+            (of(3, true), 10.0),
+            (of(3, false), 30.0),
+            // 1 / (1/2 (1/1e6 + 1/4e6)).
+            (Rule::Along(0).value(&upper).unwrap(), 1.6e6),
+            (Rule::Along(2).value(&upper).unwrap(), 2e6),
+        ] {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        }
+        upper[0] = -1.0;
+        assert_eq!(Rule::Along(2).value(&upper), None);
+    }
+
+    #[test]
+    fn a_quantity_needs_its_columns() {
+        let known = ["push.dx", "push.dy", "push.dz"].map(String::from);
+        let drawn = Drawn::named("push.deflection", &known).unwrap();
+        assert_eq!(
+            drawn.words,
+            "length of the output's displacement, case push"
+        );
+        assert_eq!(drawn.quantity.unit, "m");
+        for missing in [
+            "deflection",
+            "push.rotation",
+            "stiffness_min",
+            "push.stiffness_min",
+        ] {
+            assert_eq!(Drawn::named(missing, &known), None, "{missing}");
+        }
+    }
+}

@@ -1,0 +1,431 @@
+//! What is soft, and why: the compliance budget, the stiffness measures, and what more of every
+//! parameter would change (`solve --why`).
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::measures::Measures;
+use hyperstat_assembly::{
+    Budget, Deformation, Influence, Part, PartSource, Sensitivity, Solution, SolveError,
+};
+use nalgebra::Vector6;
+use serde::Serialize;
+
+use super::{Rows, Table, number, numbers, parameters, rows, section};
+use crate::args::Along;
+use crate::case::Case;
+
+/// Parts and parameters that the text tells; JSON has all.
+const TOLD: usize = 15;
+/// Width of a bar of 100 %.
+const WIDTH: f64 = 40.0;
+
+/// Field names are those of the JSON output; each is `null` where the output moves freely.
+#[derive(Debug, Serialize)]
+pub(crate) struct Why {
+    budget: Option<BudgetReport>,
+    measures: Option<MeasuresReport>,
+    sensitivities: Option<Vec<SensitivityReport>>,
+}
+
+#[derive(Debug, Serialize)]
+struct BudgetReport {
+    /// `displacement` under the loads, or `compliance` where there is none.
+    of: &'static str,
+    /// The unit wrench along which.
+    along: [f64; 6],
+    total: f64,
+    parts: Vec<PartReport>,
+    by_deformation: Vec<Sum>,
+    by_part: Vec<Sum>,
+    rest: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct PartReport {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    body: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    joint: Option<String>,
+    deformation: &'static str,
+    displacement: f64,
+    share: Option<f64>,
+}
+
+/// A sum of parts.
+#[derive(Debug, Serialize)]
+struct Sum {
+    name: String,
+    displacement: f64,
+    share: Option<f64>,
+}
+
+#[derive(Debug, Serialize)]
+struct MeasuresReport {
+    translational_compliances: PrincipalReport,
+    rotational_compliances: PrincipalReport,
+    translational_stiffnesses: PrincipalReport,
+    rotational_stiffnesses: PrincipalReport,
+    characteristic_length: f64,
+    condition: f64,
+    eigenscrews: Vec<ScrewReport>,
+    centre_of_stiffness: [f64; 3],
+    centre_of_compliance: [f64; 3],
+    virtual_work_index: VirtualWork,
+}
+
+#[derive(Debug, Serialize)]
+struct PrincipalReport {
+    values: [f64; 3],
+    directions: [[f64; 3]; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct ScrewReport {
+    eigenvalue: f64,
+    stiffness: f64,
+    pitch: f64,
+    direction: [f64; 3],
+    point: [f64; 3],
+}
+
+#[derive(Debug, Serialize)]
+struct VirtualWork {
+    force: f64,
+    moment: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct SensitivityReport {
+    parameter: String,
+    value: f64,
+    /// Relative change of the budget's total per relative change of the parameter.
+    relative: Option<f64>,
+    displacement: [f64; 6],
+    compliance: Rows,
+    stiffness: Option<Rows>,
+}
+
+impl Why {
+    /// Finds out why the output of a solved mechanism gives along a direction.
+    pub(crate) fn new(case: &Case, solution: &Solution, along: Along) -> Result<Self, SolveError> {
+        let (model, output) = (&case.model, &solution.output);
+        let Some(compliance) = &output.compliance else {
+            return Ok(Self {
+                budget: None,
+                measures: None,
+                sensitivities: None,
+            });
+        };
+        let reference = model
+            .output()
+            .map(|node| model.geometry().positions[node.0]);
+        let measures = output.stiffness.as_ref().zip(reference);
+        let measures = measures.and_then(|(k, at)| Measures::new(k, compliance, &at, None));
+        let influence = Influence::new(model)?;
+        let moved = Budget::direction_of(&output.displacement);
+        let direction = match along {
+            Along::Wrench(wrench) => Vector6::from(wrench),
+            Along::Displacement => moved.unwrap_or_else(|| {
+                // Without loads: where a force moves the output most.
+                let softest = measures
+                    .as_ref()
+                    .map(|m| m.translational_compliances.directions[2]);
+                softest.map_or(Vector6::ith(2, 1.0), |e| {
+                    Vector6::new(e[0], e[1], e[2], 0.0, 0.0, 0.0)
+                })
+            }),
+        };
+        let (of, budget) = match moved {
+            Some(_) => ("displacement", influence.budget(solution, &direction)),
+            None => (
+                "compliance",
+                influence.compliance_budget(compliance, &direction),
+            ),
+        };
+        let relative = |s: &Sensitivity| match moved {
+            Some(_) => s.relative(&output.displacement, &direction),
+            None => s.relative_compliance(compliance, &direction),
+        };
+        let mut sensitivities: Vec<_> = (influence.sensitivities(solution)?.iter())
+            .map(|s| SensitivityReport {
+                parameter: parameters::name(case, &s.parameter),
+                value: s.value,
+                relative: relative(s),
+                displacement: numbers(&s.displacement),
+                compliance: rows(&s.compliance),
+                stiffness: s.stiffness.as_ref().map(rows),
+            })
+            .collect();
+        let size = |s: &SensitivityReport| s.relative.unwrap_or(0.0).abs();
+        sensitivities.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        Ok(Self {
+            budget: Some(BudgetReport::new(case, of, &budget)),
+            measures: measures.as_ref().map(MeasuresReport::new),
+            sensitivities: Some(sensitivities),
+        })
+    }
+
+    /// Writes it as tables, the largest first.
+    pub(super) fn write(&self, text: &mut String) {
+        let Some(budget) = &self.budget else {
+            section(
+                text,
+                "What is soft, and why",
+                "  The output moves freely: nothing elastic holds it there.\n",
+            );
+            return;
+        };
+        budget.write(text);
+        if let Some(sensitivities) = &self.sensitivities {
+            write_sensitivities(sensitivities, budget, text);
+        }
+        if let Some(measures) = &self.measures {
+            measures.write(text);
+        }
+    }
+}
+
+impl BudgetReport {
+    fn new(case: &Case, of: &'static str, budget: &Budget) -> Self {
+        let name = |source: PartSource| match source {
+            PartSource::Body(id) => (Some(case.model.bodies()[id.0].name.clone()), None),
+            PartSource::Joint(id) => (None, Some(case.model.joints()[id.0].name.clone())),
+        };
+        let part = |part: &Part| {
+            let (body, joint) = name(part.source);
+            PartReport {
+                body,
+                joint,
+                deformation: word(part.deformation),
+                displacement: part.displacement,
+                share: part.share,
+            }
+        };
+        let sum = |name: String, displacement: f64| Sum {
+            name,
+            displacement,
+            share: (budget.total != 0.0).then(|| displacement / budget.total),
+        };
+        let by_part = budget
+            .by_source()
+            .into_iter()
+            .map(|(source, displacement)| {
+                let (body, joint) = name(source);
+                let joint = joint.map(|joint| format!("joint {joint}"));
+                sum(body.or(joint).unwrap_or_default(), displacement)
+            });
+        let by_deformation = budget.by_deformation().into_iter();
+        Self {
+            of,
+            along: numbers(&budget.along),
+            total: budget.total,
+            parts: budget.parts.iter().map(part).collect(),
+            by_deformation: by_deformation
+                .map(|(deformation, displacement)| sum(word(deformation).into(), displacement))
+                .collect(),
+            by_part: by_part.collect(),
+            rest: budget.rest,
+        }
+    }
+
+    fn turns(&self) -> bool {
+        self.along[..3].iter().all(|c| *c == 0.0)
+    }
+
+    fn write(&self, text: &mut String) {
+        let part = if self.turns() {
+            &self.along[3..]
+        } else {
+            &self.along[..3]
+        };
+        let part: Vec<_> = part.iter().map(|c| number(*c)).collect();
+        let (what, unit) = match (self.of, self.turns()) {
+            ("compliance", false) => ("a compliance", "m/N"),
+            ("compliance", true) => ("a compliance", "rad/(N·m)"),
+            (_, false) => ("a deflection", "m"),
+            (_, true) => ("a rotation", "rad"),
+        };
+        let about = if self.turns() { "about" } else { "along" };
+        let mut body = format!(
+            "  The output has {what} of {} {unit} {about} ({}). It comes from\n",
+            number(self.total),
+            part.join(", ")
+        );
+        bars(&mut body, &self.by_deformation, unit);
+        body += "  and, by bodies and joints, from\n";
+        bars(&mut body, &self.by_part, unit);
+        section(text, "What is soft, and why", body);
+    }
+}
+
+/// Sums with their shares as bars.
+fn bars(text: &mut String, sums: &[Sum], unit: &str) {
+    let told = &sums[..sums.len().min(TOLD)];
+    let width = told.iter().map(|sum| sum.name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    for sum in told {
+        let share = sum.share.unwrap_or(0.0);
+        let blocks = (share.abs().min(1.0) * WIDTH).round() as usize;
+        let bar = if share < 0.0 { "░" } else { "█" }.repeat(blocks);
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{}",
+            format!(
+                "    {:<width$}  {:>6.1} %  {:>12} {unit}  {bar}",
+                sum.name,
+                100.0 * share,
+                number(sum.displacement)
+            )
+            .trim_end()
+        );
+    }
+    if let [_, ..] = sums[told.len()..] {
+        let rest: f64 = sums[told.len()..].iter().filter_map(|sum| sum.share).sum();
+        let count = sums.len() - told.len();
+        let _ = writeln!(text, "    and {count} more, {:.1} % together", 100.0 * rest);
+    }
+}
+
+fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text: &mut String) {
+    let what = match (budget.of, budget.turns()) {
+        ("compliance", _) => "compliance",
+        (_, true) => "rotation",
+        _ => "deflection",
+    };
+    let effective = found
+        .iter()
+        .filter(|s| s.relative.is_some_and(|r| r != 0.0));
+    let told: Vec<_> = effective.take(TOLD).collect();
+    let width = told.iter().map(|s| s.parameter.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let mut body = String::new();
+    for sensitivity in &told {
+        let _ = writeln!(
+            body,
+            "  {:<width$}  {:>12}   {:>+8.3} % {what}",
+            sensitivity.parameter,
+            number(sensitivity.value),
+            sensitivity.relative.unwrap_or(0.0)
+        );
+    }
+    section(text, "What 1 % more of each value changes", body);
+}
+
+impl MeasuresReport {
+    fn new(measures: &Measures) -> Self {
+        let principal = |p: &hyperstat_assembly::measures::Principal| PrincipalReport {
+            values: p.values,
+            directions: p.directions.map(Into::into),
+        };
+        Self {
+            translational_compliances: principal(&measures.translational_compliances),
+            rotational_compliances: principal(&measures.rotational_compliances),
+            translational_stiffnesses: principal(&measures.translational_stiffnesses),
+            rotational_stiffnesses: principal(&measures.rotational_stiffnesses),
+            characteristic_length: measures.characteristic_length,
+            condition: measures.condition,
+            eigenscrews: (measures.eigenscrews.iter())
+                .map(|screw| ScrewReport {
+                    eigenvalue: screw.eigenvalue,
+                    stiffness: screw.stiffness,
+                    pitch: screw.pitch,
+                    direction: screw.direction.into(),
+                    point: screw.point.into(),
+                })
+                .collect(),
+            centre_of_stiffness: measures.centre_of_stiffness.into(),
+            centre_of_compliance: measures.centre_of_compliance.into(),
+            virtual_work_index: VirtualWork {
+                force: measures.force_work,
+                moment: measures.moment_work,
+            },
+        }
+    }
+
+    fn write(&self, text: &mut String) {
+        let mut table = Table::new(1, &["", "value", "x", "y", "z"]);
+        let principals = [
+            (
+                "compliance, pure force [m/N]",
+                &self.translational_compliances,
+            ),
+            (
+                "compliance, pure moment [rad/(N·m)]",
+                &self.rotational_compliances,
+            ),
+            (
+                "stiffness, pure translation [N/m]",
+                &self.translational_stiffnesses,
+            ),
+            (
+                "stiffness, pure rotation [N·m/rad]",
+                &self.rotational_stiffnesses,
+            ),
+        ];
+        for (name, principal) in principals {
+            for (value, direction) in principal.values.iter().zip(principal.directions) {
+                let row = [*value].into_iter().chain(direction.map(clean));
+                table.row(&[name], row);
+            }
+        }
+        section(
+            text,
+            "Stiffness measures: principal values and their directions",
+            table,
+        );
+        let heads = ["λ [N]", "k [N/m]", "pitch [m]"];
+        let heads: Vec<_> = heads
+            .into_iter()
+            .chain(["along x", "y", "z", "at x [m]", "y", "z"])
+            .collect();
+        let mut table = Table::new(0, &heads);
+        for screw in &self.eigenscrews {
+            let first = [screw.eigenvalue, screw.stiffness, screw.pitch];
+            let places = screw
+                .direction
+                .map(clean)
+                .into_iter()
+                .chain(screw.point.map(clean));
+            table.row(&[], first.into_iter().chain(places));
+        }
+        section(text, "Eigenscrews of the stiffness", table);
+        let point = |p: [f64; 3]| p.map(|c| number(clean(c))).join(", ");
+        let body = format!(
+            "  centre of stiffness   ({}) m\n  centre of compliance  ({}) m\n  \
+             condition number      {} with rotations times {} m\n  \
+             virtual-work index    {} J for 1 N, {} J for 1 N·m\n",
+            point(self.centre_of_stiffness),
+            point(self.centre_of_compliance),
+            number(self.condition),
+            number(self.characteristic_length),
+            number(self.virtual_work_index.force),
+            number(self.virtual_work_index.moment),
+        );
+        section(text, "Centres and indices", body);
+    }
+}
+
+/// What is rounding beside a length of 1, shown as 0.
+fn clean(component: f64) -> f64 {
+    if component.abs() < 1e-12 {
+        0.0
+    } else {
+        component
+    }
+}
+
+/// A way to deform, in a word.
+fn word(deformation: Deformation) -> &'static str {
+    match deformation {
+        Deformation::Bending => "bending",
+        Deformation::Shear => "shear",
+        Deformation::Torsion => "torsion",
+        Deformation::Tension => "tension",
+        Deformation::FreeStrain => "free strain",
+        Deformation::Flexible => "flexible body",
+        Deformation::Bearing => "joint bearing",
+        Deformation::Drive => "drive",
+        _ => "other",
+    }
+}

@@ -1,0 +1,5 @@
+//! The figures from data.
+
+mod figures;
+mod lines;
+mod maps;
