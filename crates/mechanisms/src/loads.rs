@@ -147,14 +147,13 @@ fn read_set(
         ];
         let fields = Fields::read(load, "a load", &known, &[])?;
         let on = fields.required("on")?;
-        let along = known[3..7].iter().find_map(|name| fields.get(name));
-        if let Some(along) = along {
+        if known[3..7].iter().any(|name| fields.get(name).is_some()) {
             if let Some(point) = fields.get("force").or(fields.get("moment")) {
                 return Err(point
                     .error("a load is either on a point or along a beam")
                     .with_help("make it two loads of the list"));
             }
-            read_along(&fields, on, along, model, home, &mut set)?;
+            read_along(&fields, on, model, home, &mut set)?;
             continue;
         }
         let node = nodes::on(model, on, "a load")?;
@@ -180,11 +179,10 @@ fn wrench(fields: &Fields<'_>, force: &str, moment: &str) -> Result<Vector6<f64>
     Ok(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
 }
 
-/// Reads a load along a body, or along its segment between two points; `along` says that it is one.
+/// Reads a load along a body, or along its segment between two points.
 fn read_along(
     fields: &Fields<'_>,
     on: Fragment<'_>,
-    along: Fragment<'_>,
     model: &Model,
     home: &Home,
     set: &mut LoadSet,
@@ -245,10 +243,10 @@ fn read_along(
     let back = [wanted[1], wanted[0]];
     let of = |id: &&SegmentId| [wanted, back].contains(&model.segments()[id.0].ends);
     let Some(&segment) = entry.segments.iter().find(of) else {
-        let (first, second) = (first.string()?, second.string()?);
-        return Err(along
+        let (from, to) = (first.string()?, second.string()?);
+        return Err(second
             .error(format!(
-                "no segment of body `{}` runs between `{first}` and `{second}`",
+                "no segment of body `{}` runs between `{from}` and `{to}`",
                 entry.name
             ))
             .with_help("name two neighbouring points, or the body alone for all its segments"));
