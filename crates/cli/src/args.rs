@@ -70,6 +70,8 @@ Examples:
   hyperstat solve portal.ron --verify
   hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
   hyperstat solve portal.ron --modes 6       Natural frequencies and modes too
+  hyperstat solve portal.ron --vtu portal.vtu
+                                             For ParaView
   hyperstat solve portal.ron --why           What is soft, and which dimension should grow
   hyperstat solve portal.ron --why --along z
   hyperstat solve paper.ron --job delta --pose 12
@@ -162,6 +164,10 @@ pub(crate) struct Solve {
     /// Find the N lowest natural frequencies and their modes [default: a job's `modes`]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
     modes: Option<u16>,
+    /// Write the deformed mechanism as a VTU file too, for ParaView: displacements, section forces,
+    /// stresses, and modes where there are some
+    #[arg(long, value_name = "FILE.vtu")]
+    pub(crate) vtu: Option<PathBuf>,
     /// With lumped masses: half of every element's at each of its ends, in translation only
     #[arg(long)]
     pub(crate) lumped: bool,

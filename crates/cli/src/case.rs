@@ -137,6 +137,16 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
+    /// The solution as a VTU file, with its modes where there are some.
+    pub(crate) fn vtu(
+        &self,
+        solution: &Solution,
+        modes: Option<&Modes>,
+    ) -> Result<String, CliError> {
+        crate::vtu::vtu(&self.model, solution, modes)
+            .map_err(|error| self.source().unsolvable(&self.model, error))
+    }
+
     /// Displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
     pub(crate) fn inner_displacements(
         &self,

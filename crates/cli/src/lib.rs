@@ -12,6 +12,7 @@ mod error;
 mod plot;
 mod report;
 mod verification;
+mod vtu;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -79,15 +80,23 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     if args.all_nodes {
         report.add_displacements(case.inner_displacements(&solution)?);
     }
-    if let Some(options) = case.modal_options(args) {
-        let found = case.modes(&options)?;
-        let wanted = options.count;
+    let options = case.modal_options(args);
+    let modes = options.as_ref().map(|options| case.modes(options));
+    let modes = modes.transpose()?;
+    if let (Some(options), Some(found)) = (&options, &modes) {
         report.add_modes(ModesReport::new(
             &case.model,
-            &found,
-            wanted,
+            found,
+            options.count,
             args.all_nodes,
         ));
+    }
+    if let Some(path) = &args.vtu {
+        let text = case.vtu(&solution, modes.as_ref())?;
+        AtomicFile::write(path, text.as_bytes()).map_err(|source| CliError::Write {
+            path: path.clone(),
+            source,
+        })?;
     }
     if args.why {
         report.add_why(case.why(&solution, args.along)?);

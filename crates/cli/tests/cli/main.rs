@@ -12,4 +12,6 @@ mod run;
 mod solve;
 mod support;
 mod tables;
+mod tutorials;
+mod vtu;
 mod why;
