@@ -272,8 +272,10 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
     );
     assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
     assert!(taken > CASES / 3, "only {taken} mechanisms");
+    // Poses that are handed on prove nothing.
+    let answered = poses - handed_on;
     assert!(
-        2 * handed_on < poses,
-        "{handed_on} of {poses} poses handed on"
+        answered > CASES,
+        "only {answered} of {poses} poses answered"
     );
 }
