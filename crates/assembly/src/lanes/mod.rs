@@ -44,8 +44,8 @@ use program::Program;
 /// Poses that are handed to [`Plan::sweep_lanes`] together.
 pub const LANES: usize = 8;
 
-/// Relative error that a pose of the lanes may have, by its estimate: that is mostly within a factor
-/// of three, in one of some hundred random mechanisms twelve times too low, and 1e-11 is promised.
+/// Relative error that a pose of the lanes may have, by its estimate: that was up to twelve times
+/// too low near this bound (random mechanisms), more near rounding, and 1e-11 is promised.
 const TRUSTED: f64 = 1e-12;
 
 /// One thread's poses and buffers; made by [`Plan::lanes`].
