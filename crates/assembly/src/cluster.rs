@@ -2,14 +2,16 @@
 //! at its nodes absorbed (paper §2.1).
 
 use hyperstat_elements::subassembly::{ElasticJoint, StiffSegment, absorb_joints, chain_stiffness};
-use hyperstat_elements::{Beam, TaperedBeam, element_frame, rotate_matrix6};
+use hyperstat_elements::{
+    Beam, BeamLoad, StraightBeam, TaperedBeam, element_frame, rotate_matrix6, rotate_vector6,
+};
 use hyperstat_joints::rigid_motion;
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
-use crate::coordinates::read;
+use crate::acting::Acting;
+use crate::coordinates::{read, shift};
 use crate::error::SolveError;
 use crate::model::{Geometry, JointId, Model, SegmentId};
-use crate::numeric::node_load;
 use crate::plan::{ElementPlan, Plan, Workspace};
 use crate::topology::{Cluster, LONGEST_CLUSTER};
 
@@ -39,11 +41,27 @@ impl SegmentBeam {
         }
     }
 
-    /// Displacement at `xi` for the displacements of its nodes, element frame.
-    pub fn displacement(&self, xi: f64, u1: &Vector6<f64>, u2: &Vector6<f64>) -> Vector6<f64> {
+    /// What prismatic and tapered beams have in common.
+    pub fn straight(&self) -> &dyn StraightBeam {
         match self {
-            Self::Prismatic(beam) => beam.displacement(xi, u1, u2),
-            Self::Tapered(beam) => beam.displacement(xi, u1, u2),
+            Self::Prismatic(beam) => beam,
+            Self::Tapered(beam) => beam,
+        }
+    }
+
+    /// Displacement at `xi` for the displacements of its nodes under the load between them, element
+    /// frame.
+    pub fn displacement(
+        &self,
+        xi: f64,
+        u1: &Vector6<f64>,
+        u2: &Vector6<f64>,
+        load: Option<&BeamLoad>,
+    ) -> Vector6<f64> {
+        match (self, load) {
+            (_, Some(load)) => self.straight().loaded_displacement(xi, u1, u2, load),
+            (Self::Prismatic(beam), None) => beam.displacement(xi, u1, u2),
+            (Self::Tapered(beam), None) => beam.displacement(xi, u1, u2),
         }
     }
 }
@@ -148,7 +166,50 @@ fn place_cluster(
     Ok(to_local)
 }
 
-/// Forms the operator and the stiffness of a cluster's element, and its initial deformations.
+/// Forms the deformations that a cluster's element starts from in each state: those that loads
+/// inside absorbed joints make, and the free ends of loaded segments.
+pub(crate) fn cluster_initial(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    acting: &[Acting],
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let to_local = place_cluster(cluster, geometry, workspace)?;
+    for (set, acting) in acting.iter().enumerate() {
+        let start = set * plan.deformations + element.initial_start;
+        let initial = &mut workspace.initial[start..start + element.rows];
+        for (r, joint) in cluster.joints.iter().enumerate() {
+            let Some(joint) = joint else { continue };
+            let load = acting.on_node(cluster.nodes[r]);
+            if load != Vector6::zeros() {
+                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                let give = elastic.turned_compliance() * load;
+                add_deformation(initial, r, &give, &workspace.arms, &to_local);
+            }
+        }
+        for (r, (id, reversed)) in cluster.segments.iter().enumerate() {
+            let Some(load) = acting.on_segment(*id) else {
+                continue;
+            };
+            let (beam, own, span) = segment_beam(model, geometry, *id)?;
+            let mut free = -rotate_vector6(&beam.straight().free_end(load), &own);
+            if *reversed {
+                // With the second node held instead: δ seen from there, carried to the first.
+                free = -(rigid_motion(&-span) * free);
+            }
+            for (k, node) in cluster.nodes[1..].iter().enumerate().skip(r) {
+                let carried = shift(geometry, cluster.nodes[r + 1], *node) * free;
+                add_turned(&mut initial[6 * k..], &to_local, &carried, 1.0);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Forms the operator and the stiffness of a cluster's element.
 pub(crate) fn cluster_element(
     plan: &Plan,
     element: &ElementPlan,
@@ -164,7 +225,7 @@ pub(crate) fn cluster_element(
     )
 }
 
-/// The stiffness of a cluster's element and its initial deformations; the workspace has the arms.
+/// The stiffness of a cluster's element; the workspace has the arms.
 fn stiffness(
     plan: &Plan,
     element: &ElementPlan,
@@ -269,7 +330,7 @@ fn half_turn() -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0)))
 }
 
-/// Absorbs the cluster's joints into its stiffness; loads inside them give initial deformations.
+/// Absorbs the cluster's joints into its stiffness.
 fn absorb(
     plan: &Plan,
     element: &ElementPlan,
@@ -288,12 +349,6 @@ fn absorb(
         workspace.factors[absorbed].node = r;
         workspace.factors[absorbed].factor = local.factor();
         absorbed += 1;
-        let load = node_load(model, cluster.nodes[r]);
-        if load != Vector6::zeros() {
-            let give = elastic.turned_compliance() * load;
-            let initial = &mut workspace.initial[element.initial_start..][..rows];
-            add_deformation(initial, r, &give, &workspace.arms, to_local);
-        }
     }
     let arms = &mut workspace.arms[..rows / 6];
     for arm in arms.iter_mut() {

@@ -1,7 +1,8 @@
 //! Condensation to the output (Eqs. 43–45) and refinement.
 //!
 //! Columns of the solutions: with the output's six coordinates independent, its unit motions
-//! (Eq. 45's T_o); otherwise unit forces on it; and the loads. Every column starts at zero and is
+//! (Eq. 45's T_o); otherwise unit forces on it; and one column a set of loads. Every column starts
+//! at zero and is
 //! corrected by the factor from residuals formed in the elements' deformations,
 //! `Hᵀ F − Dᵀ k (D U + δ₀)`: the first correction is the plain solution, the others are refinement
 //! (the book, "Refinement").
@@ -13,20 +14,16 @@ use nalgebra::{Matrix6, Vector6};
 use crate::coordinates::read;
 use crate::error::SolveError;
 use crate::numeric::{dot, multiply};
-use crate::plan::{COLUMNS, Plan, Workspace};
+use crate::plan::{Plan, Workspace};
 
 /// Refinement steps at the most.
 const MOST_REFINEMENTS: usize = 6;
 /// A last correction above this share of the solution is no solution.
 const TRUSTED: f64 = 1e-6;
-/// Column of the model's loads.
-pub(crate) const LOADS: usize = COLUMNS - 1;
-/// That column alone.
-pub(crate) const LOADED: Range<usize> = LOADS..COLUMNS;
+/// Column of the first set of loads, after those of the output's motions or forces.
+pub(crate) const LOADS: usize = 6;
 /// The columns of the output's unit motions or unit forces.
 pub(crate) const UNITS: Range<usize> = 0..LOADS;
-/// All columns.
-const ALL: Range<usize> = 0..COLUMNS;
 
 impl Plan {
     /// Factors the inner stiffness with `pins` held and finds all columns of the solutions,
@@ -51,12 +48,13 @@ impl Plan {
                 workspace.solutions[k * self.unknowns + self.inner + k] = 1.0;
             }
         }
-        self.residuals(workspace, ALL);
-        self.correct(workspace, pins, ALL);
+        let all = 0..workspace.columns();
+        self.residuals(workspace, all.clone());
+        self.correct(workspace, pins, all.clone());
         let mut last = f64::INFINITY;
         for _ in 0..MOST_REFINEMENTS {
-            self.residuals(workspace, ALL);
-            let change = self.correct(workspace, pins, ALL);
+            self.residuals(workspace, all.clone());
+            let change = self.correct(workspace, pins, all.clone());
             let settled = change < enough || change > 0.5 * last;
             last = change;
             if settled {
@@ -95,8 +93,8 @@ impl Plan {
             let deformations = &mut scratch[..rows * which.len()];
             deformations.fill(0.0);
             for (c, deformation) in which.clone().zip(deformations.chunks_exact_mut(rows)) {
-                if c == LOADS {
-                    let start = element.initial_start;
+                if let Some(set) = c.checked_sub(LOADS) {
+                    let start = set * self.deformations + element.initial_start;
                     deformation.copy_from_slice(&initial[start..start + rows]);
                 }
                 for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
@@ -202,12 +200,12 @@ impl Plan {
         stiffness
     }
 
-    /// The loads' force on the output: what holds it where it is, from the residual of the loads'
-    /// column with the output clamped.
-    pub(crate) fn output_force(&self, workspace: &mut Workspace) -> Vector6<f64> {
-        self.residuals(workspace, LOADED);
+    /// The force of a set of loads on the output: what holds it where it is, from the residual of
+    /// its column with the output clamped.
+    pub(crate) fn output_force(&self, workspace: &mut Workspace, column: usize) -> Vector6<f64> {
+        self.residuals(workspace, column..column + 1);
         let n = self.unknowns;
-        let residual = &workspace.residuals[LOADS * n..(LOADS + 1) * n];
+        let residual = &workspace.residuals[column * n..(column + 1) * n];
         self.force_on_output(residual, &workspace.solutions)
     }
 
@@ -218,30 +216,33 @@ impl Plan {
         read(residual, self.inner) + Vector6::from_fn(|k, _| through(k))
     }
 
-    /// Finds what the loads' column still lacks, too small to be added to it: the forces of the
+    /// Finds what a set's column still lacks, too small to be added to it: the forces of the
     /// elements take it in, so that they balance at every node to rounding.
     pub(crate) fn find_remainder(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         compliance: Option<&Matrix6<f64>>,
+        column: usize,
     ) {
         let (n, inner) = (self.unknowns, self.inner);
-        let step = compliance.map(|c| c * self.output_force(workspace));
+        let step = compliance.map(|c| c * self.output_force(workspace, column));
         if step.is_none() {
-            self.residuals(workspace, LOADED);
+            self.residuals(workspace, column..column + 1);
         }
         let right_side = &mut workspace.right_sides[..inner];
-        right_side.copy_from_slice(&workspace.residuals[LOADS * n..LOADS * n + inner]);
+        right_side.copy_from_slice(&workspace.residuals[column * n..column * n + inner]);
         for &pin in pins {
             right_side[pin] = 0.0;
         }
         self.pattern.solve(&mut workspace.factor, right_side);
-        workspace.remainder.fill(0.0);
-        workspace.remainder[..inner].copy_from_slice(right_side);
+        let set = column - LOADS;
+        let remainder = &mut workspace.remainders[set * n..(set + 1) * n];
+        remainder.fill(0.0);
+        remainder[..inner].copy_from_slice(right_side);
         for (k, step) in step.iter().flatten().enumerate() {
             let motion = &workspace.solutions[k * n..(k + 1) * n];
-            for (entry, motion) in workspace.remainder.iter_mut().zip(motion) {
+            for (entry, motion) in remainder.iter_mut().zip(motion) {
                 *entry += motion * step;
             }
         }

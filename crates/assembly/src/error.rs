@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::parts::BodyId;
+
 /// A model that cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -80,6 +82,24 @@ pub enum ModelError {
         /// What is wrong with the stiffness.
         what: &'static str,
     },
+    /// Gravity on a body whose material has no density.
+    #[error("body `{body}` has no weight: its material has no `density`")]
+    NoDensity {
+        /// Name of the body.
+        body: String,
+    },
+    /// A temperature of a body that is not made of beams.
+    #[error("body `{body}` is not made of beams: it has no temperature")]
+    NotOfBeams {
+        /// Name of the body.
+        body: String,
+    },
+    /// A temperature of a body whose material has no coefficient of expansion.
+    #[error("body `{body}` has a temperature, but its material has no `expansion`")]
+    NoExpansion {
+        /// Name of the body.
+        body: String,
+    },
     /// A load or position that is not finite.
     #[error("{what} is not finite")]
     NotFinite {
@@ -106,8 +126,10 @@ pub enum SolveError {
     LoadOnFreeMotion {
         /// `body.point` of the load.
         node: String,
-        /// Index of the load in the model.
-        load: usize,
+        /// The body of that node.
+        body: BodyId,
+        /// Index of the load in the model; `None` where it is one of a case, or a weight.
+        load: Option<usize>,
         /// The motion in words.
         motion: String,
     },
@@ -148,6 +170,16 @@ pub enum SolveError {
     ModesNotFound {
         /// Number of those that have converged.
         found: usize,
+    },
+    /// A load in axes that turn with a body whose points, sections and joints do not say how it
+    /// lies.
+    #[error(
+        "a load turns with body `{body}`, but its points and the axes of its joints lie along one \
+         line: its turn about that line is not known"
+    )]
+    NoBodyFrame {
+        /// Name of the body.
+        body: String,
     },
     /// An element that cannot be formed.
     #[error(transparent)]

@@ -8,6 +8,7 @@ use nalgebra::{DVector, Matrix6, Rotation3, Vector3, Vector6};
 use crate::cluster::{SegmentBeam, segment_beam};
 use crate::directions::{Directions, to_directions};
 use crate::error::SolveError;
+use crate::loads::LoadSet;
 use crate::model::{JointId, Model, SegmentId};
 use crate::plan::Plan;
 use crate::solution::{SegmentForces, Solution};
@@ -76,26 +77,36 @@ impl<'m> Influence<'m> {
             beams,
             joints,
         };
-        let mut unit = model.clone();
-        for k in 0..6 {
-            unit.clear_loads();
-            // A unit is finite.
-            let _ = unit.add_load(output, Vector6::ith(k, 1.0));
-            let solution = plan.solve(&unit)?;
-            influence.units[k] = influence.state(&solution);
+        let sets = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
+        for (k, state) in plan.respond(model, &sets)?.iter().enumerate() {
+            influence.units[k] =
+                influence.state_of(&state.displacements, &state.joint_wrenches, &state.segments);
         }
         Ok(influence)
     }
 
     /// The state of a solution of this model, under any loads.
     pub(crate) fn state(&self, solution: &Solution) -> State {
+        self.state_of(
+            &solution.displacements,
+            &solution.joint_wrenches,
+            &solution.segments,
+        )
+    }
+
+    fn state_of(
+        &self,
+        displacements: &[Vector6<f64>],
+        wrenches: &[Option<Vector6<f64>>],
+        segments: &[SegmentForces],
+    ) -> State {
         let model = self.model;
-        let ends = solution.segments.iter().map(|s| s.ends[1]).collect();
-        let loads = solution.segments.iter().map(load_on).collect();
+        let ends = segments.iter().map(|s| s.ends[1]).collect();
+        let loads = segments.iter().map(load_on).collect();
         let joints = (0..model.joints().len())
-            .map(|k| self.joint_state(JointId(k), solution))
+            .map(|k| self.joint_state(JointId(k), displacements, wrenches))
             .collect();
-        let displacement = |node: crate::model::NodeId| solution.displacements[node.0];
+        let displacement = |node: crate::model::NodeId| displacements[node.0];
         let flexibles = (model.flexibles().iter().enumerate())
             .map(|(k, flexible)| {
                 let geometry = model.geometry();
@@ -121,7 +132,12 @@ impl<'m> Influence<'m> {
 
     /// Force and deflection along a joint's elastic directions: from its wrench, else from the
     /// displacements on both sides of it.
-    fn joint_state(&self, joint: JointId, solution: &Solution) -> [Vector6<f64>; 2] {
+    fn joint_state(
+        &self,
+        joint: JointId,
+        displacements: &[Vector6<f64>],
+        wrenches: &[Option<Vector6<f64>>],
+    ) -> [Vector6<f64>; 2] {
         let own = &self.joints[joint.0];
         let elastic = own.directions.elastic;
         if elastic.is_empty() {
@@ -137,10 +153,10 @@ impl<'m> Influence<'m> {
         let deflection = || {
             let [first, second] = self.model.joints()[joint.0]
                 .between
-                .map(|node| node.map_or(Vector6::zeros(), |node| solution.displacements[node.0]));
+                .map(|node| node.map_or(Vector6::zeros(), |node| displacements[node.0]));
             only(own.to_directions * (first - second))
         };
-        let wrench = solution.joint_wrenches[joint.0].as_ref();
+        let wrench = wrenches[joint.0].as_ref();
         match (wrench, &own.directions.compliance) {
             (Some(wrench), Some(compliance)) => {
                 let force = only(own.basis.transpose() * wrench);
@@ -254,8 +270,8 @@ impl State {
 }
 
 /// The load between the nodes of a segment.
-pub(crate) fn load_on(_forces: &SegmentForces) -> BeamLoad {
-    BeamLoad::none()
+pub(crate) fn load_on(forces: &SegmentForces) -> BeamLoad {
+    forces.load
 }
 
 fn turned(rotation: &Rotation3<f64>, v: &Vector6<f64>) -> Vector6<f64> {

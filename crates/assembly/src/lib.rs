@@ -10,6 +10,7 @@
 //! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
 //! full solve, which also refines, recovers and diagnoses.
 
+mod acting;
 mod budget;
 mod cluster;
 mod condense;
@@ -22,10 +23,12 @@ mod influence;
 mod jacobian;
 mod kinematics;
 mod lanes;
+mod loads;
 pub mod measures;
 mod modal;
 mod model;
 mod numeric;
+mod orientation;
 mod parts;
 mod plan;
 mod recover;
@@ -46,13 +49,14 @@ pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
 pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
 pub use model::{
-    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Model, Node, NodeId, NodeMass, Segment, SegmentId,
+    Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
+    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
+    Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;
 pub use redundancy::{Redundancy, redundant_constraints};
 pub use sensitivity::{Parameter, Sensitivity};
-pub use solution::{Motion, Output, SegmentForces, Solution, Warning};
+pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
 pub use solve::{PoseResult, solve};
 pub use worst::{WorstPoint, section_wrench, stations};

@@ -9,10 +9,11 @@ use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_fra
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
+pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
 use crate::parts::change_of_section;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Load, Member, Node, NodeId, NodeMass, Segment, SegmentId,
+    Member, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 
 /// A mechanism in one configuration.
@@ -25,8 +26,10 @@ pub struct Model {
     segments: Vec<Segment>,
     flexibles: Vec<Flexible>,
     joints: Vec<Connection>,
-    loads: Vec<Load>,
+    loads: LoadSet,
+    cases: Vec<LoadCase>,
     masses: Vec<NodeMass>,
+    gravity: Vector3<f64>,
     output: Option<NodeId>,
     geometry: Geometry,
     body_names: HashMap<String, BodyId>,
@@ -45,8 +48,10 @@ impl Model {
             segments: Vec::new(),
             flexibles: Vec::new(),
             joints: Vec::new(),
-            loads: Vec::new(),
+            loads: LoadSet::default(),
+            cases: Vec::new(),
             masses: Vec::new(),
+            gravity: Vector3::zeros(),
             output: None,
             geometry: Geometry {
                 positions: Vec::new(),
@@ -226,6 +231,7 @@ impl Model {
             nodes,
             segments: Vec::new(),
             flexible: None,
+            temperature: 0.0,
         });
         Ok(body)
     }
@@ -268,22 +274,101 @@ impl Model {
     /// # Errors
     /// A wrench that is not finite.
     pub fn add_load(&mut self, node: NodeId, wrench: Vector6<f64>) -> Result<(), ModelError> {
-        if !wrench.iter().all(|c| c.is_finite()) {
-            return Err(ModelError::NotFinite { what: "a load" });
-        }
-        self.loads.push(Load { node, wrench });
+        let load = LoadSet::on(node, wrench);
+        check_loads(&load)?;
+        self.loads.nodes.extend(load.nodes);
         Ok(())
     }
 
-    /// Takes all loads off.
+    /// Puts loads in place of the model's own.
+    ///
+    /// # Errors
+    /// A load that is not finite.
+    pub fn set_loads(&mut self, loads: LoadSet) -> Result<(), ModelError> {
+        check_loads(&loads)?;
+        self.loads = loads;
+        Ok(())
+    }
+
+    /// Takes all loads off; cases stay.
     pub fn clear_loads(&mut self) {
-        self.loads.clear();
+        self.loads = LoadSet::default();
+    }
+
+    /// Adds a case: loads that act together, beside the model's own loads and without them.
+    ///
+    /// # Errors
+    /// A repeated name, a load that is not finite.
+    pub fn add_case(&mut self, case: LoadCase) -> Result<(), ModelError> {
+        if self.cases.iter().any(|other| other.name == case.name) {
+            return Err(ModelError::RepeatedName { name: case.name });
+        }
+        check_loads(&case.loads)?;
+        self.cases.push(case);
+        Ok(())
+    }
+
+    /// Takes all cases off.
+    pub fn clear_cases(&mut self) {
+        self.cases.clear();
     }
 
     /// Adds a mass at a node, beside the mass that beams have by their density: its inertia in
     /// global axes, the model being in the configuration it is in now.
     pub fn add_mass(&mut self, node: NodeId, mass: RigidMass) {
         self.masses.push(NodeMass { node, mass });
+    }
+
+    /// Takes all masses off.
+    pub fn clear_masses(&mut self) {
+        self.masses.clear();
+    }
+
+    /// Makes gravity this acceleration (m/s², global axes): beams weigh by their density, and the
+    /// masses of nodes weigh. It acts in every case.
+    ///
+    /// # Errors
+    /// One that is not finite; a beam whose material has no density, where it is not zero.
+    pub fn set_gravity(&mut self, acceleration: Vector3<f64>) -> Result<(), ModelError> {
+        if !acceleration.iter().all(|a| a.is_finite()) {
+            return Err(ModelError::NotFinite { what: "gravity" });
+        }
+        let weightless = |s: &&Segment| s.material.density().is_none();
+        if let Some(segment) = self.segments.iter().find(weightless)
+            && acceleration != Vector3::zeros()
+        {
+            return Err(ModelError::NoDensity {
+                body: self.bodies[segment.body.0].name.clone(),
+            });
+        }
+        self.gravity = acceleration;
+        Ok(())
+    }
+
+    /// Changes the temperature of a body of beams by `change` (K), all over; it acts in every case.
+    ///
+    /// # Errors
+    /// A change that is not finite; a body that is not made of beams, or whose material has no
+    /// coefficient of expansion.
+    ///
+    /// # Panics
+    /// If the body is not one of this model.
+    pub fn set_temperature(&mut self, body: BodyId, change: f64) -> Result<(), ModelError> {
+        if !change.is_finite() {
+            let what = "a temperature";
+            return Err(ModelError::NotFinite { what });
+        }
+        let entry = &self.bodies[body.0];
+        let body_name = || entry.name.clone();
+        if entry.kind != BodyKind::Elastic {
+            return Err(ModelError::NotOfBeams { body: body_name() });
+        }
+        let mut materials = entry.segments.iter().map(|s| &self.segments[s.0].material);
+        if materials.any(|material| material.expansion().is_none()) {
+            return Err(ModelError::NoExpansion { body: body_name() });
+        }
+        self.bodies[body.0].temperature = change;
+        Ok(())
     }
 
     /// Makes `node` the output.
@@ -320,9 +405,34 @@ impl Model {
     pub fn joints(&self) -> &[Connection] {
         &self.joints
     }
-    /// All loads.
+    /// The loads on nodes.
     pub fn loads(&self) -> &[Load] {
+        &self.loads.nodes
+    }
+    /// All loads.
+    pub fn load_set(&self) -> &LoadSet {
         &self.loads
+    }
+    /// All cases.
+    pub fn cases(&self) -> &[LoadCase] {
+        &self.cases
+    }
+    /// Acceleration of gravity (m/s²), global axes.
+    pub fn gravity(&self) -> &Vector3<f64> {
+        &self.gravity
+    }
+    /// Sum of the plain loads on a node.
+    pub(crate) fn node_load(&self, node: NodeId) -> Vector6<f64> {
+        let on_node = self.loads().iter().filter(|load| load.node == node);
+        on_node.map(|load| load.wrench).sum()
+    }
+    /// Whether nothing acts but loads on nodes in global axes, cases apart.
+    pub fn has_plain_loads(&self) -> bool {
+        let global = |load: &Load| load.axes == Axes::Global;
+        self.loads.lines.is_empty()
+            && self.loads().iter().all(global)
+            && self.gravity == Vector3::zeros()
+            && self.bodies.iter().all(|body| body.temperature == 0.0)
     }
     /// All masses of nodes.
     pub fn masses(&self) -> &[NodeMass] {
@@ -377,6 +487,16 @@ fn loose_point(points: usize, members: &[Member]) -> Option<usize> {
         }
     }
     connected.iter().position(|connected| !connected)
+}
+
+/// Refuses loads that are not finite.
+fn check_loads(loads: &LoadSet) -> Result<(), ModelError> {
+    let nodes = loads.nodes.iter().map(|load| &load.wrench);
+    let lines = loads.lines.iter().flat_map(|load| &load.ends);
+    if nodes.chain(lines).flatten().all(|c| c.is_finite()) {
+        return Ok(());
+    }
+    Err(ModelError::NotFinite { what: "a load" })
 }
 
 fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {

@@ -2,13 +2,15 @@
 
 use nalgebra::Vector6;
 
-use crate::cluster::cluster_element;
+use crate::acting::Acting;
+use crate::cluster::{cluster_element, cluster_initial};
+use crate::condense::LOADS;
 use crate::coordinates::{read, shift, write};
 use crate::directions::to_directions;
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, JointId, Model, NodeId};
-use crate::plan::{COLUMNS, ElementPlan, Plan, Source, Workspace};
+use crate::plan::{ElementPlan, Plan, Source, Workspace};
 
 /// Why a plan cannot take a pose.
 #[derive(Debug)]
@@ -25,13 +27,16 @@ impl<E: Into<SolveError>> From<E> for Fault {
     }
 }
 
-/// Brings blocks, elements, stiffness and loads of `workspace` to a configuration.
+/// Brings blocks, elements, stiffness and loads of `workspace` to a configuration, with what acts
+/// in each state.
 pub(crate) fn evaluate(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
+    acting: &[Acting],
     workspace: &mut Workspace,
 ) -> Result<(), Fault> {
+    plan.make_room(workspace, acting.len());
     workspace.doubtful = None;
     workspace.tree.evaluate(&plan.topology, model, geometry)?;
     for (coordinate, idc) in plan.idc_of.iter().enumerate() {
@@ -45,6 +50,7 @@ pub(crate) fn evaluate(
         match element.source {
             Source::Cluster(k) => {
                 let cluster = &plan.topology.clusters[k];
+                cluster_initial(plan, element, cluster, model, geometry, acting, workspace)?;
                 cluster_element(plan, element, cluster, model, geometry, workspace)?;
             }
             Source::Spring(joint) => {
@@ -53,7 +59,7 @@ pub(crate) fn evaluate(
         }
     }
     assemble(plan, workspace);
-    load(plan, model, geometry, workspace);
+    load(plan, geometry, acting, workspace);
     Ok(())
 }
 
@@ -122,12 +128,6 @@ fn close_loops(
         }
     }
     Ok(())
-}
-
-/// Sum of the loads on a node.
-pub(crate) fn node_load(model: &Model, node: NodeId) -> Vector6<f64> {
-    let on_node = model.loads().iter().filter(|l| l.node == node);
-    on_node.map(|l| l.wrench).sum()
 }
 
 fn spring_element(
@@ -208,9 +208,9 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// Loads on the IDCs: the model's (`Σ Hᵀ F` over all nodes) in the last column, unit forces on
-/// the output in the others where its coordinates are not independent.
-fn load(plan: &Plan, model: &Model, geometry: &Geometry, workspace: &mut Workspace) {
+/// Loads on the IDCs: what acts in each state (`Σ Hᵀ F` over all nodes) in a column of its own, unit
+/// forces on the output in the columns before where its coordinates are not independent.
+fn load(plan: &Plan, geometry: &Geometry, acting: &[Acting], workspace: &mut Workspace) {
     workspace.loads.fill(0.0);
     if !plan.output_is_independent() {
         for k in 0..6 {
@@ -219,15 +219,10 @@ fn load(plan: &Plan, model: &Model, geometry: &Geometry, workspace: &mut Workspa
             add_load(plan, geometry, workspace, k, plan.output, &unit);
         }
     }
-    for load in model.loads() {
-        add_load(
-            plan,
-            geometry,
-            workspace,
-            COLUMNS - 1,
-            load.node,
-            &load.wrench,
-        );
+    for (set, acting) in acting.iter().enumerate() {
+        for (node, wrench) in &acting.nodes {
+            add_load(plan, geometry, workspace, LOADS + set, *node, wrench);
+        }
     }
 }
 

@@ -5,7 +5,7 @@
 
 use hyperstat_elements::{ElementError, FlexibleBody, Material, RigidMass, Section, Taper};
 use hyperstat_joints::{DofSet, Joint};
-use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3};
 
 macro_rules! index {
     ($(#[$doc:meta])* $name:ident) => {
@@ -59,6 +59,8 @@ pub struct Body {
     pub segments: Vec<SegmentId>,
     /// Its stiffness, where it is given by one.
     pub flexible: Option<FlexibleId>,
+    /// Change of its temperature (K).
+    pub temperature: f64,
 }
 
 /// A node: one point of one body.
@@ -152,15 +154,6 @@ pub struct Connection {
     pub locked: DofSet,
     /// Elasticity from the file; where it is given it replaces the joint's own.
     pub stiffness: JointStiffness,
-}
-
-/// A wrench on a node, about that node, in global axes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Load {
-    /// Node it acts on: the body's own node, inside an elastic joint that sits there.
-    pub node: NodeId,
-    /// Force (N) and moment (N·m).
-    pub wrench: Vector6<f64>,
 }
 
 /// Mass and inertia at a node, in global axes at the model's configuration.

@@ -9,6 +9,7 @@ use hyperstat_joints::{Dof, DofSet};
 use crate::directions::Directions;
 use nalgebra::{Matrix6, Vector3};
 
+use crate::condense::LOADS;
 use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
@@ -17,9 +18,6 @@ use crate::kinematics::characteristic_length;
 use crate::model::{BodyId, Geometry, JointId, Model, NodeId};
 use crate::sparse::{Factor, Pattern};
 use crate::topology::Topology;
-
-/// Columns of loads and solutions that are worked on together.
-pub(crate) const COLUMNS: usize = 7;
 
 /// A topology made ready: one plan serves every pose of a mechanism.
 #[derive(Debug)]
@@ -42,6 +40,8 @@ pub struct Plan {
     /// Number of IDCs that are factored: all but the output's, where those are independent.
     pub(crate) inner: usize,
     pub(crate) elements: Vec<ElementPlan>,
+    /// Deformations of all elements.
+    pub(crate) deformations: usize,
     pub(crate) pattern: Arc<Pattern>,
     /// Places of every element's upper triangle in the assembled values.
     pub(crate) places: Arc<[usize]>,
@@ -95,23 +95,24 @@ pub struct Workspace {
     pub(crate) operators: Vec<f64>,
     /// Stiffnesses of the deformations.
     pub(crate) stiffnesses: Vec<f64>,
-    /// Deformations that loads inside absorbed joints start from.
+    /// By sets of loads: deformations that the elements start from, made by loads inside absorbed
+    /// joints and between nodes, and by misfits.
     pub(crate) initial: Vec<f64>,
     /// Stiffness of the inner IDCs: the pattern's lower triangle.
     pub(crate) values: Vec<f64>,
     pub(crate) factor: Factor,
-    /// Loads on the IDCs and solutions, [`COLUMNS`] columns each: six for the output's unit
-    /// motions or unit forces, one for the model's loads.
+    /// Loads on the IDCs and solutions: six columns for the output's unit motions or unit forces,
+    /// then one a set of loads.
     pub(crate) loads: Vec<f64>,
     pub(crate) solutions: Vec<f64>,
-    /// What the loads' column of the solutions lacks, below its rounding.
-    pub(crate) remainder: Vec<f64>,
+    /// What every set's column of the solutions lacks, below its rounding.
+    pub(crate) remainders: Vec<f64>,
     pub(crate) residuals: Vec<f64>,
     pub(crate) right_sides: Vec<f64>,
     /// A pivot of loop elimination between zero and not zero.
     pub(crate) doubtful: Option<f64>,
     /// Twice the strain energy of every column.
-    pub(crate) energies: [f64; COLUMNS],
+    pub(crate) energies: Vec<f64>,
     /// Deformations and forces of one element.
     pub(crate) scratch: Vec<f64>,
     pub(crate) forces: Vec<f64>,
@@ -121,6 +122,13 @@ pub struct Workspace {
     pub(crate) factors: Vec<JointFactor>,
     /// For absorbing the joints of one cluster.
     pub(crate) absorption: Vec<f64>,
+}
+
+impl Workspace {
+    /// Columns of loads and solutions.
+    pub(crate) fn columns(&self) -> usize {
+        self.energies.len()
+    }
 }
 
 impl Plan {
@@ -254,6 +262,7 @@ impl Plan {
         let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))
             .ok_or(SolveError::TooLarge { unknowns })?;
         let places = places(&mut elements, &pattern);
+        let deformations = elements.iter().map(|e| e.rows).sum();
         Ok(Self {
             topology,
             output,
@@ -267,6 +276,7 @@ impl Plan {
             unknowns,
             inner,
             elements,
+            deformations,
             pattern: Arc::new(pattern),
             places: places.into(),
         })
@@ -303,6 +313,7 @@ impl Plan {
             unknowns: self.unknowns,
             inner: self.inner,
             elements: self.elements.clone(),
+            deformations: self.deformations,
             pattern: self.pattern.clone(),
             places: self.places.clone(),
         })
@@ -317,8 +328,6 @@ impl Plan {
     pub fn workspace(&self) -> Workspace {
         let last = self.elements.last();
         let triangle = |e: &ElementPlan| e.rows * e.rows;
-        let width = |e: &ElementPlan| e.rows * e.columns.len().max(COLUMNS);
-        let widest = self.elements.iter().map(width).max().unwrap_or(0);
         let clusters = self.topology.clusters.iter();
         let sizes = clusters.map(|cluster| {
             let joints = cluster.joints.iter().flatten().count();
@@ -329,27 +338,54 @@ impl Plan {
             node: 0,
             factor: Matrix6::zeros(),
         };
-        Workspace {
+        let mut workspace = Workspace {
             tree: TreeBlocks::new(&self.topology),
             reduced: vec![0.0; self.reduced_len],
             identities: vec![(NodeId(0), Dof::X); self.unknowns],
             operators: vec![0.0; last.map_or(0, |e| e.operator_start + e.rows * e.columns.len())],
             stiffnesses: vec![0.0; last.map_or(0, |e| e.stiffness_start + triangle(e))],
-            initial: vec![0.0; last.map_or(0, |e| e.initial_start + e.rows)],
+            initial: Vec::new(),
             values: vec![0.0; self.pattern.len()],
-            factor: self.pattern.factor_buffers(COLUMNS),
-            loads: vec![0.0; COLUMNS * self.unknowns],
-            solutions: vec![0.0; COLUMNS * self.unknowns],
-            remainder: vec![0.0; self.unknowns],
-            residuals: vec![0.0; COLUMNS * self.unknowns],
-            right_sides: vec![0.0; COLUMNS * self.inner],
+            factor: self.pattern.factor_buffers(0),
+            loads: Vec::new(),
+            solutions: Vec::new(),
+            remainders: Vec::new(),
+            residuals: Vec::new(),
+            right_sides: Vec::new(),
             doubtful: None,
-            energies: [0.0; COLUMNS],
-            scratch: vec![0.0; widest],
-            forces: vec![0.0; widest],
+            energies: Vec::new(),
+            scratch: Vec::new(),
+            forces: Vec::new(),
             arms: vec![Vector3::zeros(); sizes.clone().map(|s| s.0).max().unwrap_or(0)],
             factors: vec![no_joint; sizes.map(|s| s.1).max().unwrap_or(0)],
             absorption: vec![0.0; absorption.max().unwrap_or(0)],
+        };
+        self.make_room(&mut workspace, 1);
+        workspace
+    }
+
+    /// Makes room in the buffers for this many sets of loads.
+    pub(crate) fn make_room(&self, workspace: &mut Workspace, sets: usize) {
+        let columns = LOADS + sets;
+        if workspace.columns() == columns {
+            return;
+        }
+        let width = |e: &ElementPlan| e.rows * e.columns.len().max(columns);
+        let widest = self.elements.iter().map(width).max().unwrap_or(0);
+        workspace.factor = self.pattern.factor_buffers(columns);
+        for (buffer, length) in [
+            (&mut workspace.initial, sets * self.deformations),
+            (&mut workspace.loads, columns * self.unknowns),
+            (&mut workspace.solutions, columns * self.unknowns),
+            (&mut workspace.remainders, sets * self.unknowns),
+            (&mut workspace.residuals, columns * self.unknowns),
+            (&mut workspace.right_sides, columns * self.inner),
+            (&mut workspace.energies, columns),
+            (&mut workspace.scratch, widest),
+            (&mut workspace.forces, widest),
+        ] {
+            buffer.clear();
+            buffer.resize(length, 0.0);
         }
     }
 

@@ -1,8 +1,10 @@
 //! Recovery of everything else: displacements of all nodes, end forces, joint wrenches.
 
+use hyperstat_elements::BeamLoad;
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, Vector6};
 
+use crate::acting::Acting;
 use crate::cluster::{absorbed_joint, cluster_frame, segment_beam};
 use crate::condense::LOADS;
 use crate::coordinates::shift;
@@ -13,29 +15,32 @@ use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model, NodeId, SegmentId};
 use crate::numeric::{multiply, node_displacement};
 use crate::plan::{Plan, Source, Workspace};
-use crate::solution::SegmentForces;
+use crate::solution::{SegmentForces, State};
 
 /// What is recovered from the IDCs.
 pub(crate) struct Recovered {
-    pub displacements: Vec<Vector6<f64>>,
-    pub joint_wrenches: Vec<Option<Vector6<f64>>>,
-    pub segments: Vec<SegmentForces>,
+    pub state: State,
     /// A pivot of the joints' equilibrium between zero and not zero.
     pub doubtful: Option<f64>,
 }
 
-/// Recovers displacements and forces under the model's loads.
+/// Recovers displacements and forces under a set of loads, from its column of the solutions; the
+/// displacement of the output is known.
 pub(crate) fn recover(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
     workspace: &Workspace,
+    set: usize,
+    acting: &Acting,
+    output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
+    let column = LOADS + set;
     let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
-        .map(|n| node_displacement(plan, geometry, workspace, LOADS, NodeId(n)))
+        .map(|n| node_displacement(plan, geometry, workspace, column, NodeId(n)))
         .collect();
-    let loads = node_loads(model);
-    let all_forces = element_forces(plan, workspace);
+    let loads = node_loads(model, acting);
+    let all_forces = element_forces(plan, workspace, set);
     // What the elements take at their nodes: the sum of all other wrenches on the node.
     let mut demand = vec![Vector6::zeros(); model.nodes().len()];
     let mut segments: Vec<Option<SegmentForces>> = vec![None; model.segments().len()];
@@ -67,10 +72,17 @@ pub(crate) fn recover(
             let at_before = shift(geometry, before, node).transpose() * through;
             let to_own = own.inverse();
             let (far, near) = (turned(&to_own, &through), -turned(&to_own, &at_before));
+            let mut ends = if reversed { [far, near] } else { [near, far] };
+            let length = span.norm();
+            let load = acting.on_segment(id).copied();
+            if let Some(load) = &load {
+                ends[0] -= load.resultant(length);
+            }
             segments[id.0] = Some(SegmentForces {
                 frame: own,
-                length: span.norm(),
-                ends: if reversed { [far, near] } else { [near, far] },
+                length,
+                ends,
+                load: load.unwrap_or_else(BeamLoad::none),
             });
             through = at_before;
         }
@@ -90,17 +102,21 @@ pub(crate) fn recover(
     }
     let (joint_wrenches, doubtful) = joint_wrenches(plan, model, geometry, &all_forces, &demand);
     Ok(Recovered {
-        displacements,
-        joint_wrenches,
-        segments: segments.into_iter().flatten().collect(),
+        state: State {
+            output,
+            displacements,
+            joint_wrenches,
+            segments: segments.into_iter().flatten().collect(),
+        },
         doubtful,
     })
 }
 
 /// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
-fn element_forces(plan: &Plan, workspace: &Workspace) -> Vec<Vec<f64>> {
+fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
     let n = plan.unknowns;
-    let solution = &workspace.solutions[LOADS * n..(LOADS + 1) * n];
+    let solution = &workspace.solutions[(LOADS + set) * n..][..n];
+    let remainder = &workspace.remainders[set * n..][..n];
     let mut all = Vec::with_capacity(plan.elements.len());
     for element in &plan.elements {
         let (rows, count) = (element.rows, element.columns.len());
@@ -108,13 +124,14 @@ fn element_forces(plan: &Plan, workspace: &Workspace) -> Vec<Vec<f64>> {
         let d = &workspace.operators[start..start + rows * count];
         let start = element.stiffness_start;
         let k = &workspace.stiffnesses[start..start + rows * rows];
-        let initial = &workspace.initial[element.initial_start..element.initial_start + rows];
+        let start = set * plan.deformations + element.initial_start;
+        let initial = &workspace.initial[start..start + rows];
         let mut deformations = [initial.to_vec(), vec![0.0; rows]].concat();
         let (whole, small) = deformations.split_at_mut(rows);
         for (&idc, column) in element.columns.iter().zip(d.chunks_exact(rows)) {
             for (row, entry) in column.iter().enumerate() {
                 whole[row] += solution[idc] * entry;
-                small[row] += workspace.remainder[idc] * entry;
+                small[row] += remainder[idc] * entry;
             }
         }
         let mut forces = vec![0.0; 2 * rows];
@@ -148,10 +165,10 @@ struct JointForces {
 }
 
 /// Sums of the loads on all nodes.
-fn node_loads(model: &Model) -> Vec<Vector6<f64>> {
+fn node_loads(model: &Model, acting: &Acting) -> Vec<Vector6<f64>> {
     let mut loads = vec![Vector6::zeros(); model.nodes().len()];
-    for load in model.loads() {
-        loads[load.node.0] += load.wrench;
+    for (node, wrench) in &acting.nodes {
+        loads[node.0] += wrench;
     }
     loads
 }
@@ -348,7 +365,7 @@ fn equilibrium(
 }
 
 /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes: its elastic
-/// curve between the displacements of its ends.
+/// curve between the displacements of its ends, under the load between them (`None`: no load).
 ///
 /// # Errors
 /// A segment that cannot be formed.
@@ -357,9 +374,10 @@ pub fn segment_displacement(
     geometry: &Geometry,
     displacements: &[Vector6<f64>],
     segment: SegmentId,
+    load: Option<&BeamLoad>,
     xi: f64,
 ) -> Result<Vector6<f64>, SolveError> {
-    let mut curve = curve(model, geometry, displacements, segment, [xi])?;
+    let mut curve = curve(model, geometry, displacements, segment, load, [xi])?;
     Ok(curve.pop().unwrap_or_default())
 }
 
@@ -369,10 +387,11 @@ pub(crate) fn inner_displacements(
     geometry: &Geometry,
     displacements: &[Vector6<f64>],
     segment: SegmentId,
+    load: &BeamLoad,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
     let elements = model.segments()[segment.0].elements;
     let places = (1..elements).map(|k| k as f64 / elements as f64);
-    curve(model, geometry, displacements, segment, places)
+    curve(model, geometry, displacements, segment, Some(load), places)
 }
 
 /// Displacements at several places (0 to 1) along a segment, global axes.
@@ -381,12 +400,14 @@ fn curve(
     geometry: &Geometry,
     displacements: &[Vector6<f64>],
     segment: SegmentId,
+    load: Option<&BeamLoad>,
     places: impl IntoIterator<Item = f64>,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
+    let load = load.filter(|load| **load != BeamLoad::none());
     let (beam, frame, _) = segment_beam(model, geometry, segment)?;
     let to_local = frame.inverse();
     let ends = model.segments()[segment.0].ends;
     let [first, second] = ends.map(|node| turned(&to_local, &displacements[node.0]));
-    let at = |xi| turned(&frame, &beam.displacement(xi, &first, &second));
+    let at = |xi| turned(&frame, &beam.displacement(xi, &first, &second, load));
     Ok(places.into_iter().map(at).collect())
 }

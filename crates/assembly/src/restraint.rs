@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{DMatrix, DVector, Vector6};
 
+use crate::acting::Acting;
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
 use crate::kinematics::{Kinematics, analyse_at, characteristic_length, echelon, node_twist};
@@ -53,10 +54,28 @@ impl Restraint {
     }
 
     /// Refuses loads that work on a motion that nothing resists.
-    pub fn check_loads(&self, model: &Model, geometry: &Geometry) -> Result<(), SolveError> {
+    pub fn check_loads(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        acting: &[Acting],
+    ) -> Result<(), SolveError> {
+        acting
+            .iter()
+            .enumerate()
+            .try_for_each(|(set, acting)| self.check_state(model, geometry, set, acting))
+    }
+
+    fn check_state(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        set: usize,
+        acting: &Acting,
+    ) -> Result<(), SolveError> {
         let mut loads_on: HashMap<BodyId, Vec<usize>> = HashMap::new();
-        for (k, load) in model.loads().iter().enumerate() {
-            let body = model.nodes()[load.node.0].body;
+        for (k, (node, _)) in acting.nodes.iter().enumerate() {
+            let body = model.nodes()[node.0].body;
             loads_on.entry(body).or_default().push(k);
         }
         for motion in self.idle.iter().chain(&self.moving) {
@@ -65,24 +84,25 @@ impl Restraint {
             let mut largest = (0, 0.0);
             let moved = motion.twists.iter().filter_map(|(b, _)| loads_on.get(b));
             for &k in moved.flatten() {
-                let load = &model.loads()[k];
-                let twist = node_twist(motion, model, geometry, load.node.0);
-                let share = load.wrench.dot(&twist);
+                let (node, wrench) = &acting.nodes[k];
+                let twist = node_twist(motion, model, geometry, node.0);
+                let share = wrench.dot(&twist);
                 work += share;
                 // A body that moves at all moves a load by rounding: no less is taken.
                 let (linear, angular) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
                 let travel = linear.norm().max(angular.norm() * self.size);
-                scale += load.wrench.fixed_rows::<3>(0).norm() * travel;
-                scale += load.wrench.fixed_rows::<3>(3).norm() * angular.norm();
+                scale += wrench.fixed_rows::<3>(0).norm() * travel;
+                scale += wrench.fixed_rows::<3>(3).norm() * angular.norm();
                 if share.abs() > largest.1 {
                     largest = (k, share.abs());
                 }
             }
             if work.abs() > WORKING * scale {
-                let load = largest.0;
+                let (node, _) = acting.nodes[largest.0];
                 return Err(SolveError::LoadOnFreeMotion {
-                    node: model.node_name(model.loads()[load].node),
-                    load,
+                    node: model.node_name(node),
+                    body: model.nodes()[node.0].body,
+                    load: Some(largest.0).filter(|k| set == 0 && *k < model.loads().len()),
                     motion: motion.describe(model),
                 });
             }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use hyperstat_elements::BeamLoad;
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::error::SolveError;
@@ -29,8 +30,49 @@ pub struct Solution {
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     /// End forces of every segment, by `SegmentId`.
     pub segments: Vec<SegmentForces>,
+    /// The model's cases, in their order.
+    pub cases: Vec<CaseSolution>,
     /// What the user should know about the numbers.
     pub warnings: Vec<Warning>,
+}
+
+/// A case of a model and what it does.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct CaseSolution {
+    /// Name of the case.
+    pub name: String,
+    /// What it does.
+    pub state: State,
+}
+
+/// What loads that act together do.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct State {
+    /// Displacement of the output, global axes; up to its free motions where it has any.
+    pub output: Vector6<f64>,
+    /// As [`Solution::displacements`].
+    pub displacements: Vec<Vector6<f64>>,
+    /// As [`Solution::joint_wrenches`].
+    pub joint_wrenches: Vec<Option<Vector6<f64>>>,
+    /// As [`Solution::segments`].
+    pub segments: Vec<SegmentForces>,
+}
+
+impl State {
+    /// As [`Solution::inner_displacements`].
+    ///
+    /// # Errors
+    /// As there.
+    pub fn inner_displacements(
+        &self,
+        model: &Model,
+        segment: SegmentId,
+    ) -> Result<Vec<Vector6<f64>>, SolveError> {
+        let load = &self.segments[segment.0].load;
+        inner_displacements(model, model.geometry(), &self.displacements, segment, load)
+    }
 }
 
 impl Solution {
@@ -46,8 +88,7 @@ impl Solution {
 
     /// Displacements of the inner nodes of a segment divided into n elements: node k of 1 to
     /// n − 1 lies at k/n of the way from its first node to its second. Six components each, global
-    /// axes (m, rad). They are exact, since no load acts between two nodes of a segment; time
-    /// grows with n alone.
+    /// axes (m, rad). They are exact, loads along the segment included; time grows with n alone.
     ///
     /// `model` is the one that was solved.
     ///
@@ -58,7 +99,8 @@ impl Solution {
         model: &Model,
         segment: SegmentId,
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
-        inner_displacements(model, model.geometry(), &self.displacements, segment)
+        let load = &self.segments[segment.0].load;
+        inner_displacements(model, model.geometry(), &self.displacements, segment, load)
     }
 }
 
@@ -96,6 +138,8 @@ pub struct SegmentForces {
     pub length: f64,
     /// Wrench on the segment at its first and second node, in the element frame.
     pub ends: [Vector6<f64>; 2],
+    /// What acts between them, in the element frame: distributed loads, weight, temperature.
+    pub load: BeamLoad,
 }
 
 /// A remark on the numbers of a solution.

@@ -2,17 +2,19 @@
 
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
-use crate::condense::{LOADED, LOADS, UNITS};
+use crate::acting::Acting;
+use crate::condense::{LOADS, UNITS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
 use crate::kinematics::echelon;
+use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, evaluate, node_displacement};
 use crate::plan::{Plan, Workspace};
 use crate::recover::recover;
 use crate::restraint::{Restraint, scaled};
-use crate::solution::{Output, Solution, Warning};
+use crate::solution::{CaseSolution, Output, Solution, State, Warning};
 
 /// A full solve refines down to rounding.
 const ROUNDING: f64 = 1e-15;
@@ -36,6 +38,17 @@ pub struct PoseResult {
     pub stiffness: Option<Matrix6<f64>>,
     /// Displacement of the output under the loads; `None` where the output moves freely.
     pub displacement: Option<Vector6<f64>>,
+    /// The same in each of the model's cases, in their order; none where the output moves freely.
+    pub cases: Vec<Vector6<f64>>,
+}
+
+/// What a full solve finds.
+struct Solved {
+    restraint: Restraint,
+    output: Output,
+    /// One a set of loads.
+    states: Vec<State>,
+    warnings: Vec<Warning>,
 }
 
 /// Solves a model in its own configuration: the shortest way through.
@@ -55,14 +68,60 @@ impl Plan {
     /// As [`solve`].
     pub fn solve(&self, model: &Model) -> Result<Solution, SolveError> {
         let geometry = model.geometry();
+        let acting = Acting::of_model(model, geometry)?;
+        let solved = self.solve_all(model, geometry, &acting)?;
+        let mut states = solved.states.into_iter();
+        let base = states.next().ok_or(SolveError::Singular)?;
+        let cases = model.cases().iter().zip(states);
+        let restraint = solved.restraint;
+        Ok(Solution {
+            unknowns: self.unknowns,
+            mobility: restraint.kinematics.mobility,
+            overconstraint: restraint.kinematics.overconstraint,
+            idle: restraint.idle,
+            output: solved.output,
+            displacements: base.displacements,
+            joint_wrenches: base.joint_wrenches,
+            segments: base.segments,
+            cases: cases
+                .map(|(case, state)| CaseSolution {
+                    name: case.name.clone(),
+                    state,
+                })
+                .collect(),
+            warnings: solved.warnings,
+        })
+    }
+
+    /// What each of these sets of loads alone does in the model's own configuration: without the
+    /// model's loads, and without its weight, temperatures and misfits. One factorization serves
+    /// all of them.
+    ///
+    /// # Errors
+    /// As [`solve`].
+    pub fn respond(&self, model: &Model, sets: &[LoadSet]) -> Result<Vec<State>, SolveError> {
+        let geometry = model.geometry();
+        let acting: Result<Vec<_>, _> = sets
+            .iter()
+            .map(|set| Acting::new(model, geometry, set))
+            .collect();
+        Ok(self.solve_all(model, geometry, &acting?)?.states)
+    }
+
+    fn solve_all(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        acting: &[Acting],
+    ) -> Result<Solved, SolveError> {
         let mut workspace = self.workspace();
-        match self.solve_full(model, geometry, &mut workspace) {
-            Ok(solution) => Ok(solution),
+        match self.solve_full(model, geometry, acting, &mut workspace) {
+            Ok(solved) => Ok(solved),
             Err(Fault::Error(error)) => Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
                 let mut workspace = plan.workspace();
-                settled(plan.solve_full(model, geometry, &mut workspace))
+                settled(plan.solve_full(model, geometry, acting, &mut workspace))
             }
         }
     }
@@ -78,12 +137,13 @@ impl Plan {
         geometry: &Geometry,
         workspace: &mut Workspace,
     ) -> Result<PoseResult, SolveError> {
-        match self.sweep_pose(model, geometry, workspace) {
+        let acting = Acting::of_model(model, geometry)?;
+        match self.sweep_pose(model, geometry, &acting, workspace) {
             Ok(result) => Ok(result),
             Err(Fault::Error(error)) => Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
-                settled(plan.sweep_pose(model, geometry, &mut plan.workspace()))
+                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))
             }
         }
     }
@@ -92,28 +152,30 @@ impl Plan {
         &self,
         model: &Model,
         geometry: &Geometry,
+        acting: &[Acting],
         workspace: &mut Workspace,
-    ) -> Result<Solution, Fault> {
+    ) -> Result<Solved, Fault> {
         let restraint = Restraint::new(model, geometry, self.output);
-        restraint.check_loads(model, geometry)?;
-        evaluate(self, model, geometry, workspace)?;
+        restraint.check_loads(model, geometry, acting)?;
+        evaluate(self, model, geometry, acting, workspace)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         let condensed = self.condense(workspace, &pins, ROUNDING)?;
-        let (output, settled) = self.output(geometry, workspace, &pins, &restraint)?;
-        let recovered = recover(self, model, geometry, workspace)?;
-        let wrenches = recovered.joint_wrenches.iter().flatten();
-        if !recovered
-            .displacements
-            .iter()
-            .chain(wrenches)
-            .flatten()
-            .all(|v| v.is_finite())
-        {
-            return Err(SolveError::Overflow.into());
-        }
+        let (output, displacements, settled) =
+            self.output(geometry, workspace, &pins, &restraint)?;
         let mut warnings = Vec::new();
-        let rigid = restraint.kinematics.doubtful;
-        let doubtful = rigid.or(workspace.doubtful).or(recovered.doubtful);
+        let mut doubtful = restraint.kinematics.doubtful.or(workspace.doubtful);
+        let mut states = Vec::with_capacity(acting.len());
+        for (set, (acting, displacement)) in acting.iter().zip(displacements).enumerate() {
+            let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
+            doubtful = doubtful.or(recovered.doubtful);
+            let state = recovered.state;
+            let wrenches = state.joint_wrenches.iter().flatten();
+            let numbers = state.displacements.iter().chain(wrenches).flatten();
+            if !numbers.into_iter().all(|v| v.is_finite()) {
+                return Err(SolveError::Overflow.into());
+            }
+            states.push(state);
+        }
         if let Some(value) = doubtful {
             let nearly_free = restraint.kinematics.nearly_free.as_ref();
             warnings.push(Warning::NearSingular {
@@ -125,15 +187,10 @@ impl Plan {
         if lost > LOST_DIGITS {
             warnings.push(Warning::LostDigits { residual: lost });
         }
-        Ok(Solution {
-            unknowns: self.unknowns,
-            mobility: restraint.kinematics.mobility,
-            overconstraint: restraint.kinematics.overconstraint,
-            idle: restraint.idle,
+        Ok(Solved {
+            restraint,
             output,
-            displacements: recovered.displacements,
-            joint_wrenches: recovered.joint_wrenches,
-            segments: recovered.segments,
+            states,
             warnings,
         })
     }
@@ -142,50 +199,59 @@ impl Plan {
         &self,
         model: &Model,
         geometry: &Geometry,
+        acting: &[Acting],
         workspace: &mut Workspace,
     ) -> Result<PoseResult, Fault> {
-        evaluate(self, model, geometry, workspace)?;
+        evaluate(self, model, geometry, acting, workspace)?;
         let ready = !self.has_idle && self.output_is_independent();
         let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
         if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
             let stiffness = self.stiffness_by_energy(workspace);
             if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
-                let displacement = if inverse(&stiffness, UNEVEN_PIVOT).is_some() {
-                    compliance * self.output_force(workspace)
-                } else {
-                    self.settle(workspace, &[], &compliance);
-                    self.output_displacement(workspace)
+                let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
+                let mut displacement = |column| {
+                    if even {
+                        compliance * self.output_force(workspace, column)
+                    } else {
+                        self.settle(workspace, &[], &compliance, column);
+                        self.output_displacement(workspace, column)
+                    }
                 };
                 return Ok(PoseResult {
                     stiffness: Some(stiffness),
-                    displacement: Some(displacement),
+                    displacement: Some(displacement(LOADS)),
+                    cases: (1..acting.len()).map(|k| displacement(LOADS + k)).collect(),
                 });
             }
         }
         let restraint = Restraint::new(model, geometry, self.output);
-        restraint.check_loads(model, geometry)?;
+        restraint.check_loads(model, geometry, acting)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         // A sweep has no place for a warning: what does not settle is refused.
         if !converged(self.condense(workspace, &pins, ENOUGH_IN_SWEEP)) {
             return Err(SolveError::Singular.into());
         }
-        let (output, _) = self.output(geometry, workspace, &pins, &restraint)?;
+        let (output, displacements, _) = self.output(geometry, workspace, &pins, &restraint)?;
         let held = output.free_motions.is_empty();
+        let mut displacements = displacements.into_iter().filter(|_| held);
         Ok(PoseResult {
             stiffness: output.stiffness,
-            displacement: held.then_some(output.displacement),
+            displacement: displacements.next(),
+            cases: displacements.collect(),
         })
     }
 
-    /// The output's stiffness, compliance and displacement, and the relative size of the last
-    /// correction of that; completes the loads' column.
+    /// The output's stiffness, compliance and displacement under the first set of loads; its
+    /// displacements under all sets; and the relative size of the last correction of these.
+    /// Completes the sets' columns.
     fn output(
         &self,
         geometry: &Geometry,
         workspace: &mut Workspace,
         pins: &[usize],
         restraint: &Restraint,
-    ) -> Result<(Output, f64), SolveError> {
+    ) -> Result<(Output, Vec<Vector6<f64>>, f64), SolveError> {
+        let sets = LOADS..workspace.columns();
         let size = restraint.size;
         let free_motions = restraint
             .free_twists
@@ -204,16 +270,21 @@ impl Plan {
             } else {
                 None
             };
-            let displacement = node_displacement(self, geometry, workspace, LOADS, self.output);
-            self.find_remainder(workspace, pins, None);
+            let displacements: Vec<_> = sets
+                .clone()
+                .map(|column| node_displacement(self, geometry, workspace, column, self.output))
+                .collect();
+            for column in sets {
+                self.find_remainder(workspace, pins, None, column);
+            }
             let output = Output {
                 stiffness,
                 compliance: (!free).then_some(compliance),
-                displacement,
+                displacement: displacements.first().copied().unwrap_or_default(),
                 rigid_directions,
                 free_motions,
             };
-            return Ok((output, 0.0));
+            return Ok((output, displacements, 0.0));
         }
         let stiffness = self.stiffness_by_energy(workspace);
         let mut held = stiffness;
@@ -227,55 +298,73 @@ impl Plan {
             }
         }
         let compliance = inverse(&held, 0.0).ok_or(SolveError::Singular)?;
-        let last = self.settle(workspace, pins, &compliance);
-        for twist in &restraint.free_twists {
-            self.remove_free_motion(workspace, twist, size);
+        let mut last = 0.0_f64;
+        let mut displacements = Vec::with_capacity(sets.len());
+        for column in sets {
+            last = last.max(self.settle(workspace, pins, &compliance, column));
+            for twist in &restraint.free_twists {
+                self.remove_free_motion(workspace, twist, size, column);
+            }
+            displacements.push(self.output_displacement(workspace, column));
+            self.find_remainder(workspace, pins, Some(&compliance), column);
         }
-        let displacement = self.output_displacement(workspace);
-        self.find_remainder(workspace, pins, Some(&compliance));
         let refined = (!free).then(|| self.refined_compliance(workspace, pins, &compliance));
         let output = Output {
             stiffness: Some(stiffness),
             compliance: refined,
-            displacement,
+            displacement: displacements.first().copied().unwrap_or_default(),
             rigid_directions: Vec::new(),
             free_motions,
         };
-        Ok((output, last))
+        Ok((output, displacements, last))
     }
 
-    /// Takes a free twist of the output (orthonormal, translations over `size`) out of the loads'
+    /// Takes a free twist of the output (orthonormal, translations over `size`) out of a set's
     /// column: no load works on it, so what is there is rounding over next to no stiffness.
-    fn remove_free_motion(&self, workspace: &mut Workspace, twist: &Vector6<f64>, size: f64) {
+    fn remove_free_motion(
+        &self,
+        workspace: &mut Workspace,
+        twist: &Vector6<f64>,
+        size: f64,
+        column: usize,
+    ) {
         let n = self.unknowns;
-        let share = scaled(&self.output_displacement(workspace), size).dot(twist);
+        let share = scaled(&self.output_displacement(workspace, column), size).dot(twist);
         let twist = unscaled(twist, size);
         let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
+        let loads = &mut loads[(column - LOADS) * n..][..n];
         self.add_motions(loads, motions, &(-twist * share));
     }
 
-    /// Displacement of the output, its coordinates being independent, in the loads' column.
-    fn output_displacement(&self, workspace: &Workspace) -> Vector6<f64> {
-        read(&workspace.solutions[LOADS * self.unknowns..], self.inner)
+    /// Displacement of the output, its coordinates being independent, in a set's column.
+    fn output_displacement(&self, workspace: &Workspace, column: usize) -> Vector6<f64> {
+        read(&workspace.solutions[column * self.unknowns..], self.inner)
     }
 
-    /// Completes the loads' column, found with the output clamped: corrections of the output
+    /// Completes a set's column, found with the output clamped: corrections of the output
     /// first (the first finds its displacement), each followed by one of the rest. Returns the
     /// relative size of the output's last correction, by the work it does.
-    fn settle(&self, workspace: &mut Workspace, pins: &[usize], compliance: &Matrix6<f64>) -> f64 {
+    fn settle(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        compliance: &Matrix6<f64>,
+        column: usize,
+    ) -> f64 {
         let n = self.unknowns;
         let (mut first, mut last) = (0.0, 0.0);
         for correction in 0..CORRECTIONS {
-            let force = self.output_force(workspace);
+            let force = self.output_force(workspace, column);
             let step = compliance * force;
             last = force.dot(&step).abs();
             if correction == 0 {
                 first = last;
             }
             let (motions, loads) = workspace.solutions.split_at_mut(LOADS * n);
+            let loads = &mut loads[(column - LOADS) * n..][..n];
             self.add_motions(loads, motions, &step);
-            self.residuals(workspace, LOADED);
-            self.correct(workspace, pins, LOADED);
+            self.residuals(workspace, column..column + 1);
+            self.correct(workspace, pins, column..column + 1);
         }
         if first > 0.0 {
             (last / first).sqrt()

@@ -290,14 +290,14 @@ impl Source<'_> {
                 let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
-            SolveError::LoadOnFreeMotion { load, .. } => self.load(*load),
+            SolveError::LoadOnFreeMotion {
+                load: Some(load), ..
+            } => self.load(*load),
+            SolveError::LoadOnFreeMotion { body, .. } => self.body(*body),
             _ => self.output(),
         };
         let drives = match &error {
-            SolveError::LoadOnFreeMotion { load, .. } => {
-                let node = model.loads()[*load].node;
-                MissingDrives::of(model, model.nodes()[node.0].body)
-            }
+            SolveError::LoadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
             _ => MissingDrives::default(),
         };
         CliError::Unsolvable {

@@ -117,14 +117,14 @@ impl Grid {
         let mut last = None;
         for k in 0..=pieces {
             let xi = k as f64 / pieces as f64;
-            let curve = |displacements: &[Vector6<f64>]| {
-                segment_displacement(model, geometry, displacements, id, xi)
+            let curve = |displacements: &[Vector6<f64>], load| {
+                segment_displacement(model, geometry, displacements, id, load, xi)
             };
-            let moved = curve(&solution.displacements)?;
+            let moved = curve(&solution.displacements, Some(&forces.load))?;
             let mut of_modes = Vec::new();
             for mode in modes.iter().flat_map(|modes| &modes.modes) {
                 of_modes.push(if segment.elements == 1 {
-                    curve(&mode.displacements)?
+                    curve(&mode.displacements, None)?
                 } else {
                     let ends = segment.ends.map(|node| mode.displacements[node.0]);
                     between(&ends, &mode.inner[id.0], xi)

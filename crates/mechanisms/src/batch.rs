@@ -62,6 +62,9 @@ impl Batch {
                 "mechanism",
                 "poses",
                 "loads",
+                "cases",
+                "gravity",
+                "masses",
                 "figures",
                 "vary",
                 "zip",
@@ -168,6 +171,11 @@ impl Job {
     /// given.
     pub fn varied(&self) -> &[Varied] {
         self.designs.as_ref().map_or(&[], Designs::varied)
+    }
+
+    /// Names of its cases, in their order; the same in every design.
+    pub fn cases(&self) -> Vec<String> {
+        self.first.cases()
     }
 
     /// One of the designs, from 0.

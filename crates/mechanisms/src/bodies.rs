@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use hyperstat_assembly::{BodyId, Model};
+use hyperstat_assembly::{BodyId, Model, ModelError};
 use hyperstat_elements::Material;
 use nalgebra::Point3;
 
@@ -69,35 +69,60 @@ pub(crate) fn read(
         let owner = format!("body `{}`", entry.name);
         match arguments {
             Some(given) => {
-                Ok(Fields::read(given, owner, known, &["temperature"])?.within(entry.value))
+                let temperature: &[&str] = &["temperature"];
+                let known = [known, temperature].concat();
+                Ok(Fields::read(given, owner, &known, &[])?.within(entry.value))
             }
             None => Ok(Fields::none(entry.value, owner)),
         }
     };
-    match kind.text() {
+    let (body, fields) = match kind.text() {
         "Beam" => {
             let known = ["through", "section", "material", "y_axis", "elements"];
-            beams::beam(&entry.name, &fields(&known)?, tables, model)
+            let fields = fields(&known)?;
+            (beams::beam(&entry.name, &fields, tables, model)?, fields)
         }
         "Rigid" => {
             let fields = fields(&["points"])?;
             let points = through(&fields, fields.required("points")?, tables)?;
-            model
+            let body = model
                 .add_rigid(&entry.name, &pairs(&points))
-                .map_err(|error| entry.value.error(error.to_string()))
+                .map_err(|error| entry.value.error(error.to_string()))?;
+            (body, fields)
         }
         "Frame" => {
             let known = ["members", "section", "material", "y_axis", "elements"];
-            beams::frame(&entry.name, &fields(&known)?, tables, model)
+            let fields = fields(&known)?;
+            (beams::frame(&entry.name, &fields, tables, model)?, fields)
         }
         "Flexible" => {
             let fields = fields(&["points", "stiffness"])?;
-            flexible::read(&entry.name, &fields, tables, model)
+            (flexible::read(&entry.name, &fields, tables, model)?, fields)
         }
-        other => Err(kind
-            .error(format!("unknown kind of body `{other}`"))
-            .with_help(names::help(other, "kinds of body", KINDS))),
+        other => {
+            return Err(kind
+                .error(format!("unknown kind of body `{other}`"))
+                .with_help(names::help(other, "kinds of body", KINDS)));
+        }
+    };
+    if let Some(given) = fields.get("temperature") {
+        temperature(given, body, model)?;
     }
+    Ok(body)
+}
+
+/// Reads a change of temperature.
+fn temperature(given: Fragment<'_>, body: BodyId, model: &mut Model) -> Result<(), LoadError> {
+    let change = given.number()?;
+    model.set_temperature(body, change).map_err(|error| {
+        let refused = given.error(error.to_string());
+        match error {
+            ModelError::NoExpansion { .. } => {
+                refused.with_help("give its material an `expansion`, in 1/K")
+            }
+            _ => refused.with_help("only a `Beam` or a `Frame` can be heated"),
+        }
+    })
 }
 
 /// Reads a number of elements a segment.

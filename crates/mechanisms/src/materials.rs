@@ -39,8 +39,8 @@ impl Profile {
 
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
-    let known = ["young", "poisson", "shear", "density", "yield"];
-    let fields = Fields::read(fragment, owner, &known, &["expansion"])?;
+    let known = ["young", "poisson", "shear", "density", "expansion", "yield"];
+    let fields = Fields::read(fragment, owner, &known, &[])?;
     let young = fields.number("young")?;
     let poisson = fields.optional_number("poisson")?;
     let shear = fields.optional_number("shear")?;
@@ -58,12 +58,20 @@ pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, 
                 .with_help("add one of them, such as `poisson: 0.3`"));
         }
     };
-    let material = Material::new(young, elasticity, fields.optional_number("density")?);
-    let material = match fields.optional_number("yield")? {
-        Some(strength) => material.and_then(|material| material.with_yield_strength(strength)),
-        None => material,
+    let density = fields.optional_number("density")?;
+    let expansion = fields.optional_number("expansion")?;
+    let yield_strength = fields.optional_number("yield")?;
+    let read = || -> Result<Material, ElementError> {
+        let mut material = Material::new(young, elasticity, density)?;
+        if let Some(expansion) = expansion {
+            material = material.with_expansion(expansion)?;
+        }
+        if let Some(yield_strength) = yield_strength {
+            material = material.with_yield_strength(yield_strength)?;
+        }
+        Ok(material)
     };
-    material.map_err(|error| fields.element_error(&error))
+    read().map_err(|error| fields.element_error(&error))
 }
 
 /// Reads a section, or `Tapered(from: …, to: …)` with two sections.

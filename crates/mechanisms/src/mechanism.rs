@@ -8,6 +8,7 @@ use crate::bodies::{self, Tables, check_name};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
 use crate::fragment::Fragment;
+use crate::loads::{Acting, Home};
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::table::Table;
@@ -37,10 +38,12 @@ impl Mechanism {
             "bodies",
             "joints",
             "loads",
+            "cases",
+            "gravity",
+            "masses",
             "output",
         ];
-        let reserved = ["gravity", "masses", "cases"];
-        let fields = Fields::read(fragment, "the mechanism", &known, &reserved)?;
+        let fields = Fields::read(fragment, "the mechanism", &known, &[])?;
         let mut model = Model::new(fields.required("name")?.string()?);
         let tables = Tables {
             materials: Table::read(fields.get("materials"), "material", |entry, owner| {
@@ -65,12 +68,10 @@ impl Mechanism {
             joints::read(&entry, point, registry, &mut model)?;
             joints.push(entry.key.place());
         }
-        let loads = match fields.get("loads") {
-            Some(list) => loads::read(list, &mut model)?,
-            None => Vec::new(),
-        };
         let output = fields.required("output")?;
         model.set_output(nodes::on(&model, output, "the output")?);
+        let field = |k: usize| fields.get(loads::FIELDS[k]);
+        let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
         Ok(Self {
             model,
             bodies,
@@ -86,10 +87,11 @@ impl Mechanism {
         })
     }
 
-    /// Puts the loads of `list` in place of the mechanism's own.
-    pub(crate) fn replace_loads(&mut self, list: Fragment<'_>) -> Result<(), LoadError> {
-        self.model.clear_loads();
-        self.loads = loads::read(list, &mut self.model)?;
+    /// Puts what a job says of loads, cases, gravity and masses in place of the mechanism's own.
+    pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
+        if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
+            self.loads = loads;
+        }
         Ok(())
     }
 

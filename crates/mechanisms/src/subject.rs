@@ -1,10 +1,12 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
 use hyperstat_assembly::{Geometry, Model};
+use nalgebra::{Rotation3, Vector3};
 
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
+use crate::loads::{Acting, Home};
 use crate::mechanism::Mechanism;
 use crate::mover::Mover;
 use crate::parameters::Kind;
@@ -13,7 +15,7 @@ use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::targets::Targets;
-use crate::{load, loads, names, parameters};
+use crate::{load, names, parameters};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug)]
@@ -22,7 +24,7 @@ pub(crate) struct Recipe {
     root: Place,
     /// Kind of a prebuilt mechanism; `None` is a file.
     kind: Option<&'static Kind>,
-    loads: Option<Place>,
+    acting: Acting,
     registry: Registry,
 }
 
@@ -81,7 +83,7 @@ impl Recipe {
         Ok(Self {
             root,
             kind,
-            loads: fields.get("loads").map(Fragment::place),
+            acting: Acting::find(fields),
             registry: registry.clone(),
         })
     }
@@ -96,9 +98,7 @@ impl Recipe {
         match self.kind {
             None => {
                 let mut mechanism = Mechanism::read(root, &self.registry)?;
-                if let Some(list) = &self.loads {
-                    mechanism.replace_loads(Fragment::at(list))?;
-                }
+                mechanism.replace(&self.acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
             Some(kind) => {
@@ -124,8 +124,9 @@ impl Recipe {
             }
             Checked::Prebuilt(mechanism) => {
                 let mut template = template(mechanism.as_ref(), poses, similar);
-                if let (Ok(template), Some(list)) = (&mut template, &self.loads) {
-                    loads::read(Fragment::at(list), &mut template.model)?;
+                if let Ok(template) = &mut template {
+                    let home = Home::Output(template.turned(mechanism.as_ref()));
+                    self.acting.read(&mut template.model, &home)?;
                 }
                 Ok(Subject::Prebuilt {
                     mechanism,
@@ -133,6 +134,18 @@ impl Recipe {
                 })
             }
         }
+    }
+}
+
+impl Template {
+    /// The rotation of the output from its home orientation.
+    fn turned(&self, mechanism: &dyn Prebuilt) -> Rotation3<f64> {
+        let (target, count) = given(mechanism, &self.pose);
+        let mut geometry = self.model.geometry().clone();
+        // It has been reached before.
+        let pose = mechanism.place(&target[..count], &mut geometry);
+        let [.., x, y, z] = pose.unwrap_or(self.pose);
+        Rotation3::new(Vector3::new(x, y, z))
     }
 }
 
@@ -176,6 +189,19 @@ impl Subject {
                 Err(error) => Err(error.clone()),
             },
         }
+    }
+
+    /// Names of its cases; none where no pose can be reached.
+    pub(crate) fn cases(&self) -> Vec<String> {
+        let model = match self {
+            Self::File { mechanism, .. } => &mechanism.model,
+            Self::Prebuilt { template, .. } => match template {
+                Ok(template) => &template.model,
+                Err(_) => return Vec::new(),
+            },
+        };
+        let cases = model.cases().iter();
+        cases.map(|case| case.name.clone()).collect()
     }
 
     /// Brings a geometry of its model to pose `number` (from 0); returns the whole pose.

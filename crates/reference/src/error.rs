@@ -9,6 +9,12 @@ pub enum ReferenceError {
     /// The model has no output node.
     #[error("the model has no output node")]
     NoOutput,
+    /// Loads that the dense solvers do not know.
+    #[error(
+        "the dense solver knows forces and moments on points in global axes only: no gravity, no \
+         temperature, no loads along beams or in axes that turn"
+    )]
+    Loads,
     /// More coordinates than a dense matrix should have.
     #[error(
         "the model has {coordinates} displacement coordinates; the dense solver takes at most {limit}"

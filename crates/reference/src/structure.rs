@@ -51,6 +51,9 @@ impl Structure {
                 joint: connection.name.clone(),
             })?);
         }
+        if !model.has_plain_loads() {
+            return Err(ReferenceError::Loads);
+        }
         let mut loads = DVector::zeros(6 * positions.len());
         for load in model.loads() {
             let mut block = loads.fixed_rows_mut::<6>(6 * load.node.0);

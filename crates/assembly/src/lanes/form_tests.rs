@@ -159,7 +159,7 @@ impl WithSimd for FormAll<'_> {
 /// Stiffnesses of all clusters with their first nodes held, in global axes.
 fn scalar(plan: &Plan, model: &Model, pose: &Geometry) -> Vec<DMatrix<f64>> {
     let mut workspace = plan.workspace();
-    assert!(evaluate(plan, model, pose, &mut workspace).is_ok());
+    assert!(evaluate(plan, model, pose, &[], &mut workspace).is_ok());
     let mut all = Vec::new();
     for element in &plan.elements {
         let Source::Cluster(k) = element.source else {

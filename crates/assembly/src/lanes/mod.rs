@@ -86,7 +86,9 @@ impl Plan {
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let engine = Program::new(self, model, model.geometry()).map(|program| {
+        let program = Some(()).filter(|()| model.has_plain_loads() && model.cases().is_empty());
+        let program = program.and_then(|()| Program::new(self, model, model.geometry()));
+        let engine = program.map(|program| {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
@@ -193,6 +195,7 @@ impl Engine {
         sound.then_some(PoseResult {
             stiffness: Some(stiffness),
             displacement: Some(displacement),
+            cases: Vec::new(),
         })
     }
 }

@@ -261,7 +261,7 @@ impl Program {
         };
 
         let mut workspace = plan.workspace();
-        evaluate(plan, model, geometry, &mut workspace).ok()?;
+        evaluate(plan, model, geometry, &[], &mut workspace).ok()?;
         let mut elements = Vec::new();
         let mut springs = Vec::new();
         let mut weights = Vec::new();
@@ -500,7 +500,7 @@ impl Held<'_> {
                     parts: CompliancePart::all_of(&elastic.compliance),
                     turned: elastic.turned_compliance(),
                     node,
-                    load: crate::numeric::node_load(model, cluster.nodes[node]),
+                    load: model.node_load(cluster.nodes[node]),
                 })
                 .collect(),
         })

@@ -246,13 +246,13 @@ impl ModalPlan {
         let mut workspace = self.ready.plan.workspace();
         let mut changed = None;
         let mut ready = &self.ready;
-        match evaluate(&ready.plan, &self.divided, &geometry, &mut workspace) {
+        match evaluate(&ready.plan, &self.divided, &geometry, &[], &mut workspace) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 ready = changed.insert(Ready::new(&self.divided, &geometry)?);
                 workspace = ready.plan.workspace();
-                let again = evaluate(&ready.plan, &self.divided, &geometry, &mut workspace);
+                let again = evaluate(&ready.plan, &self.divided, &geometry, &[], &mut workspace);
                 again.map_err(|fault| match fault {
                     Fault::Error(error) => error,
                     Fault::Changed => SolveError::Singular,

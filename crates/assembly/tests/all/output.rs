@@ -122,8 +122,9 @@ fn a_load_on_a_free_motion_is_refused_and_named() {
     match solve(&model) {
         Err(SolveError::LoadOnFreeMotion {
             node,
-            load: 0,
+            load: Some(0),
             motion,
+            ..
         }) => {
             assert_eq!(node, "bar.T");
             assert_eq!(motion, "`bar` turns about (0, 0, 1) through O");

@@ -90,8 +90,13 @@ pub(crate) struct Columns<'a> {
 impl<'a> Columns<'a> {
     /// Those of a job.
     pub(crate) fn of(job: &'a Job) -> Self {
+        let components = ["dx", "dy", "dz", "drx", "dry", "drz"];
+        let cases = job.cases().into_iter();
         Self {
-            further: frequencies(job).collect(),
+            further: cases
+                .flat_map(|case| components.map(|component| format!("{case}.{component}")))
+                .chain(frequencies(job))
+                .collect(),
             varied: job.varied(),
         }
     }
@@ -113,7 +118,7 @@ impl TryFrom<PoseResult> for Found {
         Ok(Self {
             displacement: result.displacement.ok_or(Failure::Free)?,
             stiffness: result.stiffness.ok_or(Failure::Rigid)?,
-            further: Vec::new(),
+            further: result.cases.iter().flatten().copied().map(Some).collect(),
         })
     }
 }

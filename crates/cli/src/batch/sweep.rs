@@ -301,7 +301,7 @@ impl Solver {
                         let mut result = result.map_err(Failure::Solve).and_then(Found::try_from);
                         if let Ok(found) = &mut result {
                             match planned.further(lanes.geometry_mut(lane)) {
-                                Ok(further) => found.further = further,
+                                Ok(further) => found.further.extend(further),
                                 Err(error) => result = Err(error.into()),
                             }
                         }

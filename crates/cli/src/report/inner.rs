@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use hyperstat_assembly::{Model, SegmentId, Solution, SolveError};
+use nalgebra::Vector6;
 
 use super::{Entries, numbers};
 
@@ -12,9 +13,19 @@ pub(crate) fn inner_displacements(
     model: &Model,
     solution: &Solution,
 ) -> Result<Entries<[f64; 6]>, SolveError> {
+    inner_displacements_of(model, |segment| {
+        solution.inner_displacements(model, segment)
+    })
+}
+
+/// The same of a state whose displacements inside a segment `find` gives.
+pub(super) fn inner_displacements_of(
+    model: &Model,
+    find: impl Fn(SegmentId) -> Result<Vec<Vector6<f64>>, SolveError>,
+) -> Result<Entries<[f64; 6]>, SolveError> {
     let mut entries = Vec::new();
     for (k, name) in segment_names(model).into_iter().enumerate() {
-        let found = solution.inner_displacements(model, SegmentId(k))?;
+        let found = find(SegmentId(k))?;
         let named = found.iter().enumerate();
         entries.extend(named.map(|(k, u)| (format!("{name}.{}", k + 1), numbers(u))));
     }

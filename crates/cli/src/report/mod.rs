@@ -1,5 +1,6 @@
 //! What `solve` and `check` print: plain data that JSON and the tables are both made from.
 
+mod cases;
 mod check;
 mod forces;
 mod inner;
@@ -18,6 +19,7 @@ use serde::{Serialize, Serializer};
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
 pub(crate) use inner::inner_displacements;
+use inner::inner_displacements_of;
 pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
@@ -44,6 +46,12 @@ pub(crate) struct Entries<T>(Vec<(String, T)>);
 impl<T> FromIterator<(String, T)> for Entries<T> {
     fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
         Self(entries.into_iter().collect())
+    }
+}
+
+impl<T> Entries<T> {
+    fn is_empty(&self) -> bool {
+        self.0.is_empty()
     }
 }
 

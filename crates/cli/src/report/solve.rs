@@ -3,9 +3,12 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{Model, Segment, SegmentForces, SegmentId, Solution, describe_motions};
-use hyperstat_elements::stress::{largest_stress, section_stress};
+use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
+use hyperstat_elements::{BeamLoad, Taper};
+use nalgebra::Vector6;
 use serde::Serialize;
 
+use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
 use super::why::Why;
 use super::{
@@ -44,6 +47,8 @@ pub(crate) struct SolveReport {
     bodies: Entries<BodyReport>,
     #[serde(flatten)]
     why: Option<Why>,
+    #[serde(skip_serializing_if = "Entries::is_empty")]
+    cases: Entries<CaseReport>,
 }
 
 #[derive(Debug, Serialize)]
@@ -58,7 +63,7 @@ struct OutputReport {
 }
 
 #[derive(Debug, Serialize)]
-struct JointReport {
+pub(super) struct JointReport {
     /// On the second body of `between`, at the joint, in the joint frame.
     wrench: Option<[f64; 6]>,
     /// The same on the first body.
@@ -66,7 +71,7 @@ struct JointReport {
 }
 
 #[derive(Debug, Serialize)]
-struct SegmentReport {
+pub(super) struct SegmentReport {
     body: String,
     /// Names of the points at its first and second node.
     points: [String; 2],
@@ -116,12 +121,7 @@ impl SolveReport {
                 .map(|(name, displacement)| (name, numbers(displacement)))
                 .collect(),
             joints: joints
-                .map(|(joint, wrench)| {
-                    let second = wrench.as_ref().map(numbers);
-                    let first = wrench.as_ref().map(|wrench| numbers(&-wrench));
-                    let wrench = second;
-                    (joint.name.clone(), JointReport { wrench, first })
-                })
+                .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
                 .collect(),
             undetermined: solution
                 .undetermined()
@@ -141,6 +141,7 @@ impl SolveReport {
             modes: None,
             bodies: bodies(model, solution),
             why: None,
+            cases: cases(model, solution),
         }
     }
 
@@ -187,6 +188,9 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        for (name, case) in &self.cases.0 {
+            case.write(name, &mut text);
+        }
         if let Some(modes) = &self.modes {
             modes.write(&mut text);
         }
@@ -213,13 +217,7 @@ impl SolveReport {
         if self.joints.0.is_empty() {
             return;
         }
-        let mut table = Table::new(1, &heads(&["joint"], WRENCH));
-        for (name, joint) in &self.joints.0 {
-            match joint.wrench {
-                Some(wrench) => table.row(&[name], wrench),
-                None => table.remark(&[name], "not determined by statics"),
-            }
-        }
+        let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
         section(
             text,
             "Joint wrenches, on the second body, at the joint, in the joint frame [N, N·m]",
@@ -236,27 +234,55 @@ impl SolveReport {
         if self.segments.is_empty() {
             return;
         }
-        let mut forces = Table::new(3, &heads(&["body", "segment", "at"], WRENCH));
-        let mut stresses = Table::new(2, &["body", "segment", "normal", "shear", "von Mises"]);
-        for segment in &self.segments {
-            let name = segment.points.join("-");
-            for (point, wrench) in segment.points.iter().zip(segment.end_forces) {
-                forces.row(&[&segment.body, &name, point], wrench);
-            }
-            match &segment.stress {
-                Some(stress) => stresses.row(
-                    &[&segment.body, &name],
-                    [stress.normal, stress.shear, stress.von_mises],
-                ),
-                None => stresses.remark(&[&segment.body, &name], "not found for this section"),
-            }
-        }
+        let (forces, stresses) = segment_tables(&self.segments);
         section(
             text,
             "Forces on the ends of segments, in the element frame [N, N·m]",
             forces,
         );
         section(text, "Largest stresses of segments [Pa]", stresses);
+    }
+}
+
+/// The wrenches of joints as a table.
+pub(super) fn joint_table(joints: &Entries<JointReport>, heads: Vec<&str>) -> Table {
+    let mut table = Table::new(1, &heads);
+    for (name, joint) in &joints.0 {
+        match joint.wrench {
+            Some(wrench) => table.row(&[name], wrench),
+            None => table.remark(&[name], "not determined by statics"),
+        }
+    }
+    table
+}
+
+/// The forces on the ends of segments and their largest stresses as tables.
+pub(super) fn segment_tables(segments: &[SegmentReport]) -> (Table, Table) {
+    let mut forces = Table::new(3, &heads(&["body", "segment", "at"], WRENCH));
+    let mut stresses = Table::new(2, &["body", "segment", "normal", "shear", "von Mises"]);
+    for segment in segments {
+        let name = segment.points.join("-");
+        for (point, wrench) in segment.points.iter().zip(segment.end_forces) {
+            forces.row(&[&segment.body, &name, point], wrench);
+        }
+        match &segment.stress {
+            Some(stress) => stresses.row(
+                &[&segment.body, &name],
+                [stress.normal, stress.shear, stress.von_mises],
+            ),
+            None => stresses.remark(&[&segment.body, &name], "not found for this section"),
+        }
+    }
+    (forces, stresses)
+}
+
+impl JointReport {
+    /// Of a wrench, where statics determines it.
+    pub(super) fn new(wrench: Option<&Vector6<f64>>) -> Self {
+        Self {
+            wrench: wrench.map(numbers),
+            first: wrench.map(|wrench| numbers(&-wrench)),
+        }
     }
 }
 
@@ -321,7 +347,12 @@ impl OutputReport {
 }
 
 impl SegmentReport {
-    fn new(model: &Model, id: SegmentId, segment: &Segment, forces: &SegmentForces) -> Self {
+    pub(super) fn new(
+        model: &Model,
+        id: SegmentId,
+        segment: &Segment,
+        forces: &SegmentForces,
+    ) -> Self {
         let frame = forces.frame.matrix();
         Self {
             body: model.bodies()[segment.body.0].name.clone(),
@@ -336,11 +367,21 @@ impl SegmentReport {
 }
 
 impl StressReport {
-    //    /// The largest stresses lie at an end where the section does not change: between the ends no
-    /// load acts, so that moments are linear, and all three stresses are convex in the section's
+    /// Where the section does not change and no load acts between the ends, the largest stresses
+    /// lie at an end: moments are linear, and all three stresses are convex in the section's
     /// wrench. Else they are searched for.
     fn new(segment: &Segment, forces: &SegmentForces) -> Option<Self> {
         let ends = &forces.ends;
+        if forces.load != BeamLoad::none() {
+            let taper = segment.change_of_section().ok()?;
+            let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
+            let largest = stress_along(&taper, forces.length, &ends[1], &forces.load)?;
+            return Some(Self {
+                normal: largest.normal.value,
+                shear: largest.torsional.value,
+                von_mises: largest.von_mises.value,
+            });
+        }
         if let Ok(Some(taper)) = segment.change_of_section() {
             let largest = largest_stress(&taper, forces.length, &ends[1])?;
             return Some(Self {

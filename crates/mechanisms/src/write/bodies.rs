@@ -74,6 +74,10 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Parts) -> Result<Stri
             body: body.name.clone(),
         });
     }
+    let temperature = match body.temperature {
+        0.0 => String::new(),
+        change => format!(", temperature: {}", number(change)),
+    };
     let members: Vec<_> = (body.segments.iter())
         .map(|id| member(model, *id, &body.name, parts))
         .collect();
@@ -96,7 +100,7 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Parts) -> Result<Stri
         };
         let rest = &members[0].rest;
         return Ok(format!(
-            "Beam(through: [{names}], section: {section}, {rest})"
+            "Beam(through: [{names}], section: {section}, {rest}{temperature})"
         ));
     }
     let members: Vec<_> = (members.iter())
@@ -109,7 +113,8 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Parts) -> Result<Stri
             format!("(through: [{first:?}, {second:?}], section: {section}, {rest})")
         })
         .collect();
-    Ok(format!("Frame(members: [{}])", members.join(", ")))
+    let members = members.join(", ");
+    Ok(format!("Frame(members: [{members}]{temperature})"))
 }
 
 /// A segment's parts in a file.
@@ -146,13 +151,16 @@ fn material(material: &Material) -> String {
         Elasticity::Poisson(poisson) => format!("poisson: {}", number(poisson)),
         Elasticity::Shear(shear) => format!("shear: {}", number(shear)),
     };
-    let density = material.density().map(|density| ("density", density));
-    let strength = material
-        .yield_strength()
-        .map(|strength| ("yield", strength));
+    let more = [
+        ("density", material.density()),
+        ("expansion", material.expansion()),
+        ("yield", material.yield_strength()),
+    ];
+    let more = more
+        .into_iter()
+        .filter_map(|(name, value)| Some((name, value?)));
     let young = number(material.young());
-    let optional = density.into_iter().chain(strength);
-    fields(vec![format!("young: {young}"), second], optional)
+    fields(vec![format!("young: {young}"), second], more)
 }
 
 fn profile((from, to): &(Section, Option<Section>)) -> String {

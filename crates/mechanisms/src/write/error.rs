@@ -23,6 +23,9 @@ pub enum WriteError {
         /// Name of the body.
         body: String,
     },
+    /// A load in axes that turn with a body of which nothing says how it lies.
+    #[error(transparent)]
+    Axes(#[from] hyperstat_assembly::SolveError),
     /// A joint between two points of different names.
     #[error("joint `{joint}` joins point `{first}` to point `{second}`")]
     TwoPoints {

@@ -1,5 +1,6 @@
 //! A model as a mechanism file: the text that loads as the same model.
 
+mod acting;
 mod bodies;
 mod error;
 mod joints;
@@ -44,18 +45,7 @@ pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
     map(&mut text, "points", &points);
     map(&mut text, "bodies", &written_bodies);
     map(&mut text, "joints", &written_joints);
-    if !model.loads().is_empty() {
-        text += "    loads: [\n";
-        for load in model.loads() {
-            let [force, moment] = [0, 3].map(|k| vector(&load.wrench.fixed_rows::<3>(k).into()));
-            let on = place(model, load.node);
-            let _ = writeln!(
-                text,
-                "        (on: {on}, force: {force}, moment: {moment}),"
-            );
-        }
-        text += "    ],\n";
-    }
+    acting::acting(model, &mut text)?;
     let _ = writeln!(text, "    output: {},\n)", place(model, output));
     Ok(text)
 }

@@ -7,4 +7,5 @@ mod designs;
 mod fuzzing;
 mod loading;
 mod mutations;
+mod states;
 mod writing;

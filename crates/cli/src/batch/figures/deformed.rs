@@ -43,9 +43,11 @@ fn curve(model: &Model, solution: &Solution, segment: SegmentId) -> Result<Curve
     let ends = model.segments()[segment.0].ends;
     let [start, end] = ends.map(|node| geometry.positions[node.0]);
     let at = |k: usize| k as f64 / (SAMPLES - 1) as f64;
+    let load = solution.segments.get(segment.0).map(|forces| &forces.load);
     let displacement = |k| {
         let displacements = &solution.displacements;
-        segment_displacement(model, geometry, displacements, segment, at(k)).map(|u| linear(&u))
+        segment_displacement(model, geometry, displacements, segment, load, at(k))
+            .map(|u| linear(&u))
     };
     Ok(Curve {
         points: (0..SAMPLES)

@@ -1,0 +1,86 @@
+//! The cases of a mechanism in the report of `hyperstat solve`: each with what the base state has.
+
+use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, State};
+use serde::Serialize;
+
+use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
+use super::{
+    DISPLACEMENT, Entries, Table, WRENCH, heads, inner_displacements_of, numbers, section,
+};
+
+/// What a case does. Field names are those of the JSON output.
+#[derive(Debug, Serialize)]
+pub(super) struct CaseReport {
+    output: Output,
+    displacements: Entries<[f64; 6]>,
+    joints: Entries<JointReport>,
+    segments: Vec<SegmentReport>,
+}
+
+#[derive(Debug, Serialize)]
+struct Output {
+    displacement: [f64; 6],
+}
+
+/// The cases of a solution by name.
+pub(super) fn cases(model: &Model, solution: &Solution) -> Entries<CaseReport> {
+    let report = |case: &CaseSolution| (case.name.clone(), CaseReport::new(model, &case.state));
+    solution.cases.iter().map(report).collect()
+}
+
+impl CaseReport {
+    fn new(model: &Model, state: &State) -> Self {
+        let nodes = (0..model.nodes().len()).map(NodeId);
+        let named = nodes.map(|node| {
+            let displacement = &state.displacements[node.0];
+            (model.node_name(node), numbers(displacement))
+        });
+        let mut displacements: Entries<_> = named.collect();
+        // What cannot be formed is told by the base state.
+        let inner = inner_displacements_of(model, |id| state.inner_displacements(model, id));
+        displacements.0.extend(inner.into_iter().flat_map(|e| e.0));
+        let joints = model.joints().iter().zip(&state.joint_wrenches);
+        let segments = model.segments().iter().zip(&state.segments);
+        Self {
+            output: Output {
+                displacement: numbers(&state.output),
+            },
+            displacements,
+            joints: joints
+                .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
+                .collect(),
+            segments: segments
+                .enumerate()
+                .map(|(k, (segment, forces))| {
+                    SegmentReport::new(model, SegmentId(k), segment, forces)
+                })
+                .collect(),
+        }
+    }
+
+    /// The case as tables.
+    pub(super) fn write(&self, name: &str, text: &mut String) {
+        let title = |what: &str| format!("Case `{name}`: {what}");
+        let mut table = Table::new(0, &DISPLACEMENT);
+        table.row(&[], self.output.displacement);
+        section(text, &title("displacement of the output [m, rad]"), table);
+        let mut table = Table::new(1, &heads(&["node"], DISPLACEMENT));
+        for (name, displacement) in &self.displacements.0 {
+            table.row(&[name], *displacement);
+        }
+        section(text, &title("displacements [m, rad]"), table);
+        if !self.joints.0.is_empty() {
+            let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
+            section(text, &title("joint wrenches [N, N·m]"), table);
+        }
+        if !self.segments.is_empty() {
+            let (forces, stresses) = segment_tables(&self.segments);
+            section(
+                text,
+                &title("forces on the ends of segments [N, N·m]"),
+                forces,
+            );
+            section(text, &title("largest stresses of segments [Pa]"), stresses);
+        }
+    }
+}

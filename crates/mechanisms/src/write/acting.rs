@@ -1,0 +1,101 @@
+//! Loads, cases, gravity and masses.
+
+use std::fmt::Write as _;
+
+use hyperstat_assembly::{Axes, LineLoad, LoadSet, Model, SolveError};
+use nalgebra::{Rotation3, Vector3, Vector6};
+
+use super::numbers::{fields, number, vector};
+use super::place;
+
+/// Writes what acts on a model, every field of which there is something. Loads that turn with a
+/// body are written as they are in this configuration.
+pub(super) fn acting(model: &Model, text: &mut String) -> Result<(), SolveError> {
+    let loads = set(model, model.load_set())?;
+    // Writing to a String cannot fail.
+    if !loads.is_empty() {
+        let _ = writeln!(text, "    loads: {},", list(&loads, 4));
+    }
+    if !model.cases().is_empty() {
+        *text += "    cases: {\n";
+        for case in model.cases() {
+            let loads = list(&set(model, &case.loads)?, 8);
+            let _ = writeln!(text, "        {:?}: {loads},", case.name);
+        }
+        *text += "    },\n";
+    }
+    if *model.gravity() != Vector3::zeros() {
+        let _ = writeln!(text, "    gravity: {},", vector(model.gravity()));
+    }
+    let masses: Vec<_> = (model.masses().iter())
+        .map(|entry| {
+            let j = entry.mass.inertia();
+            let mut given = vec![
+                format!("on: {}", place(model, entry.node)),
+                format!("mass: {}", number(entry.mass.mass())),
+            ];
+            if j.amax() > 0.0 {
+                let diagonal = [j[(0, 0)], j[(1, 1)], j[(2, 2)]];
+                let beside = [j[(0, 1)], j[(0, 2)], j[(1, 2)]];
+                let entries = diagonal.into_iter().chain(beside).map(number);
+                let entries: Vec<_> = entries.collect();
+                given.push(format!("inertia: ({})", entries.join(", ")));
+            }
+            fields(given, [])
+        })
+        .collect();
+    if !masses.is_empty() {
+        let _ = writeln!(text, "    masses: {},", list(&masses, 4));
+    }
+    Ok(())
+}
+
+/// A list, an entry a line.
+fn list(entries: &[String], indent: usize) -> String {
+    if entries.is_empty() {
+        return "[]".into();
+    }
+    let space = " ".repeat(indent);
+    let lines: String = (entries.iter())
+        .map(|entry| format!("{space}    {entry},\n"))
+        .collect();
+    format!("[\n{lines}{space}]")
+}
+
+/// The loads of a set.
+fn set(model: &Model, set: &LoadSet) -> Result<Vec<String>, SolveError> {
+    let mut written = Vec::new();
+    for load in &set.nodes {
+        let [force, moment] = parts(&load.wrench, &turn(model, &load.axes)?);
+        let on = place(model, load.node);
+        written.push(format!("(on: {on}, force: {force}, moment: {moment})"));
+    }
+    for load in &set.lines {
+        let turn = turn(model, &load.axes)?;
+        let on = segment(model, load);
+        let [[from, moment], [to, _]] = load.ends.map(|end| parts(&end, &turn));
+        written.push(format!("(on: {on}, from: {from}, to: {to})"));
+        if load.ends[0].fixed_rows::<3>(3).amax() > 0.0 {
+            written.push(format!("(on: {on}, moment_per_length: {moment})"));
+        }
+    }
+    Ok(written)
+}
+
+/// Rotation of a load's axes from the global ones.
+fn turn(model: &Model, axes: &Axes) -> Result<Rotation3<f64>, SolveError> {
+    axes.rotation(model, model.geometry())
+}
+
+/// Force and moment in global axes.
+fn parts(wrench: &Vector6<f64>, turn: &Rotation3<f64>) -> [String; 2] {
+    [0, 3].map(|k| vector(&(turn * wrench.fixed_rows::<3>(k))))
+}
+
+/// `("body", "A", "B")`.
+fn segment(model: &Model, load: &LineLoad) -> String {
+    let segment = &model.segments()[load.segment.0];
+    let body = &model.bodies()[segment.body.0].name;
+    let [a, b] = segment.ends.map(|node| &model.nodes()[node.0].point);
+    format!("({body:?}, {a:?}, {b:?})")
+}
