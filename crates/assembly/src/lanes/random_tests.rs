@@ -1,0 +1,281 @@
+//! The lanes against the one-by-one path, wherever their estimate lets them answer, on random
+//! mechanisms: a platform on limbs of beams, with joints of every kind, elastic, locked or free.
+
+use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+use hyperstat_joints::{
+    Cylindrical, DofSet, Fixed, Joint, Prismatic, Revolute, Spherical, Universal, frame_from_axes,
+};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+
+use super::pass::{DISPLACEMENT, ERROR, PIVOT};
+use super::{LANES, Lanes};
+use crate::model::{Connection, Geometry, JointStiffness, Member, Model};
+use crate::plan::Plan;
+use crate::solve::PoseResult;
+
+/// Mechanisms.
+const CASES: usize = 300;
+/// Lanes against one by one: relative to √(K_ii K_jj); of a displacement with its components times
+/// √K_ii, so that translations and rotations can be compared, to the largest one.
+const AGREEMENT: f64 = 1e-11;
+
+/// Random numbers, the same in every run (xorshift64).
+struct Random(u64);
+
+impl Random {
+    /// Between 0 and 1.
+    fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.unit() * count as f64) as usize
+    }
+
+    fn vector(&mut self, size: f64) -> Vector3<f64> {
+        [0; 3].map(|_| self.between(-size, size)).into()
+    }
+
+    fn turn(&mut self, size: f64) -> Rotation3<f64> {
+        let [x, y, z] = self.vector(size).into();
+        Rotation3::from_euler_angles(x, y, z)
+    }
+
+    fn section(&mut self, round: bool) -> Section {
+        let size = self.between(0.01, 0.05);
+        let shape = if round {
+            SectionShape::Circle { diameter: size }
+        } else {
+            let height = size * self.between(0.5, 2.0);
+            SectionShape::Rectangle {
+                width: size,
+                height,
+            }
+        };
+        Section::new(shape, None, None).expect("a section")
+    }
+
+    fn joint(&mut self) -> (Box<dyn Joint>, DofSet, JointStiffness) {
+        let joint: Box<dyn Joint> = match self.below(8) {
+            0 => Box::new(Revolute),
+            1 => Box::new(Prismatic),
+            2 => Box::new(Cylindrical),
+            3 => Box::new(Universal),
+            4 => Box::new(Spherical),
+            _ => Box::new(Fixed),
+        };
+        let locked = if self.unit() < 0.6 {
+            joint.free()
+        } else {
+            DofSet::EMPTY
+        };
+        let mut stiffness = [None; 6];
+        if self.unit() < 0.5 {
+            for (d, stiffness) in stiffness.iter_mut().enumerate() {
+                let least = if d < 3 { 6.0 } else { 2.5 };
+                if self.unit() < 0.7 {
+                    *stiffness = Some(10.0_f64.powf(self.between(least, least + 3.0)));
+                }
+            }
+        }
+        (joint, locked, JointStiffness::Directions(stiffness))
+    }
+}
+
+/// Adds a joint between two nodes at one point, or a node and the ground.
+fn join(model: &mut Model, random: &mut Random, between: [&str; 2], point: &str) -> Option<()> {
+    let (joint, locked, stiffness) = random.joint();
+    let frame = frame_from_axes(&random.vector(1.0), &random.vector(1.0)).ok()?;
+    let connection = Connection {
+        name: format!("j{}", model.joints().len()),
+        between: between.map(|body| model.node(body, point)),
+        joint,
+        locked,
+        stiffness,
+    };
+    model.add_joint(connection, frame).ok()?;
+    Some(())
+}
+
+/// A platform on two to four limbs of up to three beams each; points are numbered.
+fn mechanism(random: &mut Random) -> Option<Model> {
+    let mut model = Model::new("random");
+    let steel = Material::new(2e11, Elasticity::Poisson(0.3), None).ok()?;
+    let limbs = 2 + random.below(3);
+    let names: Vec<String> = (0..40).map(|k| format!("p{k}")).collect();
+    let above = Point3::new(0.0, 0.0, 0.8);
+    let tops: Vec<_> = (0..limbs)
+        .map(|k| (names[k].as_str(), above + random.vector(0.3)))
+        .collect();
+    model.add_rigid("platform", &tops).ok()?;
+    let mut next = limbs;
+    for limb in 0..limbs {
+        let (mut before, mut at) = ("platform".to_string(), tops[limb]);
+        let bodies = 1 + random.below(3);
+        for body in 0..bodies {
+            let name = format!("b{limb}-{body}");
+            let mut points = vec![at];
+            for _ in 0..1 + random.below(2) {
+                let step = random.vector(0.3) - Vector3::z() * 0.2;
+                let (_, from) = points[points.len() - 1];
+                points.push((names[next].as_str(), from + step));
+                next += 1;
+            }
+            if points.windows(2).any(|w| (w[1].1 - w[0].1).norm() < 0.1) {
+                return None;
+            }
+            let round = random.unit() < 0.5;
+            let members: Vec<_> = (1..points.len())
+                .map(|k| Member {
+                    ends: if random.unit() < 0.5 {
+                        [k - 1, k]
+                    } else {
+                        [k, k - 1]
+                    },
+                    material: steel.clone(),
+                    section: random.section(round),
+                    taper: (random.unit() < 0.3).then(|| random.section(round)),
+                    y_axis: None,
+                    elements: 1,
+                })
+                .collect();
+            model.add_elastic(&name, &points, &members).ok()?;
+            join(&mut model, random, [&before, &name], at.0)?;
+            (before, at) = (name, points[points.len() - 1]);
+        }
+        join(&mut model, random, [&before, "ground"], at.0)?;
+    }
+    let nodes = model.nodes().len();
+    model.set_output(crate::model::NodeId(0));
+    for _ in 0..1 + random.below(2) {
+        let (force, moment) = (random.vector(100.0), random.vector(10.0));
+        let node = crate::model::NodeId(random.below(nodes));
+        let wrench = Vector6::from_fn(|k, _| if k < 3 { force[k] } else { moment[k - 3] });
+        model.add_load(node, wrench).ok()?;
+    }
+    Some(model)
+}
+
+/// Another configuration: every other one turned as a whole, the others with all points and joint
+/// frames moved, a little or much. What is joined stays joined.
+fn pose(model: &Model, random: &mut Random, k: usize) -> Geometry {
+    let mut geometry = model.geometry().clone();
+    if k.is_multiple_of(2) {
+        let (turn, step) = (random.turn(3.0), random.vector(1.0));
+        for point in &mut geometry.positions {
+            *point = turn * *point + step;
+        }
+        for frame in &mut geometry.frames {
+            *frame = turn * *frame;
+        }
+        return geometry;
+    }
+    let size = if k % 4 == 1 { 0.03 } else { 1e-3 };
+    let steps: Vec<_> = (0..40).map(|_| random.vector(size)).collect();
+    for (node, point) in model.nodes().iter().zip(&mut geometry.positions) {
+        let number: usize = node.point[1..].parse().expect("a number");
+        *point += steps[number];
+    }
+    for frame in &mut geometry.frames {
+        *frame = random.turn(3.0 * size) * *frame;
+    }
+    geometry
+}
+
+/// The error of a pose's stiffness and displacement.
+fn errors(stiffness: &Matrix6<f64>, displacement: &Vector6<f64>, one: &PoseResult) -> [f64; 2] {
+    let (Some(k), Some(u)) = (one.stiffness, one.displacement) else {
+        return [f64::INFINITY; 2];
+    };
+    let scale = Matrix6::from_fn(|i, j| (k[(i, i)] * k[(j, j)]).sqrt());
+    let stiffness = (stiffness - k).component_div(&scale).amax();
+    let weights = k.diagonal().map(f64::sqrt);
+    let weighed = |u: Vector6<f64>| u.component_mul(&weights).amax();
+    let (size, error) = (weighed(u), weighed(displacement - u));
+    [stiffness, if size > 0.0 { error / size } else { error }]
+}
+
+/// The lanes' estimates of these errors.
+fn estimates(lanes: &Lanes, lane: usize) -> [f64; 2] {
+    let engine = lanes.engine.as_ref().expect("lanes");
+    let at = |k: usize| engine.buffers.result(k, lane);
+    assert!(at(DISPLACEMENT).is_finite());
+    [at(ERROR), at(ERROR) / at(PIVOT)]
+}
+
+#[test]
+fn wherever_the_lanes_answer_random_mechanisms_agree() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let (mut taken, mut poses, mut handed_on, mut wrong) = (0, 0, 0, Vec::new());
+    let (mut largest, mut most) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for case in 0..CASES {
+        let Some(model) = mechanism(&mut random) else {
+            continue;
+        };
+        let Ok(plan) = Plan::new(&model) else {
+            continue;
+        };
+        let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+        let Some(engine) = &lanes.engine else {
+            continue;
+        };
+        // As many as go through the lanes together: their estimates stand until the next ones.
+        let width = engine.buffers.width;
+        taken += 1;
+        for first in (0..LANES).step_by(width) {
+            let chosen: Vec<_> = (first..first + width)
+                .map(|k| pose(&model, &mut random, k))
+                .collect();
+            for (lane, pose) in chosen.iter().enumerate() {
+                lanes.geometry_mut(lane).clone_from(pose);
+            }
+            let filled = std::array::from_fn(|lane| lane < width);
+            let results = plan.sweep_lanes(&model, &mut lanes, filled);
+            for (lane, pose) in chosen.iter().enumerate() {
+                poses += 1;
+                let engine = lanes.engine.as_ref().expect("lanes");
+                if engine.result(lane).is_none() {
+                    handed_on += 1;
+                    continue;
+                }
+                let Some(Ok(found)) = &results[lane] else {
+                    panic!("{case}: {:?}", results[lane]);
+                };
+                let one = plan.sweep(&model, pose, &mut workspace);
+                let (Ok(one), Some(k), Some(u)) = (one, found.stiffness, found.displacement) else {
+                    wrong.push(format!("{case}, {lane}: no result one by one"));
+                    continue;
+                };
+                let errors = errors(&k, &u, &one);
+                let estimates = estimates(&lanes, lane);
+                for (c, (error, estimate)) in errors.into_iter().zip(estimates).enumerate() {
+                    largest[c] = largest[c].max(error);
+                    most[c] = most[c].max(error / estimate.max(f64::EPSILON));
+                    if error.is_nan() || error > AGREEMENT {
+                        wrong.push(format!(
+                            "{case}, {lane}: {c} {error:e}, estimated {estimate:e}"
+                        ));
+                    }
+                }
+            }
+        }
+    }
+    println!(
+        "{taken} mechanisms, {poses} poses, {handed_on} handed on, errors {most:?} of estimates"
+    );
+    assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
+    assert!(taken > CASES / 3, "only {taken} mechanisms");
+    // Poses that are handed on prove nothing.
+    let answered = poses - handed_on;
+    assert!(
+        answered > CASES,
+        "only {answered} of {poses} poses answered"
+    );
+}
