@@ -129,9 +129,12 @@ pub(super) fn held<S: Simd>(
     let axes = held_axes(simd, element, inputs);
     let change = held_change(simd, element, &axes, inputs);
     let bound = Lane::splat(simd, CHANGED);
-    // What is not a number counts as unchanged: its axes are none.
-    let any = simd.reduce_max_f64s(change.value) > CHANGED;
-    let all = simd.reduce_min_f64s(change.value) > CHANGED;
+    // What is not a number counts as unchanged: its axes are none. It must not reach the maximum
+    // over the poses, which would then say nothing of the others.
+    let (one, zero) = (Lane::splat(simd, 1.0), Lane::splat(simd, 0.0));
+    let changed = change.if_above(bound, one, zero);
+    let any = simd.reduce_max_f64s(changed.value) > 0.0;
+    let all = simd.reduce_min_f64s(changed.value) > 0.0;
     if !all {
         held_parts(simd, element, &element.stiffness, &axes, blocks);
     }
