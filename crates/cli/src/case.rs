@@ -9,7 +9,7 @@ use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, R
 use crate::args;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{Entries, Why, inner_displacements};
+use crate::report::{SolveReport, Why};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -147,12 +147,14 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
-    /// Displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
-    pub(crate) fn inner_displacements(
+    /// Adds displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
+    pub(crate) fn add_inner_displacements(
         &self,
         solution: &Solution,
-    ) -> Result<Entries<[f64; 6]>, CliError> {
-        inner_displacements(&self.model, solution)
+        report: &mut SolveReport,
+    ) -> Result<(), CliError> {
+        report
+            .add_inner_displacements(&self.model, solution)
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 

@@ -78,7 +78,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     };
     let mut report = SolveReport::new(&case, &solution, verification);
     if args.all_nodes {
-        report.add_displacements(case.inner_displacements(&solution)?);
+        case.add_inner_displacements(&solution, &mut report)?;
     }
     let options = case.modal_options(args);
     let modes = options.as_ref().map(|options| case.modes(options));
@@ -99,7 +99,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         })?;
     }
     if args.why {
-        report.add_why(case.why(&solution, args.along)?);
+        report.add_why(case.why(&solution, args.along)?, &case.model);
     }
     print(&match args.format {
         Format::Text => report.text(),

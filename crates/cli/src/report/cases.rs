@@ -1,6 +1,6 @@
 //! The cases of a mechanism in the report of `hyperstat solve`: each with what the base state has.
 
-use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, State};
+use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, SolveError, State};
 use serde::Serialize;
 
 use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
@@ -35,17 +35,13 @@ impl CaseReport {
             let displacement = &state.displacements[node.0];
             (model.node_name(node), numbers(displacement))
         });
-        let mut displacements: Entries<_> = named.collect();
-        // What cannot be formed is told by the base state.
-        let inner = inner_displacements_of(model, |id| state.inner_displacements(model, id));
-        displacements.0.extend(inner.into_iter().flat_map(|e| e.0));
         let joints = model.joints().iter().zip(&state.joint_wrenches);
         let segments = model.segments().iter().zip(&state.segments);
         Self {
             output: Output {
                 displacement: numbers(&state.output),
             },
-            displacements,
+            displacements: named.collect(),
             joints: joints
                 .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
                 .collect(),
@@ -56,6 +52,16 @@ impl CaseReport {
                 })
                 .collect(),
         }
+    }
+
+    /// Adds the displacements of the nodes inside segments.
+    ///
+    /// # Errors
+    /// A segment that cannot be formed, which no segment of a solved model is.
+    pub(super) fn add_inner(&mut self, model: &Model, state: &State) -> Result<(), SolveError> {
+        let inner = inner_displacements_of(model, |id| state.inner_displacements(model, id))?;
+        self.displacements.0.extend(inner.0);
+        Ok(())
     }
 
     /// The case as tables.

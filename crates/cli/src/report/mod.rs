@@ -18,7 +18,7 @@ use serde::{Serialize, Serializer};
 
 use crate::error::CliError;
 pub(crate) use check::{CheckReport, Problem};
-pub(crate) use inner::inner_displacements;
+use inner::inner_displacements;
 use inner::inner_displacements_of;
 pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;

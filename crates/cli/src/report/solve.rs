@@ -2,7 +2,9 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, Segment, SegmentForces, SegmentId, Solution, describe_motions};
+use hyperstat_assembly::{
+    Model, Segment, SegmentForces, SegmentId, Solution, SolveError, describe_motions,
+};
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
 use nalgebra::Vector6;
@@ -12,8 +14,8 @@ use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
 use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, list, matrix_table, numbers,
-    redundancies, rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, inner_displacements, list,
+    matrix_table, numbers, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -92,6 +94,10 @@ struct StressReport {
     von_mises: f64,
 }
 
+/// What sensitivities leave out where gravity acts.
+const KEPT_WEIGHT: &str = "sensitivities: the weight is kept as it is; what a thicker part weighs \
+                           more is not in them";
+
 impl SolveReport {
     /// Collects what is to be reported of a solution.
     pub(crate) fn new(
@@ -146,13 +152,28 @@ impl SolveReport {
     }
 
     /// Adds what is soft and why.
-    pub(crate) fn add_why(&mut self, why: Why) {
+    pub(crate) fn add_why(&mut self, why: Why, model: &Model) {
         self.why = Some(why);
+        if model.gravity().iter().any(|component| *component != 0.0) {
+            self.warnings.push(KEPT_WEIGHT.into());
+        }
     }
 
-    /// Adds displacements of nodes that the model does not name.
-    pub(crate) fn add_displacements(&mut self, displacements: Entries<[f64; 6]>) {
-        self.displacements.0.extend(displacements.0);
+    /// Adds the displacements of the nodes inside segments, of all states.
+    ///
+    /// # Errors
+    /// A segment that cannot be formed, which no segment of a solved model is.
+    pub(crate) fn add_inner_displacements(
+        &mut self,
+        model: &Model,
+        solution: &Solution,
+    ) -> Result<(), SolveError> {
+        let inner = inner_displacements(model, solution)?;
+        self.displacements.0.extend(inner.0);
+        for ((_, case), solved) in self.cases.0.iter_mut().zip(&solution.cases) {
+            case.add_inner(model, &solved.state)?;
+        }
+        Ok(())
     }
 
     /// Adds natural frequencies and modes.
