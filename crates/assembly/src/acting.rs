@@ -85,7 +85,10 @@ impl Acting {
             }
             if heavy {
                 let frame = segment_frame(model, geometry, id)?;
-                let density = segment.material.density().unwrap_or(0.0);
+                let density = segment.material.density();
+                let density = density.ok_or_else(|| SolveError::NoDensity {
+                    body: model.bodies()[segment.body.0].name.clone(),
+                })?;
                 let taper = match segment.change_of_section()? {
                     Some(taper) => taper,
                     None => Taper::constant(segment.section.clone()),

@@ -157,7 +157,9 @@ pub enum SolveError {
         unknowns: usize,
     },
     /// An elastic body whose mass is not known.
-    #[error("the material of body `{body}` has no density, which natural frequencies need")]
+    #[error(
+        "the material of body `{body}` has no density, which its weight and natural frequencies need"
+    )]
     NoDensity {
         /// Name of the body.
         body: String,

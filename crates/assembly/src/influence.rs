@@ -1,9 +1,9 @@
 //! The states of unit loads on the output, and the work that a state's forces do on another's
 //! deformations: what budgets and sensitivities are made of.
 
-use hyperstat_elements::{BeamLoad, StraightBeam};
+use hyperstat_elements::{BeamLoad, StraightBeam, rotate_vector6};
 use hyperstat_joints::Dof;
-use nalgebra::{DVector, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{DVector, Matrix6, Vector6};
 
 use crate::cluster::{SegmentBeam, segment_beam};
 use crate::directions::{Directions, to_directions};
@@ -102,7 +102,7 @@ impl<'m> Influence<'m> {
     ) -> State {
         let model = self.model;
         let ends = segments.iter().map(|s| s.ends[1]).collect();
-        let loads = segments.iter().map(load_on).collect();
+        let loads = segments.iter().map(|s| s.load).collect();
         let joints = (0..model.joints().len())
             .map(|k| self.joint_state(JointId(k), displacements, wrenches))
             .collect();
@@ -116,7 +116,7 @@ impl<'m> Influence<'m> {
                 let mut relative = DVector::zeros(6 * (nodes.len() - 1));
                 for (r, node) in nodes[1..].iter().enumerate() {
                     let moved = crate::coordinates::shift(geometry, nodes[0], *node) * first;
-                    let own = turned(&to_body, &(displacement(*node) - moved));
+                    let own = rotate_vector6(&(displacement(*node) - moved), &to_body);
                     relative.fixed_rows_mut::<6>(6 * r).copy_from(&own);
                 }
                 [flexible.element.held_stiffness() * &relative, relative]
@@ -267,15 +267,4 @@ impl State {
             flexibles,
         }
     }
-}
-
-/// The load between the nodes of a segment.
-pub(crate) fn load_on(forces: &SegmentForces) -> BeamLoad {
-    forces.load
-}
-
-fn turned(rotation: &Rotation3<f64>, v: &Vector6<f64>) -> Vector6<f64> {
-    let linear = rotation * Vector3::new(v[0], v[1], v[2]);
-    let angular = rotation * Vector3::new(v[3], v[4], v[5]);
-    Vector6::from_fn(|k, _| if k < 3 { linear[k] } else { angular[k - 3] })
 }

@@ -1,8 +1,8 @@
 //! Recovery of everything else: displacements of all nodes, end forces, joint wrenches.
 
-use hyperstat_elements::BeamLoad;
+use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
-use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::acting::Acting;
 use crate::cluster::{absorbed_joint, cluster_frame, segment_beam};
@@ -55,9 +55,9 @@ pub(crate) fn recover(
         let mut through = Vector6::zeros();
         for r in (1..cluster.nodes.len()).rev() {
             let node = cluster.nodes[r];
-            let at_node = turned(
-                &frame,
+            let at_node = rotate_vector6(
                 &Vector6::from_column_slice(&forces[6 * (r - 1)..6 * r]),
+                &frame,
             );
             demand[node.0] += at_node;
             if cluster.flexible.is_some() {
@@ -71,7 +71,10 @@ pub(crate) fn recover(
             let (_, own, span) = segment_beam(model, geometry, id)?;
             let at_before = shift(geometry, before, node).transpose() * through;
             let to_own = own.inverse();
-            let (far, near) = (turned(&to_own, &through), -turned(&to_own, &at_before));
+            let (far, near) = (
+                rotate_vector6(&through, &to_own),
+                -rotate_vector6(&at_before, &to_own),
+            );
             let mut ends = if reversed { [far, near] } else { [near, far] };
             let length = span.norm();
             let load = acting.on_segment(id).copied();
@@ -143,15 +146,6 @@ fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64
         );
     }
     all
-}
-
-/// A wrench or twist in turned axes.
-fn turned(rotation: &Rotation3<f64>, v: &Vector6<f64>) -> Vector6<f64> {
-    let linear = rotation * Vector3::new(v[0], v[1], v[2]);
-    let angular = rotation * Vector3::new(v[3], v[4], v[5]);
-    Vector6::new(
-        linear[0], linear[1], linear[2], angular[0], angular[1], angular[2],
-    )
 }
 
 /// A joint as equilibrium sees it.
@@ -407,7 +401,7 @@ fn curve(
     let (beam, frame, _) = segment_beam(model, geometry, segment)?;
     let to_local = frame.inverse();
     let ends = model.segments()[segment.0].ends;
-    let [first, second] = ends.map(|node| turned(&to_local, &displacements[node.0]));
-    let at = |xi| turned(&frame, &beam.displacement(xi, &first, &second, load));
+    let [first, second] = ends.map(|node| rotate_vector6(&displacements[node.0], &to_local));
+    let at = |xi| rotate_vector6(&beam.displacement(xi, &first, &second, load), &frame);
     Ok(places.into_iter().map(at).collect())
 }

@@ -94,8 +94,7 @@ impl Plan {
     }
 
     /// What each of these sets of loads alone does in the model's own configuration: without the
-    /// model's loads, and without its weight, temperatures and misfits. One factorization serves
-    /// all of them.
+    /// model's loads, weight and temperatures. One factorization serves all of them.
     ///
     /// # Errors
     /// As [`solve`].

@@ -6,7 +6,6 @@ use hyperstat_elements::{StraightBeam, Taper};
 use nalgebra::Vector6;
 
 use crate::cluster::{SegmentBeam, segment_beam};
-use crate::influence::load_on;
 use crate::model::{BodyId, Model, SegmentId};
 use crate::solution::{SegmentForces, Solution};
 
@@ -55,7 +54,7 @@ impl Solution {
 /// The worst point of a segment.
 fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<WorstPoint> {
     let segment = &model.segments()[id.0];
-    let load = load_on(forces);
+    let load = forces.load;
     let taper = (segment.change_of_section().ok()?)
         .unwrap_or_else(|| Taper::constant(segment.section.clone()));
     let peak = stress_along(&taper, forces.length, &forces.ends[1], &load)?.von_mises;
@@ -94,13 +93,13 @@ pub fn section_wrench(
         SegmentBeam::Prismatic(beam) => beam,
         SegmentBeam::Tapered(beam) => beam,
     };
-    Some(beam.loaded_section_wrench(xi, &forces.ends[1], &load_on(forces)))
+    Some(beam.loaded_section_wrench(xi, &forces.ends[1], &forces.load))
 }
 
 /// Places along a segment, 0 to 1, at which its section forces are told: its ends, which say it all
 /// where no load acts between them, else eighths too.
 pub fn stations(forces: &SegmentForces) -> Vec<f64> {
-    let load = load_on(forces);
+    let load = forces.load;
     let loaded = [0.0, 0.5, 1.0]
         .iter()
         .any(|xi| load.intensity(*xi) != Vector6::zeros());

@@ -86,9 +86,9 @@ impl Plan {
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let program = Some(()).filter(|()| model.has_plain_loads() && model.cases().is_empty());
-        let program = program.and_then(|()| Program::new(self, model, model.geometry()));
-        let engine = program.map(|program| {
+        let taken = model.has_plain_loads() && model.cases().is_empty();
+        let program = taken.then(|| Program::new(self, model, model.geometry()));
+        let engine = program.flatten().map(|program| {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
@@ -104,8 +104,8 @@ impl Plan {
     /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
     /// where `filled` says so: what [`Plan::sweep`] finds, to 1e-11 of the stiffness's scale
     /// (`√(K_ii K_jj)`) and of the largest component of the displacement, its components times
-    /// `√K_ii`. `model` and `lanes` belong to
-    /// this plan. In a sweep the nodes of a joint stay at one point.
+    /// `√K_ii`. `model` and `lanes` belong to this plan. In a sweep the nodes of a joint stay at one
+    /// point.
     pub fn sweep_lanes(
         &self,
         model: &Model,

@@ -461,3 +461,25 @@ fn a_weight_on_a_free_motion_is_refused_at_its_body() {
         other => panic!("{other:?}"),
     }
 }
+
+/// A beam that comes after gravity is not weightless in silence.
+#[test]
+fn a_beam_without_density_has_no_weight_and_is_refused() {
+    let mut model = beam(["A", "M", "B"]);
+    clamp(&mut model, "A");
+    let gravity = Vector3::new(0.0, 0.0, -9.81);
+    model.set_gravity(gravity).expect("gravity");
+    let light = Material::new(YOUNG, Elasticity::Poisson(0.3), None).expect("a material");
+    let shape = SectionShape::Circle { diameter: 0.02 };
+    let section = Section::new(shape, None, None).expect("a section");
+    let points = [("C", Point3::origin()), ("D", Point3::new(0.0, 1.0, 0.0))];
+    let added = model.add_beam("late", &points, &light, &section, None, 1);
+    added.expect("a beam");
+    let foot = model.node("late", "C");
+    joint(&mut model, "late", [None, foot], JointStiffness::default());
+    let error = solve(&model).expect_err("no density");
+    assert_eq!(
+        error.to_string(),
+        "the material of body `late` has no density, which its weight and natural frequencies need"
+    );
+}

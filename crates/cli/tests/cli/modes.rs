@@ -76,7 +76,7 @@ fn what_has_no_density_is_named() {
         .ends_with(2)
         .says(&[
             "bar.ron:6:15",
-            "the material of body `bar` has no density, which natural frequencies need",
+            "the material of body `bar` has no density, which its weight and natural frequencies need",
             "give its material a `density` in kg/m³; 0.0 is one without mass",
         ]);
     let weightless = heavy_bar().replace("7850.0", "0.0");
