@@ -1,0 +1,234 @@
+//! Elastic parts in series, with the free motions of the joints between them: what transmits a
+//! wrench from one component to another.
+//!
+//! Compliances in series add, at one point and in the same axes; a free motion takes out the
+//! wrenches that would work on it. So a chain needs no coordinates for what lies between its ends,
+//! and no difference of large stiffnesses is taken. This is the subassembly element of paper §2.1
+//! carried on over any number of links and joints.
+
+use hyperstat_elements::PlaneFlexibility;
+use nalgebra::{Matrix3, Matrix6};
+
+use crate::cluster::{SegmentBeam, unit_beam};
+use crate::model::{Geometry, Model, NodeId, SegmentId};
+
+use super::inputs::{Inputs, Point};
+
+/// Most free motions within a chain: with six it would transmit nothing.
+pub(super) const MOST_RELEASES: usize = 5;
+
+/// Parts in series between two nodes.
+#[derive(Debug)]
+pub(super) struct Chain {
+    /// The softest one first: in its axes and about its centre all are added up, so that its
+    /// bending does not swallow the digits of its tension.
+    pub links: Vec<Link>,
+    pub releases: Vec<Release>,
+    /// Length that makes rotations comparable with translations \[m\], a power of two.
+    pub size: f64,
+    /// By ends: reference points of the components there.
+    pub origins: [Point; 2],
+}
+
+/// A part that gives way.
+#[derive(Debug)]
+pub(super) struct Link {
+    pub kind: LinkKind,
+    /// Largest deflection per force in the plan's configuration \[m/N\].
+    softness: f64,
+    /// Stiffness against translations there, all directions together \[N/m\].
+    weight: f64,
+    /// Length by which its rotations count beside its translations \[m\].
+    length: f64,
+}
+
+#[derive(Debug)]
+pub(super) enum LinkKind {
+    Beam(BeamLink),
+    Joint(JointLink),
+    /// A spring along one motion.
+    Spring {
+        along: Release,
+        compliance: f64,
+    },
+}
+
+/// A straight beam by its flexibilities at unit length.
+#[derive(Debug)]
+pub(super) struct BeamLink {
+    pub ends: [Point; 2],
+    /// Direction of local y (a place in the inputs); `None` where it bends alike in all directions.
+    pub y_axis: Option<usize>,
+    pub axial: f64,
+    pub torsional: f64,
+    /// Bending with deflection along y and along z.
+    pub planes: [PlaneFlexibility; 2],
+}
+
+/// An elastic joint by its compliance in its own frame.
+#[derive(Debug)]
+pub(super) struct JointLink {
+    pub point: Point,
+    /// Columns of its frame (places in the inputs).
+    pub columns: [usize; 3],
+    pub translation: Part,
+    pub rotation: Part,
+    /// Translations per moments, where there are any.
+    pub coupling: Option<Matrix3<f64>>,
+}
+
+/// A symmetric 3×3 part of a compliance.
+#[derive(Debug)]
+pub(super) enum Part {
+    Diagonal([f64; 3]),
+    Full(Matrix3<f64>),
+}
+
+/// A motion that a joint leaves free.
+#[derive(Debug, Clone)]
+pub(super) struct Release {
+    pub point: Point,
+    /// Columns of the joint's frame (places in the inputs), with what each gives to the translation
+    /// and to the rotation.
+    pub axes: Vec<(usize, f64, f64)>,
+}
+
+impl Chain {
+    /// One link between two nodes whose components have these reference points.
+    pub fn new(link: Link, releases: Vec<Release>, origins: [Point; 2]) -> Self {
+        let mut chain = Self {
+            links: vec![link],
+            releases,
+            size: 1.0,
+            origins,
+        };
+        chain.settle();
+        chain
+    }
+
+    /// The chain that goes on with `next`; `ends`: of either, the end that stays one.
+    pub fn followed_by(mut self, next: Self, ends: [usize; 2]) -> Self {
+        self.links.extend(next.links);
+        self.releases.extend(next.releases);
+        self.origins = [self.origins[ends[0]], next.origins[ends[1]]];
+        self.settle();
+        self
+    }
+
+    /// Adds a spring along a motion between its ends.
+    pub fn add_spring(&mut self, along: Release, stiffness: f64) {
+        let compliance = 1.0 / stiffness;
+        let slides = along.axes.iter().any(|(_, linear, _)| *linear != 0.0);
+        self.links.push(Link {
+            kind: LinkKind::Spring { along, compliance },
+            softness: 0.0,
+            weight: if slides { stiffness } else { f64::INFINITY },
+            length: 0.0,
+        });
+    }
+
+    fn settle(&mut self) {
+        let is_softer = |a: &&usize, b: &&usize| {
+            let softness = |k: usize| self.links[k].softness;
+            softness(**a).total_cmp(&softness(**b))
+        };
+        let numbers: Vec<usize> = (0..self.links.len()).rev().collect();
+        let softest = numbers.iter().max_by(is_softer).copied().unwrap_or(0);
+        self.links.swap(0, softest);
+        self.size = (self.links[0].length.log2() - 1.0).round().exp2();
+    }
+
+    /// Stiffness against translations in the plan's configuration, all directions together, free
+    /// motions apart \[N/m\].
+    pub fn weight(&self) -> f64 {
+        1.0 / self.links.iter().map(|l| 1.0 / l.weight).sum::<f64>()
+    }
+}
+
+impl Link {
+    /// The beam of a segment.
+    pub fn beam(
+        model: &Model,
+        geometry: &Geometry,
+        id: SegmentId,
+        inputs: &mut Inputs,
+    ) -> Option<Self> {
+        let ends = model.segments()[id.0].ends;
+        let (axial, torsional, planes, round);
+        match unit_beam(model, id)? {
+            SegmentBeam::Prismatic(beam) => {
+                let section = beam.section_compliance();
+                let plane = |rigidity: f64, shear: f64| PlaneFlexibility {
+                    turn: 1.0 / rigidity,
+                    centre: 0.5,
+                    bending: 1.0 / (12.0 * rigidity),
+                    shear,
+                };
+                (axial, torsional) = (section[0], section[3]);
+                planes = [
+                    plane(beam.bending_rigidity_z(), section[1]),
+                    plane(beam.bending_rigidity_y(), section[2]),
+                ];
+                round = planes[0] == planes[1];
+            }
+            SegmentBeam::Tapered(beam) => {
+                [axial, torsional] = beam.axial_and_torsional_flexibility();
+                planes = beam.plane_flexibilities();
+                round = false;
+            }
+        }
+        let length = (geometry.positions[ends[1].0] - geometry.positions[ends[0].0]).norm();
+        let deflection = planes.map(|p| (p.bending * length * length + p.shear) * length);
+        Some(Self {
+            softness: deflection[0].max(deflection[1]).max(axial * length),
+            weight: 1.0 / (axial * length) + 1.0 / deflection[0] + 1.0 / deflection[1],
+            length,
+            kind: LinkKind::Beam(BeamLink {
+                y_axis: (!round).then(|| inputs.y_axis(id, ends)),
+                ends: ends.map(|n| inputs.point(n)),
+                axial,
+                torsional,
+                planes,
+            }),
+        })
+    }
+
+    /// A joint at a node by its compliance in its own frame (its columns' places); `size` of the
+    /// mechanism.
+    pub fn joint(
+        compliance: &Matrix6<f64>,
+        node: NodeId,
+        columns: [usize; 3],
+        size: f64,
+        inputs: &mut Inputs,
+    ) -> Self {
+        let block = |i: usize, j: usize| compliance.fixed_view::<3, 3>(i, j).into_owned();
+        let part = |block: Matrix3<f64>| {
+            if block == Matrix3::from_diagonal(&block.diagonal()) {
+                Part::Diagonal(block.diagonal().into())
+            } else {
+                Part::Full(block)
+            }
+        };
+        let give = compliance.diagonal();
+        let linear = give.fixed_rows::<3>(0);
+        let stiffness = linear.iter().filter(|c| **c > 0.0).map(|c| 1.0 / c);
+        let coupling = block(0, 3);
+        Self {
+            softness: linear.max(),
+            weight: if linear.max() > 0.0 {
+                stiffness.sum()
+            } else {
+                f64::INFINITY
+            },
+            length: size,
+            kind: LinkKind::Joint(JointLink {
+                point: inputs.point(node),
+                columns,
+                translation: part(block(0, 0)),
+                rotation: part(block(3, 3)),
+                coupling: (coupling != Matrix3::zeros()).then_some(coupling),
+            }),
+        }
+    }
+}
