@@ -23,7 +23,7 @@ use inner::inner_displacements_of;
 pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
-pub(crate) use why::Why;
+pub(crate) use why::{BudgetReport, Sum, Why, budget};
 
 /// The name of a mechanism and, where it is from a batch, of which job, design and pose.
 fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {
