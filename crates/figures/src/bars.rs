@@ -2,7 +2,7 @@
 
 use crate::canvas::{self, Canvas, text_width};
 use crate::error::FigureError;
-use crate::geometry::Area;
+use crate::geometry::{Area, PagePoint};
 use crate::page::{CAPTION_LINE, MARGIN, Words, fitted};
 use crate::plane_axes::{TICK_LENGTH, Ticks};
 use crate::quantity::Quantity;
@@ -15,7 +15,7 @@ const ROW: f64 = 24.0;
 const BAR: f64 = 15.0;
 /// Distance of groups above each other, and room for the axis below the last \[pixels\].
 const ABOVE: f64 = 44.0;
-const BELOW: f64 = 84.0;
+const BELOW: f64 = 92.0;
 /// Room for the names, at least and at most, and for a value to the right \[pixels\].
 const NAMES: [f64; 2] = [70.0, 240.0];
 const VALUES: f64 = 110.0;
@@ -164,8 +164,9 @@ impl BarFigure {
         let left = MARGIN + names + GAP;
         let right = f64::from(canvas::WIDTH) - MARGIN - VALUES;
         let used = (right - left - label).max(0.4 * (right - left));
-        let ticks = Ticks::between([least, most], used / 70.0);
         let scale = (most - least) / used;
+        let ends = [least, least + scale * (right - left)];
+        let ticks = Ticks::between(ends, (right - left) / 70.0);
         Layout {
             height: (bottom + BELOW + CAPTION_LINE * (captions - 1) as f64).ceil() as u32,
             area: Area {
@@ -174,7 +175,7 @@ impl BarFigure {
                 right,
                 bottom,
             },
-            ends: [least, least + scale * (right - left)],
+            ends,
             ticks,
         }
     }
@@ -218,8 +219,7 @@ impl BarFigure {
             let name = [area.left - GAP, middle];
             let room = area.left - GAP - MARGIN;
             fitted(canvas, &bar.name, name, room, style::BAR_NAME)?;
-            let label = [ends[1] + GAP, middle];
-            canvas.text(&percent(share), label, style::BAR_LABEL)?;
+            label(canvas, &percent(share), [ends[1] + GAP, middle])?;
             let value = numbers::tick(bar.value * scaled.factor, step(self.total * scaled.factor));
             canvas.text(&value, [right, middle], style::TICK_LEFT)?;
         }
@@ -227,6 +227,19 @@ impl BarFigure {
         canvas.line(&[[zero, top], [zero, bottom]], style::AXIS)?;
         Ok(bottom)
     }
+}
+
+/// Draws a label that starts at a point, on white: the lines of the grid stop at it.
+fn label(canvas: &Canvas<'_>, text: &str, [x, y]: PagePoint) -> Result<(), FigureError> {
+    let (width, height) = (
+        text_width(text, style::BAR_LABEL.size),
+        style::BAR_LABEL.size,
+    );
+    let [left, right] = [x - 2.0, x + width];
+    let [above, below] = [y - 0.6 * height, y + 0.6 * height];
+    let ground = [[left, above], [right, above], [right, below], [left, below]];
+    canvas.polygon(&ground, style::WHITE)?;
+    canvas.text(text, [x, y], style::BAR_LABEL)
 }
 
 impl Layout {

@@ -350,12 +350,17 @@ fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text:
     let width = width.unwrap_or(0);
     let mut body = String::new();
     for sensitivity in &told {
+        let relative = sensitivity.relative.unwrap_or(0.0);
+        // What is rounded to zero has no sign.
+        let relative = match relative.abs() < 5e-4 {
+            true => "0.000".into(),
+            false => format!("{relative:+.3}"),
+        };
         let _ = writeln!(
             body,
-            "  {:<width$}  {:>12}   {:>+8.3} % {what}",
+            "  {:<width$}  {:>12}   {relative:>8} % {what}",
             sensitivity.parameter,
             number(sensitivity.value),
-            sensitivity.relative.unwrap_or(0.0)
         );
     }
     section(text, "What 1 % more of each value changes", body);
