@@ -8,8 +8,8 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    BeamMass, BodyKind, JointStiffness, ModalOptions, ModalPlan, Model, Modes, SegmentId, SolveError,
-    analyse, modes,
+    BeamMass, BodyKind, JointStiffness, ModalOptions, ModalPlan, Model, Modes, SegmentId,
+    SolveError, analyse, modes,
 };
 use hyperstat_elements::{Elasticity, MassShape, Material, RigidMass};
 use hyperstat_joints::{Fixed, Planar};
@@ -284,7 +284,10 @@ fn cantilever_of_blevins() {
         let xi = k as f64 / 200.0;
         let (found, part) = (at(xi), shape(xi) / shape(1.0));
         for axis in 1..3 {
-            assert!((found[axis] - part * tip[axis]).abs() < 2e-6 * tip.norm(), "{xi}");
+            assert!(
+                (found[axis] - part * tip[axis]).abs() < 2e-6 * tip.norm(),
+                "{xi}"
+            );
         }
     }
     // The first mode of a cantilever has 61.3 % of the mass (Blevins), here in two planes.
