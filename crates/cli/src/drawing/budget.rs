@@ -7,8 +7,8 @@ use crate::report::{BudgetReport, Sum};
 /// Most bars of a group.
 const MOST_BARS: usize = 15;
 
-/// A rest below this part of the whole is rounding, and does not show in the shares.
-const NO_REST: f64 = 5e-4;
+/// A part below this share of the whole is 0.0 % where it is drawn.
+const NO_SHARE: f64 = 5e-4;
 
 /// The budget of the node `output`, as bars. Nothing where the whole is zero: it has no shares.
 pub(crate) fn budget(budget: &BudgetReport, output: &str, title: String) -> Option<BarFigure> {
@@ -36,33 +36,35 @@ pub(crate) fn budget(budget: &BudgetReport, output: &str, title: String) -> Opti
     })
 }
 
-/// The parts by size, of which the least are one bar where there are many, and what is left.
+/// The parts by size, and what is left. The least are one bar: those beyond [`MOST_BARS`], and those
+/// whose share does not show.
 fn bars(sums: &[Sum], budget: &BudgetReport) -> Vec<Bar> {
+    let shows = |part: f64| part.abs() >= NO_SHARE * budget.total.abs();
     let mut sums: Vec<&Sum> = sums.iter().collect();
     sums.sort_by(|a, b| b.displacement.abs().total_cmp(&a.displacement.abs()));
-    let told = match sums.len() {
+    let told = match sums
+        .iter()
+        .take_while(|sum| shows(sum.displacement))
+        .count()
+    {
         count if count > MOST_BARS => MOST_BARS - 1,
         count => count,
     };
-    let mut bars: Vec<Bar> = (sums[..told].iter())
-        .map(|sum| Bar {
-            name: sum.name.clone(),
-            value: sum.displacement,
-        })
-        .collect();
+    let named = sums[..told].iter().map(|sum| Bar {
+        name: sum.name.clone(),
+        value: sum.displacement,
+    });
+    let mut bars: Vec<Bar> = named.collect();
     let others = &sums[told..];
-    if !others.is_empty() {
-        bars.push(Bar {
-            name: format!("{} others", others.len()),
-            value: others.iter().map(|sum| sum.displacement).sum(),
-        });
-    }
-    if budget.rest.abs() > NO_REST * budget.total.abs() || bars.is_empty() {
-        bars.push(Bar {
-            name: "no elastic part".into(),
-            value: budget.rest,
-        });
-    }
+    let rest = [
+        (
+            format!("{} others", others.len()),
+            others.iter().map(|sum| sum.displacement).sum(),
+        ),
+        ("no elastic part".into(), budget.rest),
+    ];
+    let rest = rest.into_iter().filter(|(_, value)| shows(*value));
+    bars.extend(rest.map(|(name, value)| Bar { name, value }));
     bars
 }
 
@@ -122,7 +124,7 @@ mod tests {
     #[test]
     fn many_parts_end_in_one_bar_and_a_rest_is_shown() {
         let along = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let few = budget(along, &[0.3, -0.5, 1.2]);
+        let few = budget(along, &[0.3, -0.5, 1.2, 1e-17]);
         let names: Vec<_> = bars(&few.by_part, &few)
             .into_iter()
             .map(|bar| bar.name)
