@@ -8,12 +8,17 @@ use super::{Table, WRENCH, heads, section};
 /// The loads of a model and of its cases as sections of the report.
 pub(super) fn loads(model: &Model) -> String {
     let mut text = String::new();
-    write(model, model.load_set(), "Loads", &mut text);
     let gravity = model.gravity();
     if gravity.iter().any(|component| *component != 0.0) {
         let [x, y, z] = [gravity.x, gravity.y, gravity.z].map(super::number);
-        text += &format!("  and the weight of all masses: gravity ({x}, {y}, {z}) m/s²\n");
+        let every = match model.cases() {
+            [] => "",
+            _ => ", in every case too",
+        };
+        let body = format!("  ({x}, {y}, {z}) m/s² on all masses{every}\n");
+        section(&mut text, "Gravity", body);
     }
+    write(model, model.load_set(), "Loads", &mut text);
     for case in model.cases() {
         let title = format!("Loads of case `{}`", case.name);
         write(model, &case.loads, &title, &mut text);
