@@ -1,22 +1,30 @@
 //! The loads of a mechanism in the report of `hyperstat solve`: without them nobody knows what the
 //! deflections are of.
 
-use hyperstat_assembly::{Axes, LoadSet, Model};
+use hyperstat_assembly::{Axes, Body, LoadSet, Model};
 
 use super::{Table, WRENCH, heads, section};
 
-/// The loads of a model and of its cases as sections of the report.
+/// What acts on a model, and the loads of its cases, as sections of the report.
 pub(super) fn loads(model: &Model) -> String {
     let mut text = String::new();
+    let every = match model.cases() {
+        [] => "",
+        _ => ", in every case too",
+    };
     let gravity = model.gravity();
     if gravity.iter().any(|component| *component != 0.0) {
         let [x, y, z] = [gravity.x, gravity.y, gravity.z].map(super::number);
-        let every = match model.cases() {
-            [] => "",
-            _ => ", in every case too",
-        };
         let body = format!("  ({x}, {y}, {z}) m/s² on all masses{every}\n");
         section(&mut text, "Gravity", body);
+    }
+    let mut warm = Table::new(1, &["body", "change"]);
+    let changed = |body: &&Body| body.temperature != 0.0;
+    for body in model.bodies().iter().filter(changed) {
+        warm.row(&[&body.name], [body.temperature]);
+    }
+    if model.bodies().iter().any(|body| changed(&body)) {
+        section(&mut text, &format!("Temperature [K]{every}"), warm);
     }
     write(model, model.load_set(), "Loads", &mut text);
     for case in model.cases() {

@@ -105,12 +105,20 @@ fn the_report_states_its_loads_and_no_rounding() {
     },
     output:"#;
     let dense = CANTILEVER.replace("poisson: 0.3", "poisson: 0.3, density: 7850.0");
-    bench.file("bar.ron", &dense.replacen("output:", more, 1));
+    let warm = dense
+        .replace("density: 7850.0", "density: 7850.0, expansion: 1.2e-5")
+        .replace(
+            "material: \"steel\")",
+            "material: \"steel\", temperature: 20.0)",
+        );
+    bench.file("bar.ron", &warm.replacen("output:", more, 1));
     let outcome = bench.hyperstat(&["solve", "bar.ron"]).ends_with(0);
     let mut lines = outcome.out().lines();
     for line in [
         "Gravity",
         "  (0, 0, -9.81000) m/s² on all masses, in every case too",
+        "Temperature [K], in every case too",
+        "  bar   20.0000",
         "Loads [N, N·m]",
         "  on     axes    Fx  Fy        Fz       Mx  My  Mz",
         "  bar.B  global   0   0  -100.000  10.0000   0   0",
