@@ -3,7 +3,8 @@
 
 use hyperstat_elements::subassembly::{ElasticJoint, StiffSegment, absorb_joints, chain_stiffness};
 use hyperstat_elements::{
-    Beam, BeamLoad, StraightBeam, TaperedBeam, element_frame, rotate_matrix6, rotate_vector6,
+    Beam, BeamLoad, ElementError, Material, Section, StraightBeam, Taper, TaperedBeam,
+    element_frame, rotate_matrix6, rotate_vector6,
 };
 use hyperstat_joints::rigid_motion;
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
@@ -24,6 +25,19 @@ pub(crate) enum SegmentBeam {
 }
 
 impl SegmentBeam {
+    /// A beam of constant section, or of the one that `taper` says.
+    pub fn new(
+        material: &Material,
+        section: &Section,
+        taper: Option<&Taper>,
+        length: f64,
+    ) -> Result<Self, ElementError> {
+        Ok(match taper {
+            None => Self::Prismatic(Beam::new(material, section, length)?),
+            Some(taper) => Self::Tapered(TaperedBeam::new(material, taper, length)?),
+        })
+    }
+
     /// Stiffness at its second node with the first held, element frame.
     pub fn cantilever_stiffness(&self) -> Matrix6<f64> {
         match self {
@@ -76,11 +90,9 @@ pub(crate) fn segment_beam(
     let [a, b] = segment.ends.map(|n| geometry.positions[n.0]);
     let span = b - a;
     let frame = element_frame(&span, geometry.y_axes[id.0].as_ref())?;
-    let (material, length) = (&segment.material, span.norm());
-    let beam = match segment.change_of_section()? {
-        None => SegmentBeam::Prismatic(Beam::new(material, &segment.section, length)?),
-        Some(taper) => SegmentBeam::Tapered(TaperedBeam::new(material, &taper, length)?),
-    };
+    let taper = segment.change_of_section()?;
+    let (material, section) = (&segment.material, &segment.section);
+    let beam = SegmentBeam::new(material, section, taper.as_ref(), span.norm())?;
     Ok((beam, frame, span))
 }
 

@@ -1,9 +1,9 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
 use std::path::PathBuf;
-use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hyperstat_mechanisms::Along;
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -48,9 +48,9 @@ pub(crate) enum Command {
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
     #[command(after_help = CHECK_HELP)]
     Check(Check),
-    /// Draw maps, lines and trajectories from a table of `run`, as SVG and PNG
+    /// Draw maps, lines, trajectories, deformed shapes, modes and budgets, as SVG and PNG
     #[command(after_help = PLOT_HELP)]
-    Plot(Plot),
+    Plot(Box<Plot>),
     /// Write a mechanism at one pose of a batch as a mechanism file to edit
     #[command(after_help = EXPORT_HELP)]
     Export(Export),
@@ -129,15 +129,20 @@ Examples:
   hyperstat export paper.ron --job delta --pose 12 --out delta.ron";
 
 const PLOT_HELP: &str = "\
-Any column of numbers can be drawn, and what is found from others:
+Of a table of `run`: --map, --lines, --trajectory. Any column of numbers can be drawn, and what is
+found from others:
   deflection, rotation                     length of the output's displacement, angle of its rotation
   stiffness_min, stiffness_max             principal stiffness against a force alone
   stiffness_x, stiffness_y, stiffness_z    stiffness against a force along an axis alone
   rotational_stiffness_min, …_max, …_x …   the same against a moment alone
 A column of a load case is written with the case's name: push.dz, push.deflection.
-
 Poses on a grid become a heat map with contours, others coloured dots; poses without a result stay
-white and are marked. Standard output gets the names of the files, and a caption.
+white and are marked.
+
+Of a mechanism file, or of a job of a batch file: --deformed, --mode, --budget. It is solved as by
+`solve`. What `solve --why --format json` printed does for --budget too.
+
+Standard output gets the names of the files, and a caption.
 
 Examples:
   hyperstat plot out/delta-map.csv --map k33 --plane z=0.5 --out map
@@ -145,7 +150,10 @@ Examples:
   hyperstat plot out/path.csv --lines dx,dy,dz,drx
   hyperstat plot out/path.csv --lines deflection --over x
   hyperstat plot out/designs.csv --lines stiffness_min --over rod.section.diameter --pose 3
-  hyperstat plot out/path.csv --trajectory";
+  hyperstat plot out/path.csv --trajectory
+  hyperstat plot portal.ron --deformed --scale 200
+  hyperstat plot paper.ron --job delta --pose 12 --mode 1
+  hyperstat plot portal.ron --budget --along z";
 
 /// `hyperstat solve`
 #[derive(Debug, Args)]
@@ -181,6 +189,7 @@ pub(crate) struct Solve {
         long,
         value_name = "DIRECTION",
         requires = "why",
+        value_parser = along,
         default_value = "displacement",
         allow_hyphen_values = true
     )]
@@ -197,47 +206,23 @@ impl Solve {
     }
 }
 
-/// A direction that the output gives along.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Along {
-    /// Of its displacement under the loads.
-    Displacement,
-    /// Of a unit wrench on it, global axes.
-    Wrench([f64; 6]),
-}
-
-impl FromStr for Along {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "displacement" {
-            return Ok(Self::Displacement);
-        }
-        let mut wrench = [0.0; 6];
-        if let Some(k) = ["x", "y", "z", "rx", "ry", "rz"]
-            .iter()
-            .position(|name| *name == text)
-        {
-            wrench[k] = 1.0;
-            return Ok(Self::Wrench(wrench));
-        }
-        let numbers: Result<Vec<f64>, _> = text
-            .split(',')
-            .map(|number| number.trim().parse())
-            .collect();
-        let right =
-            "`displacement`, `x`, `y`, `z`, `rx`, `ry`, `rz` or three numbers such as `0,1,-1`";
-        match numbers.as_deref() {
-            Ok([a, b, c]) => {
-                let size = a.hypot(*b).hypot(*c);
-                if !(size.is_finite() && size > 0.0) {
-                    return Err(format!("a direction has a length; give {right}"));
-                }
-                wrench[..3].copy_from_slice(&[a / size, b / size, c / size]);
-                Ok(Self::Wrench(wrench))
-            }
-            _ => Err(format!("give {right}")),
-        }
+/// Reads the direction that the output gives along.
+fn along(text: &str) -> Result<Along, String> {
+    if let Some(named) = Along::named(text) {
+        return Ok(named);
+    }
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|number| number.trim().parse())
+        .collect();
+    let right = format!(
+        "`{}` or three numbers such as `0,1,-1`",
+        Along::WORDS.join("`, `")
+    );
+    match numbers.as_deref() {
+        Ok(&[a, b, c]) => Along::direction([a, b, c])
+            .ok_or_else(|| format!("a direction has a length; give {right}")),
+        _ => Err(format!("give {right}")),
     }
 }
 
@@ -275,9 +260,10 @@ pub(crate) struct Check {
 /// `hyperstat plot`
 #[derive(Debug, Args)]
 pub(crate) struct Plot {
-    /// Table of a job, CSV or Parquet
-    #[arg(value_name = "TABLE")]
-    pub(crate) table: PathBuf,
+    /// What to draw: a table of `run` (CSV, Parquet), a mechanism or batch file (RON), or the JSON
+    /// of `solve --why`
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) kind: PlotKind,
     /// Map: the plane, such as z=0.5; several where poses differ in more. Without it, all planes
@@ -289,19 +275,31 @@ pub(crate) struct Plot {
     /// Lines: the column along the lower axis [default: pose]
     #[arg(long, value_name = "COLUMN", requires = "lines")]
     pub(crate) over: Option<String>,
-    /// Trajectory: magnification of the deflection [default: a round number that shows it]
-    #[arg(long, value_name = "FACTOR", requires = "trajectory")]
+    /// Deformed: the case of the mechanism or the job [default: the loads of no case]
+    #[arg(long, value_name = "NAME", requires = "deformed")]
+    pub(crate) case: Option<String>,
+    /// Deformed: mark the points of the independent solver too, and tell the largest difference
+    #[arg(long, requires = "deformed", conflicts_with = "case")]
+    pub(crate) verify: bool,
+    /// Budget: the direction, as of `solve --why` [default: displacement]
+    #[arg(long, value_name = "DIRECTION", requires = "budget", value_parser = along, allow_hyphen_values = true)]
+    pub(crate) along: Option<Along>,
+    /// Trajectory, deformed, mode: magnification [default: a round number that shows it]
+    #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with_all = ["map", "lines", "budget"])]
     pub(crate) scale: Option<f64>,
+    /// Job of a batch file; may be left out where there is only one
+    #[arg(long, value_name = "NAME")]
+    pub(crate) job: Option<String>,
     /// Design of a job that varies [default: 0; all where lines are over what varies]
     #[arg(long, value_name = "N")]
     pub(crate) design: Option<usize>,
-    /// Pose of each design [default: all; 0 where lines are over what varies]
+    /// Pose [default: all of a table; 0 of a batch file, or where lines are over what varies]
     #[arg(long, value_name = "N")]
     pub(crate) pose: Option<usize>,
-    /// Title of the figure [default: the job's name]
+    /// Title of the figure [default: the name of the job or of the mechanism]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Write NAME.svg and NAME.png [default: beside the table, <job>-<figure>]
+    /// Write NAME.svg and NAME.png [default: beside the file, <job>-<figure>]
     #[arg(long, value_name = "NAME")]
     pub(crate) out: Option<PathBuf>,
 }
@@ -319,6 +317,23 @@ pub(crate) struct PlotKind {
     /// The commanded trajectory and the deflected one, in space
     #[arg(long)]
     pub(crate) trajectory: bool,
+    /// The mechanism undeformed and deformed, in space
+    #[arg(long)]
+    pub(crate) deformed: bool,
+    /// Natural mode N (from 1, lowest first) and the mechanism at rest, in space
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) mode: Option<u16>,
+    /// What the deflection comes from: shares of bodies, joints and deformations as bars
+    #[arg(long)]
+    pub(crate) budget: bool,
+}
+
+/// Reads a magnification.
+fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
+        _ => Err("expected a factor above zero, such as 200".into()),
+    }
 }
 
 /// Pose coordinates.

@@ -4,9 +4,11 @@ use hyperstat_assembly::{
     BeamMass, BodyId, ModalOptions, Model, Modes, Motion, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
+use hyperstat_mechanisms::{Along, Design, Input, Job, Location, Mechanism, PoseError, Registry};
+use hyperstat_reference::ReferenceSolution;
 
 use crate::args;
+use crate::drawing;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
 use crate::report::{SolveReport, Why};
@@ -110,22 +112,41 @@ impl Case {
 
     /// Solves the mechanism. What is unrestrained is named, with its place in the file.
     pub(crate) fn solve(&self) -> Result<Solution, CliError> {
-        hyperstat_assembly::solve(&self.model)
-            .map_err(|error| self.source().unsolvable(&self.model, error))
+        hyperstat_assembly::solve(&self.model).map_err(|error| self.unsolvable(error))
     }
 
-    /// The natural frequencies that are asked for, by the command line or the job.
-    pub(crate) fn modal_options(&self, args: &args::Solve) -> Option<ModalOptions> {
+    /// Solves the mechanism, whose output must not move freely.
+    pub(crate) fn solve_held(&self) -> Result<Solution, CliError> {
+        let solution = self.solve()?;
+        self.free_output(&solution).map_or(Ok(solution), Err)
+    }
+
+    /// The error of the mechanism having no such result, with its place in the file.
+    pub(crate) fn unsolvable(&self, error: SolveError) -> CliError {
+        self.source().unsolvable(&self.model, error)
+    }
+
+    /// Title of a figure of it, under the loads of a case.
+    pub(crate) fn title(&self, case: Option<&str>) -> String {
+        match self.job() {
+            Some((job, pose)) => drawing::title(job, self.design(), Some(pose), case),
+            None => drawing::title(&self.model.name, None, None, case),
+        }
+    }
+
+    /// The natural frequencies that are asked for, by the command line or the job: how many, and
+    /// whether masses are lumped.
+    pub(crate) fn modal_options(&self, count: Option<usize>, lumped: bool) -> Option<ModalOptions> {
         let of_job = match &self.origin {
             Origin::Mechanism(_) => None,
             Origin::Job { job, .. } => job.modes.clone(),
         };
-        let mut options = match (args.modes(), of_job) {
+        let mut options = match (count, of_job) {
             (Some(count), Some(of_job)) => ModalOptions { count, ..of_job },
             (Some(count), None) => ModalOptions::lowest(count),
             (None, of_job) => of_job?,
         };
-        if args.lumped {
+        if lumped {
             options.mass = BeamMass::Lumped;
         }
         Some(options)
@@ -133,8 +154,7 @@ impl Case {
 
     /// Natural frequencies and modes.
     pub(crate) fn modes(&self, options: &ModalOptions) -> Result<Modes, CliError> {
-        hyperstat_assembly::modes(&self.model, options)
-            .map_err(|error| self.source().unsolvable(&self.model, error))
+        hyperstat_assembly::modes(&self.model, options).map_err(|error| self.unsolvable(error))
     }
 
     /// The solution as a VTU file, with its modes where there are some.
@@ -143,8 +163,7 @@ impl Case {
         solution: &Solution,
         modes: Option<&Modes>,
     ) -> Result<String, CliError> {
-        crate::vtu::vtu(&self.model, solution, modes)
-            .map_err(|error| self.source().unsolvable(&self.model, error))
+        crate::vtu::vtu(&self.model, solution, modes).map_err(|error| self.unsolvable(error))
     }
 
     /// Adds displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
@@ -155,13 +174,12 @@ impl Case {
     ) -> Result<(), CliError> {
         report
             .add_inner_displacements(&self.model, solution)
-            .map_err(|error| self.source().unsolvable(&self.model, error))
+            .map_err(|error| self.unsolvable(error))
     }
 
     /// What is soft and why, along a direction.
-    pub(crate) fn why(&self, solution: &Solution, along: args::Along) -> Result<Why, CliError> {
-        Why::new(self, solution, along)
-            .map_err(|error| self.source().unsolvable(&self.model, error))
+    pub(crate) fn why(&self, solution: &Solution, along: Along) -> Result<Why, CliError> {
+        Why::new(self, solution, along).map_err(|error| self.unsolvable(error))
     }
 
     /// The mechanism file that it is from, where it is from one.
@@ -207,8 +225,12 @@ impl Case {
 
     /// Compares a solution with the independent solver's.
     pub(crate) fn verify(&self, solution: &Solution) -> Result<Verification, CliError> {
-        let reference = hyperstat_reference::solve(&self.model).map_err(CliError::Unverified)?;
-        Ok(Verification::new(&self.model, solution, &reference))
+        Ok(Verification::new(&self.model, solution, &self.reference()?))
+    }
+
+    /// The independent solver's solution.
+    pub(crate) fn reference(&self) -> Result<ReferenceSolution, CliError> {
+        hyperstat_reference::solve(&self.model).map_err(CliError::Unverified)
     }
 
     /// The mechanism in this configuration as a mechanism file.

@@ -7,6 +7,7 @@ mod atomic;
 mod batch;
 mod case;
 mod diagnostic;
+mod drawing;
 mod drives;
 mod error;
 mod plot;
@@ -52,7 +53,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
         Command::Run(args) => batch::run(args, registry, print),
-        Command::Plot(args) => plot::run(args, print),
+        Command::Plot(args) => plot::run(args, registry, print),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -80,7 +81,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     if args.all_nodes {
         case.add_inner_displacements(&solution, &mut report)?;
     }
-    let options = case.modal_options(args);
+    let options = case.modal_options(args.modes(), args.lumped);
     let modes = options.as_ref().map(|options| case.modes(options));
     let modes = modes.transpose()?;
     if let (Some(options), Some(found)) = (&options, &modes) {

@@ -3,10 +3,13 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{
-    BodyKind, Model, Modes, SegmentId, Solution, SolveError, section_wrench, segment_displacement,
+    BodyKind, Mode, Model, Modes, SegmentForces, SegmentId, Solution, SolveError, section_wrench,
+    segment_displacement,
 };
 use hyperstat_elements::stress::section_stress;
-use nalgebra::{Point3, Vector6};
+use nalgebra::{Vector3, Vector6};
+
+use crate::drawing::linear;
 
 /// Pieces in which the curve of a segment is written, at least.
 const PIECES: usize = 12;
@@ -23,15 +26,35 @@ enum Part {
     Joint = 2,
 }
 
+/// What is written of a model: its states, of which the first is the base state, and its modes.
+struct Found<'a> {
+    model: &'a Model,
+    states: Vec<State<'a>>,
+    modes: &'a [Mode],
+}
+
+/// What loads that act together do.
+struct State<'a> {
+    /// Before the names of its arrays: nothing for the base state, `<case>.` for a case.
+    prefix: String,
+    displacements: &'a [Vector6<f64>],
+    segments: &'a [SegmentForces],
+}
+
 /// A grid of points and cells with what is known at them.
 #[derive(Debug, Default)]
 struct Grid {
-    points: Vec<[f64; 3]>,
-    /// Of every point: translation and rotation.
-    displacement: Vec<[f64; 6]>,
-    /// Of every mode and point: translation.
-    modes: Vec<Vec<[f64; 3]>>,
+    points: Vec<Point>,
     cells: Vec<Cell>,
+}
+
+#[derive(Debug)]
+struct Point {
+    at: [f64; 3],
+    /// In every state: translation and rotation.
+    displacements: Vec<[f64; 6]>,
+    /// In every mode: translation.
+    modes: Vec<[f64; 3]>,
 }
 
 #[derive(Debug)]
@@ -41,13 +64,20 @@ struct Cell {
     part: Part,
     /// Number of the body, or of the joint.
     number: usize,
-    /// N Vy Vz T My Mz in the middle; zero where it is no beam.
+    /// In every state, the section in the middle; empty where it is no beam.
+    sections: Vec<Section>,
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Section {
+    /// N Vy Vz T My Mz.
     forces: [f64; 6],
-    /// Largest von Mises stress of the section in the middle; none where it is not known.
+    /// Largest von Mises stress; none where it is not known.
     von_mises: Option<f64>,
 }
 
-/// The solution of a model, with its modes where there are some, as the text of a VTU file.
+/// The solution of a model, its cases too, with its modes where there are some, as the text of a
+/// VTU file.
 ///
 /// Lengths are not magnified: what is shown displaced is for the reader of the file to choose.
 ///
@@ -58,95 +88,122 @@ pub(crate) fn vtu(
     solution: &Solution,
     modes: Option<&Modes>,
 ) -> Result<String, SolveError> {
-    let mut grid = Grid {
-        modes: vec![Vec::new(); modes.map_or(0, |modes| modes.modes.len())],
-        ..Grid::default()
+    let base = State {
+        prefix: String::new(),
+        displacements: &solution.displacements,
+        segments: &solution.segments,
     };
+    let cases = solution.cases.iter().map(|case| State {
+        prefix: format!("{}.", case.name),
+        displacements: &case.state.displacements,
+        segments: &case.state.segments,
+    });
+    let found = Found {
+        model,
+        states: std::iter::once(base).chain(cases).collect(),
+        modes: modes.map_or(&[], |modes| &modes.modes),
+    };
+    let mut grid = Grid::default();
     for segment in 0..model.segments().len() {
-        grid.add_segment(model, solution, modes, SegmentId(segment))?;
+        grid.add_segment(&found, SegmentId(segment))?;
     }
-    grid.add_bodies(model, solution, modes);
-    grid.add_joints(model, solution, modes);
-    Ok(grid.text())
+    grid.add_bodies(&found);
+    grid.add_joints(&found);
+    Ok(grid.text(&found))
+}
+
+impl Found<'_> {
+    /// A node of the model as a point.
+    fn node(&self, node: usize) -> Point {
+        self.mean(&[node])
+    }
+
+    /// The mean of nodes as a point: of a rigid body's nodes it moves with the body.
+    fn mean(&self, nodes: &[usize]) -> Point {
+        let share = 1.0 / nodes.len() as f64;
+        let mean = |of: &[Vector6<f64>]| -> Vector6<f64> {
+            nodes.iter().map(|node| share * of[*node]).sum()
+        };
+        let positions = &self.model.geometry().positions;
+        let at: Vector3<f64> = (nodes.iter())
+            .map(|node| share * positions[*node].coords)
+            .sum();
+        let states = self.states.iter();
+        let modes = self.modes.iter();
+        Point {
+            at: at.into(),
+            displacements: states
+                .map(|state| mean(state.displacements).into())
+                .collect(),
+            modes: modes
+                .map(|mode| linear(&mean(&mode.displacements)))
+                .collect(),
+        }
+    }
+
+    /// A point of a segment's elastic curve.
+    fn along(&self, id: SegmentId, xi: f64) -> Result<Point, SolveError> {
+        let (model, geometry) = (self.model, self.model.geometry());
+        let ends = model.segments()[id.0].ends;
+        let [start, end] = ends.map(|node| geometry.positions[node.0]);
+        let moved = |state: &State<'_>| {
+            let load = Some(&state.segments[id.0].load);
+            segment_displacement(model, geometry, state.displacements, id, load, xi).map(Into::into)
+        };
+        let shape = |mode: &Mode| {
+            let moved = mode.segment_displacement(model, id, xi);
+            moved.map(|moved| linear(&moved))
+        };
+        Ok(Point {
+            at: start.lerp(&end, xi).into(),
+            displacements: self.states.iter().map(moved).collect::<Result<_, _>>()?,
+            modes: self.modes.iter().map(shape).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What is known of the section of a segment at `xi`, in every state.
+    fn sections(&self, id: SegmentId, xi: f64) -> Vec<Section> {
+        let segment = &self.model.segments()[id.0];
+        let section = match segment.change_of_section() {
+            Ok(Some(taper)) => taper.at(xi),
+            _ => segment.section.clone(),
+        };
+        let of_state = |state: &State<'_>| {
+            let wrench = section_wrench(self.model, id, &state.segments[id.0], xi);
+            let stress = wrench
+                .as_ref()
+                .and_then(|wrench| section_stress(&section, wrench));
+            Section {
+                forces: wrench.unwrap_or_default().into(),
+                von_mises: stress.map(|stress| stress.von_mises),
+            }
+        };
+        self.states.iter().map(of_state).collect()
+    }
 }
 
 impl Grid {
-    fn add_point(
-        &mut self,
-        at: Point3<f64>,
-        moved: &Vector6<f64>,
-        modes: &[Vector6<f64>],
-    ) -> usize {
-        self.points.push(at.into());
-        self.displacement.push((*moved).into());
-        for (column, mode) in self.modes.iter_mut().zip(modes) {
-            column.push([mode[0], mode[1], mode[2]]);
-        }
+    fn add_point(&mut self, point: Point) -> usize {
+        self.points.push(point);
         self.points.len() - 1
-    }
-
-    /// Adds a node of the model.
-    fn add_node(
-        &mut self,
-        model: &Model,
-        solution: &Solution,
-        modes: Option<&Modes>,
-        node: usize,
-    ) -> usize {
-        let of_modes = modes.iter().flat_map(|modes| &modes.modes);
-        let of_modes: Vec<_> = of_modes.map(|mode| mode.displacements[node]).collect();
-        let at = model.geometry().positions[node];
-        self.add_point(at, &solution.displacements[node], &of_modes)
     }
 
     /// Adds a segment as its elastic curve, with the forces on the section in the middle of each
     /// of its pieces.
-    fn add_segment(
-        &mut self,
-        model: &Model,
-        solution: &Solution,
-        modes: Option<&Modes>,
-        id: SegmentId,
-    ) -> Result<(), SolveError> {
-        let geometry = model.geometry();
-        let segment = &model.segments()[id.0];
-        let [start, end] = segment.ends.map(|node| geometry.positions[node.0]);
-        let forces = &solution.segments[id.0];
+    fn add_segment(&mut self, found: &Found<'_>, id: SegmentId) -> Result<(), SolveError> {
+        let segment = &found.model.segments()[id.0];
         // As many in each element, so that the nodes between them are points.
         let pieces = segment.elements * PIECES.div_ceil(segment.elements);
         let mut last = None;
         for k in 0..=pieces {
             let xi = k as f64 / pieces as f64;
-            let curve = |displacements: &[Vector6<f64>], load| {
-                segment_displacement(model, geometry, displacements, id, load, xi)
-            };
-            let moved = curve(&solution.displacements, Some(&forces.load))?;
-            let mut of_modes = Vec::new();
-            for mode in modes.iter().flat_map(|modes| &modes.modes) {
-                of_modes.push(if segment.elements == 1 {
-                    curve(&mode.displacements, None)?
-                } else {
-                    let ends = segment.ends.map(|node| mode.displacements[node.0]);
-                    between(&ends, &mode.inner[id.0], xi)
-                });
-            }
-            let point = self.add_point(start.lerp(&end, xi), &moved, &of_modes);
+            let point = self.add_point(found.along(id, xi)?);
             if let Some(last) = last.replace(point) {
-                let middle = xi - 0.5 / pieces as f64;
-                let wrench = section_wrench(model, id, forces, middle);
-                let section = match segment.change_of_section() {
-                    Ok(Some(taper)) => Some(taper.at(middle)),
-                    _ => Some(segment.section.clone()),
-                };
-                let stress = section
-                    .zip(wrench.as_ref())
-                    .and_then(|(section, wrench)| section_stress(&section, wrench));
                 self.cells.push(Cell {
                     points: vec![last, point],
                     part: Part::Beam,
                     number: segment.body.0,
-                    forces: wrench.unwrap_or_default().into(),
-                    von_mises: stress.map(|stress| stress.von_mises),
+                    sections: found.sections(id, xi - 0.5 / pieces as f64),
                 });
             }
         }
@@ -154,75 +211,50 @@ impl Grid {
     }
 
     /// Adds the bodies that are no beams: lines from the middle of their nodes to each.
-    fn add_bodies(&mut self, model: &Model, solution: &Solution, modes: Option<&Modes>) {
-        for (number, body) in model.bodies().iter().enumerate() {
+    fn add_bodies(&mut self, found: &Found<'_>) {
+        for (number, body) in found.model.bodies().iter().enumerate() {
             if body.kind == BodyKind::Elastic {
                 continue;
             }
             let nodes: Vec<usize> = body.nodes.iter().map(|node| node.0).collect();
             let ends: Vec<usize> = (nodes.iter())
-                .map(|node| self.add_node(model, solution, modes, *node))
+                .map(|node| self.add_point(found.node(*node)))
                 .collect();
-            let mut add = |points| {
-                self.cells.push(Cell {
-                    points,
-                    part: Part::Rigid,
-                    number,
-                    forces: [0.0; 6],
-                    von_mises: None,
-                });
-            };
-            match *ends {
-                [] => {}
-                [alone] => add(vec![alone]),
-                [first, second] => add(vec![first, second]),
+            let cells = match *ends {
+                [] => Vec::new(),
+                [alone] => vec![vec![alone]],
+                [first, second] => vec![vec![first, second]],
                 _ => {
-                    // The mean of a rigid body's points moves with it.
-                    let share = 1.0 / nodes.len() as f64;
-                    let mean = |of: &[Vector6<f64>]| -> Vector6<f64> {
-                        nodes.iter().map(|node| share * of[*node]).sum()
-                    };
-                    let positions = &model.geometry().positions;
-                    let at: nalgebra::Vector3<f64> = nodes
-                        .iter()
-                        .map(|node| share * positions[*node].coords)
-                        .sum();
-                    let of_modes = modes.iter().flat_map(|modes| &modes.modes);
-                    let of_modes: Vec<_> = of_modes.map(|mode| mean(&mode.displacements)).collect();
-                    let moved = mean(&solution.displacements);
-                    let middle = self.add_point(at.into(), &moved, &of_modes);
-                    for end in &ends {
-                        self.cells.push(Cell {
-                            points: vec![middle, *end],
-                            part: Part::Rigid,
-                            number,
-                            forces: [0.0; 6],
-                            von_mises: None,
-                        });
-                    }
+                    let middle = self.add_point(found.mean(&nodes));
+                    ends.iter().map(|end| vec![middle, *end]).collect()
                 }
-            }
+            };
+            self.cells.extend(cells.into_iter().map(|points| Cell {
+                points,
+                part: Part::Rigid,
+                number,
+                sections: Vec::new(),
+            }));
         }
     }
 
     /// Adds the joints, each a point that moves with the last of its bodies.
-    fn add_joints(&mut self, model: &Model, solution: &Solution, modes: Option<&Modes>) {
-        for (number, joint) in model.joints().iter().enumerate() {
+    fn add_joints(&mut self, found: &Found<'_>) {
+        for (number, joint) in found.model.joints().iter().enumerate() {
             let Some(node) = joint.between.iter().rev().flatten().next() else {
                 continue;
             };
-            let point = self.add_node(model, solution, modes, node.0);
+            let point = self.add_point(found.node(node.0));
             self.cells.push(Cell {
                 points: vec![point],
                 part: Part::Joint,
                 number,
-                forces: [0.0; 6],
-                von_mises: None,
+                sections: Vec::new(),
             });
         }
     }
 
-    fn text(&self) -> String {
+    fn text(&self, found: &Found<'_>) -> String {
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\
@@ -231,7 +263,8 @@ impl Grid {
             self.cells.len()
         );
         text += "<Points>\n";
-        floats(&mut text, "points", 3, self.points.iter().flatten());
+        let places = self.points.iter().flat_map(|point| point.at);
+        floats(&mut text, "points", 3, places);
         text += "</Points>\n<Cells>\n";
         let points = self.cells.iter().flat_map(|cell| &cell.points);
         integers(&mut text, "connectivity", points.copied());
@@ -246,65 +279,64 @@ impl Grid {
         });
         integers(&mut text, "types", kinds);
         text += "</Cells>\n<PointData Vectors=\"displacement\">\n";
-        let moved = self.displacement.iter();
-        floats(
-            &mut text,
-            "displacement",
-            3,
-            moved.clone().flat_map(|u| &u[..3]),
-        );
-        floats(&mut text, "rotation", 3, moved.flat_map(|u| &u[3..]));
-        for (k, mode) in self.modes.iter().enumerate() {
-            let name = format!("mode{}", k + 1);
-            floats(&mut text, &name, 3, mode.iter().flatten());
+        for (k, State { prefix, .. }) in found.states.iter().enumerate() {
+            let parts = |from: usize| {
+                let all = self.points.iter().map(move |point| &point.displacements[k]);
+                all.flat_map(move |moved| moved[from..from + 3].iter().copied())
+            };
+            floats(&mut text, &format!("{prefix}displacement"), 3, parts(0));
+            floats(&mut text, &format!("{prefix}rotation"), 3, parts(3));
+        }
+        for k in 0..found.modes.len() {
+            let shape = self.points.iter().flat_map(|point| point.modes[k]);
+            floats(&mut text, &format!("mode{}", k + 1), 3, shape);
         }
         text += "</PointData>\n<CellData>\n";
-        for (k, name) in ["N", "Vy", "Vz", "T", "My", "Mz"].iter().enumerate() {
-            let column = self.cells.iter().map(|cell| &cell.forces[k]);
-            floats(&mut text, name, 1, column);
+        for (k, State { prefix, .. }) in found.states.iter().enumerate() {
+            let sections = || {
+                let of_cell = |cell: &Cell| cell.sections.get(k).copied().unwrap_or_default();
+                self.cells.iter().map(of_cell)
+            };
+            for (component, name) in ["N", "Vy", "Vz", "T", "My", "Mz"].iter().enumerate() {
+                let column = sections().map(|section| section.forces[component]);
+                floats(&mut text, &format!("{prefix}{name}"), 1, column);
+            }
+            let stresses = sections().map(|section| section.von_mises.unwrap_or(0.0));
+            floats(&mut text, &format!("{prefix}von_mises"), 1, stresses);
         }
-        let stresses: Vec<f64> = (self.cells.iter())
-            .map(|cell| cell.von_mises.unwrap_or(0.0))
-            .collect();
-        floats(&mut text, "von_mises", 1, stresses.iter());
-        let known = self
-            .cells
-            .iter()
-            .map(|cell| usize::from(cell.von_mises.is_some()));
+        // Whether a section has stresses does not depend on the state.
+        let known = self.cells.iter().map(|cell| {
+            let base = cell.sections.first();
+            usize::from(base.is_some_and(|section| section.von_mises.is_some()))
+        });
         integers(&mut text, "has_stress", known);
-        integers(
-            &mut text,
-            "part",
-            self.cells.iter().map(|cell| cell.part as usize),
-        );
-        integers(
-            &mut text,
-            "number",
-            self.cells.iter().map(|cell| cell.number),
-        );
+        let parts = self.cells.iter().map(|cell| cell.part as usize);
+        integers(&mut text, "part", parts);
+        let numbers = self.cells.iter().map(|cell| cell.number);
+        integers(&mut text, "number", numbers);
         text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         text
     }
 }
 
-/// Linear between the nodes of a segment's elements.
-fn between(ends: &[Vector6<f64>; 2], inner: &[Vector6<f64>], xi: f64) -> Vector6<f64> {
-    let nodes: Vec<&Vector6<f64>> = std::iter::once(&ends[0])
-        .chain(inner)
-        .chain([&ends[1]])
-        .collect();
-    let along = xi * (nodes.len() - 1) as f64;
-    let before = (along.floor() as usize).min(nodes.len() - 2);
-    let part = along - before as f64;
-    nodes[before] * (1.0 - part) + nodes[before + 1] * part
+/// A name as the value of an attribute in XML: without what means something there, or nothing.
+fn attribute(name: &str) -> String {
+    let mut safe = String::with_capacity(name.len());
+    for c in name.chars() {
+        match c {
+            '&' => safe += "&amp;",
+            '<' => safe += "&lt;",
+            '>' => safe += "&gt;",
+            '"' => safe += "&quot;",
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => safe.push(' '),
+            c => safe.push(c),
+        }
+    }
+    safe
 }
 
-fn floats<'a>(
-    text: &mut String,
-    name: &str,
-    components: usize,
-    numbers: impl Iterator<Item = &'a f64>,
-) {
+fn floats(text: &mut String, name: &str, components: usize, numbers: impl Iterator<Item = f64>) {
+    let name = attribute(name);
     // Writing to a String cannot fail.
     let _ = write!(
         text,
@@ -314,7 +346,7 @@ fn floats<'a>(
     let mut buffer = zmij::Buffer::new();
     for (k, number) in numbers.enumerate() {
         text.push(if k % components == 0 { '\n' } else { ' ' });
-        text.push_str(buffer.format(*number));
+        text.push_str(buffer.format(number));
     }
     text.push_str("\n</DataArray>\n");
 }

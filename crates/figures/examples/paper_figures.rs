@@ -8,7 +8,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use hyperstat_figures::{
-    Axis, Curve, DeformedFigure, RigidBody, Scale, SecondMethod, SecondPoints, TrajectoryFigure,
+    Axis, Curve, DeformedFigure, RigidBody, Scale, SecondMethod, SecondPoints, Shown,
+    TrajectoryFigure,
 };
 
 type Vector = [f64; 3];
@@ -61,6 +62,7 @@ fn trajectory() -> TrajectoryFigure {
 /// Three limbs at 120° with an arm and a parallelogram each, and a platform.
 fn deformed() -> DeformedFigure {
     let mut figure = DeformedFigure {
+        shown: Shown::Deflection,
         title: "Delta robot".into(),
         curves: Vec::new(),
         rigid: Vec::new(),

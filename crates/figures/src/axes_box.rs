@@ -145,7 +145,7 @@ fn draw_axis(
     // The name of the upright axis is above its labels: beside them there is less room.
     let at = if axis == 2 {
         let [x, y] = away(ends[1], outward, GAP + reach);
-        [x, y - style::AXIS_NAME.size]
+        [x, y - 1.4 * style::AXIS_NAME.size]
     } else {
         let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
         away(middle, outward, depth + GAP + reach)

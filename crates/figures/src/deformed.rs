@@ -1,20 +1,24 @@
-//! The undeformed and the deformed mechanism (the paper's Fig. 9).
+//! The undeformed and the deformed mechanism (the paper's Fig. 9), under loads or in a mode.
 
 mod drawing;
 
 use crate::checks::{self, Displaced};
 use crate::error::FigureError;
 use crate::geometry::{Bounds, length};
-use crate::page::{self, Page, Sample};
+use crate::page::{self, Page, Sample, Words};
+use crate::quantity::Quantity;
 use crate::scale::{Scale, largest};
 use crate::{numbers, png, style};
 use drawing::{AXIS_LENGTH, Drawing, Part};
 
-/// A mechanism as it was built and as it is under load, with the deflection magnified.
+/// A mechanism as it was built and as it is under load or in a natural mode, with the displacements
+/// magnified.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeformedFigure {
     /// Title of the figure.
     pub title: String,
+    /// What the displacements are.
+    pub shown: Shown,
     /// The elastic links.
     pub curves: Vec<Curve>,
     /// The rigid bodies.
@@ -27,6 +31,20 @@ pub struct DeformedFigure {
     pub second: Option<SecondPoints>,
     /// Magnification of the displacements.
     pub scale: Scale,
+}
+
+/// What the displacements in a [`DeformedFigure`] are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shown {
+    /// The deflection under loads \[m\].
+    Deflection,
+    /// A natural mode, of unit modal mass \[m/√kg\]: its factor is in √kg.
+    Mode {
+        /// Its number, from 1, lowest first.
+        number: usize,
+        /// Its frequency \[Hz\].
+        frequency: f64,
+    },
 }
 
 /// A link as its elastic curve, sampled from one end to the other.
@@ -96,10 +114,8 @@ impl DeformedFigure {
         }
         checks::drawable("ground", &self.ground)?;
 
-        let points = || mechanism().flat_map(|part| part.points);
-        let displacements = || mechanism().flat_map(|part| part.displacement);
-        let factor = self.scale.factor(points(), displacements())?;
-        let size = Bounds::around(points().copied()).diagonal();
+        let factor = self.factor()?;
+        let size = Bounds::around(self.points().copied()).diagonal();
 
         let drawing = Drawing {
             curves: parts(&curves, factor)?,
@@ -110,15 +126,9 @@ impl DeformedFigure {
         };
         let page = Page {
             title: &self.title,
-            subtitle: format!(
-                "Undeformed and deformed mechanism, deflection × {}",
-                numbers::number(factor)
-            ),
+            subtitle: self.subtitle(factor),
             legend: self.legend(factor),
-            captions: page::captions(
-                largest(displacements()),
-                self.second.as_ref().map(|second| second.difference),
-            ),
+            captions: self.captions(factor),
             bounds: Bounds::around(drawing.points()),
         };
         page.svg(|canvas, view| drawing.draw(canvas, view))
@@ -131,6 +141,63 @@ impl DeformedFigure {
     /// As [`svg`](Self::svg).
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
         png::render(&self.svg()?)
+    }
+
+    /// What is drawn, how much it is magnified, and what of, as sentences.
+    ///
+    /// # Errors
+    ///
+    /// A magnification that is not above zero.
+    pub fn caption(&self) -> Result<String, FigureError> {
+        let factor = self.factor()?;
+        let words = Words {
+            title: &self.title,
+            subtitle: &self.subtitle(factor),
+            captions: &self.captions(factor),
+        };
+        Ok(words.description())
+    }
+
+    fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
+        let curves = self.curves.iter().flat_map(|curve| &curve.points);
+        curves.chain(self.rigid.iter().flat_map(|body| &body.points))
+    }
+
+    fn displacements(&self) -> impl Iterator<Item = &[f64; 3]> {
+        let curves = self.curves.iter().flat_map(|curve| &curve.displacement);
+        curves.chain(self.rigid.iter().flat_map(|body| &body.displacement))
+    }
+
+    fn factor(&self) -> Result<f64, FigureError> {
+        self.scale.factor(self.points(), self.displacements())
+    }
+
+    fn subtitle(&self, factor: f64) -> String {
+        match self.shown {
+            Shown::Deflection => format!(
+                "Undeformed and deformed mechanism, deflection × {}",
+                numbers::number(factor)
+            ),
+            Shown::Mode { number, frequency } => {
+                let frequency = Quantity::new("", "Hz").value(frequency);
+                format!("Natural mode {number}, at {frequency}, and the mechanism at rest")
+            }
+        }
+    }
+
+    fn captions(&self, factor: f64) -> Vec<String> {
+        let largest = largest(self.displacements());
+        match self.shown {
+            Shown::Deflection => {
+                let second = self.second.as_ref();
+                page::captions(largest, second.map(|second| second.difference))
+            }
+            Shown::Mode { .. } => vec![format!(
+                "Shape of unit modal mass × {} √kg; its largest translation is drawn as {}.",
+                numbers::number(factor),
+                numbers::metres(factor * largest)
+            )],
+        }
     }
 
     /// What is drawn of the joint axes: lines of this length \[m\].
@@ -161,9 +228,15 @@ impl DeformedFigure {
     }
 
     fn legend(&self, factor: f64) -> Vec<(Sample, String)> {
-        let deformed = format!("deformed, × {}", numbers::number(factor));
+        let (at_rest, deformed) = match self.shown {
+            Shown::Deflection => {
+                let deformed = format!("deformed, × {}", numbers::number(factor));
+                ("undeformed", deformed)
+            }
+            Shown::Mode { .. } => ("at rest", "mode shape".into()),
+        };
         let mut legend = vec![
-            (Sample::Line(style::UNDEFORMED), "undeformed".to_string()),
+            (Sample::Line(style::UNDEFORMED), at_rest.to_string()),
             (Sample::Line(style::DEFORMED), deformed),
         ];
         let others = [

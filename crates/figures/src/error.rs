@@ -74,6 +74,12 @@ pub enum FigureError {
         /// Which list.
         what: String,
     },
+    /// A whole of zero, of which nothing is a share.
+    #[error("{what}: shares are of a whole that is not zero")]
+    NoWhole {
+        /// What the whole is.
+        what: String,
+    },
     /// More lines in a diagram than can be told apart.
     #[error("a diagram has {lines} lines, of which at most {most} can be told apart")]
     TooManyLines {

@@ -3,6 +3,7 @@
 #![doc = include_str!("../README.md")]
 
 mod axes_box;
+mod bars;
 mod canvas;
 mod checks;
 mod contours;
@@ -21,7 +22,8 @@ mod scale;
 mod style;
 mod trajectory;
 
-pub use deformed::{Axis, Curve, DeformedFigure, RigidBody, SecondPoints};
+pub use bars::{Bar, BarFigure, BarGroup};
+pub use deformed::{Axis, Curve, DeformedFigure, RigidBody, SecondPoints, Shown};
 pub use error::FigureError;
 pub use lines::{Diagram, LineFigure, MOST_SERIES, Series};
 pub use map::{MapFigure, MapPanel, Samples};

@@ -1,9 +1,9 @@
 //! Quantities along one variable: lines over an axis, quantities of one unit in one diagram.
 
-use crate::canvas::{self, Canvas, Sheet};
+use crate::canvas::{self, Canvas};
 use crate::error::FigureError;
 use crate::geometry::Area;
-use crate::page::{MARGIN, fitted};
+use crate::page::{MARGIN, Words, fitted};
 use crate::plane_axes::PlaneAxes;
 use crate::quantity::{Quantity, Scaled};
 use crate::{checks, png, style};
@@ -65,25 +65,12 @@ impl LineFigure {
         let count = self.diagrams.len() as f64;
         let each = (620.0 / count).clamp(130.0, 400.0);
         let height = (TOP + count * (each + ABOVE) - ABOVE + BELOW).ceil() as u32;
-        let caption = self.caption();
-        let description = format!("{} {caption}", self.subtitle);
-        let sheet = Sheet {
-            height,
+        let words = Words {
             title: &self.title,
-            description: &description,
+            subtitle: &self.subtitle,
+            captions: &[self.caption()],
         };
-        canvas::svg(sheet, |canvas| {
-            let room = f64::from(canvas::WIDTH) - 2.0 * MARGIN;
-            fitted(canvas, &self.title, [MARGIN, 34.0], room, style::TITLE)?;
-            fitted(
-                canvas,
-                &self.subtitle,
-                [MARGIN, 61.0],
-                room,
-                style::SUBTITLE,
-            )?;
-            let below = [MARGIN, f64::from(height) - MARGIN];
-            fitted(canvas, &caption, below, room, style::CAPTION)?;
+        words.svg(height, |canvas| {
             for (k, diagram) in self.diagrams.iter().enumerate() {
                 let top = TOP + k as f64 * (each + ABOVE);
                 let area = Area {

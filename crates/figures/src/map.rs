@@ -4,11 +4,10 @@ mod colors;
 mod layout;
 mod panel;
 
-use crate::canvas::{self, Canvas, Sheet};
 use crate::error::FigureError;
-use crate::page::{MARGIN, fitted};
+use crate::page::Words;
 use crate::quantity::Quantity;
-use crate::{checks, png, style};
+use crate::{checks, png};
 use colors::Colors;
 use layout::Layout;
 
@@ -80,15 +79,16 @@ impl MapFigure {
                 }
             })?;
         let layout = Layout::new(&self.axes, &self.panels);
-        let caption = self.caption();
-        let description = format!("{} {caption}", self.subtitle);
-        let sheet = Sheet {
-            height: layout.height,
+        let words = Words {
             title: &self.title,
-            description: &description,
+            subtitle: &self.subtitle,
+            captions: &[self.caption()],
         };
-        canvas::svg(sheet, |canvas| {
-            self.draw(canvas, &layout, &colors, &caption)
+        words.svg(layout.height, |canvas| {
+            for (panel, place) in self.panels.iter().zip(&layout.panels) {
+                panel::draw(canvas, panel, place, &layout, &colors)?;
+            }
+            colors.draw_bar(canvas, layout.bar, layout.name_room)
         })
     }
 
@@ -121,30 +121,6 @@ impl MapFigure {
             caption += &format!(" {missing} of {all} poses without a result, marked ×.");
         }
         caption
-    }
-
-    fn draw(
-        &self,
-        canvas: &Canvas<'_>,
-        layout: &Layout,
-        colors: &Colors,
-        caption: &str,
-    ) -> Result<(), FigureError> {
-        let room = f64::from(canvas::WIDTH) - 2.0 * MARGIN;
-        fitted(canvas, &self.title, [MARGIN, 34.0], room, style::TITLE)?;
-        fitted(
-            canvas,
-            &self.subtitle,
-            [MARGIN, 61.0],
-            room,
-            style::SUBTITLE,
-        )?;
-        let bottom = f64::from(layout.height) - MARGIN;
-        fitted(canvas, caption, [MARGIN, bottom], room, style::CAPTION)?;
-        for (k, panel) in self.panels.iter().enumerate() {
-            panel::draw(canvas, panel, &layout.panels[k], layout, colors)?;
-        }
-        colors.draw_bar(canvas, layout.bar, layout.name_room)
     }
 }
 

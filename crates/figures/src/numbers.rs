@@ -42,6 +42,8 @@ pub(crate) fn tick(value: f64, step: f64) -> String {
     };
     // The sign is a minus, not a hyphen; the one in an exponent stays as it is.
     match text.strip_prefix('-') {
+        // What is rounded to zero has no sign.
+        Some(zero) if !zero.contains(|c: char| ('1'..='9').contains(&c)) => zero.into(),
         Some(magnitude) => format!("−{magnitude}"),
         None => text,
     }
@@ -101,6 +103,7 @@ mod tests {
         assert_eq!(tick(-0.2, 0.1), "−0.2");
         assert_eq!(tick(0.05, 0.05), "0.05");
         assert_eq!(tick(0.0, 0.5), "0.0");
+        assert_eq!(tick(-0.04, 0.1), "0.0");
         assert_eq!(tick(20.0, 10.0), "20");
         assert_eq!(tick(3e-9, 1e-9), "3.00e-9");
     }

@@ -1,4 +1,4 @@
-//! The parts that all figures share: title, drawing, legend, captions.
+//! The parts that all figures share: the words around a drawing; and the page of a drawing in space.
 
 use crate::axes_box;
 use crate::canvas::{self, Canvas, HEIGHT, Lettering, Sheet, Stroke, WIDTH, text_width};
@@ -24,10 +24,55 @@ const LEGEND: PagePoint = [664.0, 116.0];
 
 /// Height of a line of the legend and of a caption \[pixels\].
 const LEGEND_LINE: f64 = 26.0;
-const CAPTION_LINE: f64 = 20.0;
+pub(crate) const CAPTION_LINE: f64 = 20.0;
 
 /// Width of a sample in the legend \[pixels\].
 const SAMPLE: f64 = 34.0;
+
+/// The words around a drawing: title and subtitle above it, captions below.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Words<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) subtitle: &'a str,
+    /// Lines, from above.
+    pub(crate) captions: &'a [String],
+}
+
+impl Words<'_> {
+    /// A page of this height \[pixels\] with these words, and what `draw` draws, as an SVG document.
+    pub(crate) fn svg(
+        &self,
+        height: u32,
+        draw: impl FnOnce(&Canvas<'_>) -> Result<(), FigureError>,
+    ) -> Result<String, FigureError> {
+        let description = self.description();
+        let sheet = Sheet {
+            height,
+            title: self.title,
+            description: &description,
+        };
+        canvas::svg(sheet, |canvas| {
+            let room = f64::from(WIDTH) - 2.0 * MARGIN;
+            fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE)?;
+            fitted(canvas, self.subtitle, [MARGIN, 61.0], room, style::SUBTITLE)?;
+            for (line, caption) in self.captions.iter().rev().enumerate() {
+                let bottom = f64::from(height) - MARGIN - line as f64 * CAPTION_LINE;
+                fitted(canvas, caption, [MARGIN, bottom], room, style::CAPTION)?;
+            }
+            draw(canvas)
+        })
+    }
+
+    /// Subtitle and captions as sentences.
+    pub(crate) fn description(&self) -> String {
+        let lines = std::iter::once(self.subtitle).chain(self.captions.iter().map(String::as_str));
+        let sentences = lines.map(|line| match line.ends_with('.') {
+            true => line.to_string(),
+            false => format!("{line}."),
+        });
+        sentences.collect::<Vec<_>>().join(" ")
+    }
+}
 
 /// What a figure is made of, apart from the drawing in its box of axes.
 pub(crate) struct Page<'a> {
@@ -57,25 +102,12 @@ impl Page<'_> {
     ) -> Result<String, FigureError> {
         let bounds = self.bounds.roomy();
         let view = View::fit(&bounds, DRAWING);
-        let description = [std::slice::from_ref(&self.subtitle), &*self.captions]
-            .concat()
-            .join(" ");
-        let sheet = Sheet {
-            height: HEIGHT,
+        let words = Words {
             title: self.title,
-            description: &description,
+            subtitle: &self.subtitle,
+            captions: &self.captions,
         };
-        canvas::svg(sheet, |canvas| {
-            let [width, height] = [WIDTH, HEIGHT].map(f64::from);
-            let room = width - 2.0 * MARGIN;
-            fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE)?;
-            fitted(
-                canvas,
-                &self.subtitle,
-                [MARGIN, 61.0],
-                room,
-                style::SUBTITLE,
-            )?;
+        words.svg(HEIGHT, |canvas| {
             axes_box::draw(canvas, &view, &bounds)?;
             draw(canvas, &view)?;
             for (line, (sample, label)) in self.legend.iter().enumerate() {
@@ -83,11 +115,8 @@ impl Page<'_> {
                 let at = [left, top + line as f64 * LEGEND_LINE];
                 sample.draw(canvas, at)?;
                 let text = [at[0] + SAMPLE + 12.0, at[1]];
-                fitted(canvas, label, text, width - MARGIN - text[0], style::LEGEND)?;
-            }
-            for (line, caption) in self.captions.iter().rev().enumerate() {
-                let at = [MARGIN, height - MARGIN - line as f64 * CAPTION_LINE];
-                fitted(canvas, caption, at, room, style::CAPTION)?;
+                let room = f64::from(WIDTH) - MARGIN - text[0];
+                fitted(canvas, label, text, room, style::LEGEND)?;
             }
             Ok(())
         })

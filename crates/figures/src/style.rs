@@ -71,6 +71,13 @@ pub(crate) const TICK_RIGHT: Lettering = lettering(13.0, DARK, HPos::Left);
 pub(crate) const TICK_LEFT: Lettering = lettering(13.0, DARK, HPos::Right);
 pub(crate) const AXIS_NAME_LEFT: Lettering = lettering(15.0, BLACK, HPos::Left);
 pub(crate) const PANEL: Lettering = lettering(14.5, BLACK, HPos::Center);
+/// Heading of a group of bars, names beside bars, and labels at their ends.
+pub(crate) const GROUP: Lettering = lettering(15.0, BLACK, HPos::Left);
+pub(crate) const BAR_NAME: Lettering = lettering(14.0, BLACK, HPos::Right);
+pub(crate) const BAR_LABEL: Lettering = lettering(13.0, BLACK, HPos::Left);
+/// Shares of a whole, and those against it.
+pub(crate) const BAR: RGBAColor = BLUE;
+pub(crate) const BAR_AGAINST: RGBAColor = VERMILLION;
 pub(crate) const CONTOUR_LABEL: Lettering = lettering(11.5, BLACK, HPos::Center);
 pub(crate) const CONTOUR_HALO: RGBAColor = RGBAColor(255, 255, 255, 0.78);
 /// Contours over light and over dark colours.

@@ -4,7 +4,7 @@ use crate::canvas::Canvas;
 use crate::checks::{self, Displaced};
 use crate::error::FigureError;
 use crate::geometry::{Bounds, Point, View};
-use crate::page::{self, Page, Sample};
+use crate::page::{self, Page, Sample, Words};
 use crate::scale::{Scale, largest};
 use crate::{numbers, png, style};
 
@@ -46,9 +46,7 @@ impl TrajectoryFigure {
     /// finite or too large to draw, and a magnification that is not above zero.
     pub fn svg(&self) -> Result<String, FigureError> {
         let ours = Displaced::new("trajectory", &self.commanded, &self.displacement)?;
-        let factor = self
-            .scale
-            .factor(ours.points.iter(), ours.displacement.iter())?;
+        let factor = self.factor()?;
         let deflected = ours.moved(factor)?;
         let second = match &self.second {
             Some(second) => {
@@ -60,15 +58,9 @@ impl TrajectoryFigure {
         };
         let page = Page {
             title: &self.title,
-            subtitle: format!(
-                "Commanded and deflected trajectory, deflection × {}",
-                numbers::number(factor)
-            ),
+            subtitle: subtitle(factor),
             legend: self.legend(factor),
-            captions: page::captions(
-                largest(self.displacement.iter()),
-                self.second.as_ref().map(|second| second.difference),
-            ),
+            captions: self.captions(),
             bounds: Bounds::around(
                 self.commanded
                     .iter()
@@ -89,6 +81,32 @@ impl TrajectoryFigure {
         png::render(&self.svg()?)
     }
 
+    /// What is drawn, how much it is magnified, and what of, as sentences.
+    ///
+    /// # Errors
+    ///
+    /// A magnification that is not above zero.
+    pub fn caption(&self) -> Result<String, FigureError> {
+        let words = Words {
+            title: &self.title,
+            subtitle: &subtitle(self.factor()?),
+            captions: &self.captions(),
+        };
+        Ok(words.description())
+    }
+
+    fn factor(&self) -> Result<f64, FigureError> {
+        let (points, displacements) = (self.commanded.iter(), self.displacement.iter());
+        self.scale.factor(points, displacements)
+    }
+
+    fn captions(&self) -> Vec<String> {
+        page::captions(
+            largest(self.displacement.iter()),
+            self.second.as_ref().map(|second| second.difference),
+        )
+    }
+
     fn legend(&self, factor: f64) -> Vec<(Sample, String)> {
         let deflected = format!("deflected, × {}", numbers::number(factor));
         let mut legend = vec![
@@ -104,6 +122,13 @@ impl TrajectoryFigure {
         );
         legend
     }
+}
+
+fn subtitle(factor: f64) -> String {
+    format!(
+        "Commanded and deflected trajectory, deflection × {}",
+        numbers::number(factor)
+    )
 }
 
 fn draw(

@@ -9,7 +9,7 @@ use hyperstat_assembly::{Geometry, ModalOptions, Model};
 use crate::design::{Design, Designs, Varied};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
-use crate::figures::{self, Figure};
+use crate::figures::{self, Figure, Known};
 use crate::fragment::{Fragment, first_at};
 use crate::mechanism::Mechanism;
 use crate::modes;
@@ -132,7 +132,13 @@ impl Job {
         let poses = written.poses(fields)?;
         let mut first = recipe.load(written, &poses, None)?;
         let figures = match fields.get("figures") {
-            Some(list) => figures::read(list, poses.len())?,
+            Some(list) => figures::read(
+                list,
+                &Known {
+                    poses: poses.len(),
+                    cases: first.model().is_ok().then(|| first.cases()),
+                },
+            )?,
             None => Vec::new(),
         };
         let modes = fields.get("modes").map(modes::read).transpose()?;

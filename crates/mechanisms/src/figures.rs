@@ -3,7 +3,7 @@
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::names;
+use crate::{modes, names};
 
 /// A figure that a job asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,8 +17,26 @@ pub enum Figure {
     Deformed {
         /// The pose to draw, from 0.
         pose: usize,
+        /// The case under whose loads; the loads of the base state where there is none.
+        case: Option<String>,
         /// Magnification of the deflection.
         scale: Scale,
+    },
+    /// A natural mode over the mechanism at rest.
+    Mode {
+        /// Which mode, from 1, lowest first.
+        number: usize,
+        /// The pose to draw, from 0.
+        pose: usize,
+        /// Magnification of the shape of unit modal mass.
+        scale: Scale,
+    },
+    /// The shares of bodies, joints and deformations in the displacement of the output, as bars.
+    Budget {
+        /// The displacement along which.
+        along: Along,
+        /// The pose, from 0.
+        pose: usize,
     },
     /// A quantity over a plane of the poses, or over all of their planes.
     Map {
@@ -27,6 +45,49 @@ pub enum Figure {
         /// The coordinate that the plane is normal to, of `x y z rx ry rz`, and its value.
         plane: Option<(&'static str, f64)>,
     },
+}
+
+/// A direction that the output gives along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Along {
+    /// Of its displacement under the loads.
+    Displacement,
+    /// Of this unit wrench on it: force, moment, global axes.
+    Wrench([f64; 6]),
+}
+
+impl Along {
+    /// The words that name a direction.
+    pub const WORDS: [&'static str; 7] = ["displacement", "x", "y", "z", "rx", "ry", "rz"];
+
+    /// The direction that one of [`Along::WORDS`] names.
+    pub fn named(word: &str) -> Option<Self> {
+        match Self::WORDS.iter().position(|known| *known == word)? {
+            0 => Some(Self::Displacement),
+            k => {
+                let mut wrench = [0.0; 6];
+                wrench[k - 1] = 1.0;
+                Some(Self::Wrench(wrench))
+            }
+        }
+    }
+
+    /// A direction in space, of any length but zero; `None` where it has none.
+    pub fn direction(components: [f64; 3]) -> Option<Self> {
+        let [a, b, c] = components;
+        let length = a.hypot(b).hypot(c);
+        if !(length.is_finite() && length > 0.0) {
+            return None;
+        }
+        Some(Self::Wrench([
+            a / length,
+            b / length,
+            c / length,
+            0.0,
+            0.0,
+            0.0,
+        ]))
+    }
 }
 
 /// Magnification of deflections in a figure.
@@ -38,47 +99,119 @@ pub enum Scale {
     Factor(f64),
 }
 
-/// Reads the figures of a job with so many poses.
-pub(crate) fn read(list: Fragment<'_>, poses: usize) -> Result<Vec<Figure>, LoadError> {
-    let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
-    list.into_iter().map(|item| figure(item, poses)).collect()
+/// What a job has that its figures may name.
+pub(crate) struct Known {
+    /// Number of poses.
+    pub(crate) poses: usize,
+    /// Names of the cases; `None` where they are not known.
+    pub(crate) cases: Option<Vec<String>>,
 }
 
-fn figure(whole: Fragment<'_>, poses: usize) -> Result<Figure, LoadError> {
-    let (kind, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
-    let known: &[&str] =
-        match kind.text() {
-            "Trajectory" => &["scale"],
-            "Deformed" => &["pose", "scale"],
-            "Map" => &["value", "plane"],
-            other => {
-                return Err(kind.error(format!("unknown figure `{other}`")).with_help(
-                    names::help(other, "figures", ["Trajectory", "Deformed", "Map"]),
-                ));
-            }
-        };
-    let owner = format!("`{}`", kind.text());
+/// Kinds of figures with their fields.
+const KINDS: [(&str, &[&str]); 5] = [
+    ("Trajectory", &["scale"]),
+    ("Deformed", &["pose", "case", "scale"]),
+    ("Mode", &["number", "pose", "scale"]),
+    ("Budget", &["along", "pose"]),
+    ("Map", &["value", "plane"]),
+];
+
+/// Reads the figures of a job.
+pub(crate) fn read(list: Fragment<'_>, known: &Known) -> Result<Vec<Figure>, LoadError> {
+    let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
+    list.into_iter().map(|item| figure(item, known)).collect()
+}
+
+fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
+    let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
+    let found = KINDS.into_iter().find(|(kind, _)| *kind == word.text());
+    let (kind, names) = found.ok_or_else(|| {
+        let kinds = KINDS.into_iter().map(|(kind, _)| kind);
+        word.error(format!("unknown figure `{}`", word.text()))
+            .with_help(names::help(word.text(), "figures", kinds))
+    })?;
+    let owner = format!("`{kind}`");
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, known, &[])?,
+        Some(given) => Fields::read(given, owner, names, &[])?,
         None => Fields::none(whole, owner),
     };
-    if kind.text() == "Map" {
-        return Ok(Figure::Map {
+    let pose = || {
+        let given = fields.get("pose");
+        given.map_or(Ok(0), |at| pose(at, known.poses))
+    };
+    let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
+    Ok(match kind {
+        "Map" => Figure::Map {
             value: fields.required("value")?.string()?,
             plane: fields.get("plane").map(plane).transpose()?,
+        },
+        "Deformed" => Figure::Deformed {
+            pose: pose()?,
+            case: fields.get("case").map(|at| case(at, known)).transpose()?,
+            scale: scale()?,
+        },
+        "Mode" => Figure::Mode {
+            number: fields.get("number").map_or(Ok(1), number)?,
+            pose: pose()?,
+            scale: scale()?,
+        },
+        "Budget" => Figure::Budget {
+            along: fields.get("along").map_or(Ok(Along::Displacement), along)?,
+            pose: pose()?,
+        },
+        _ if known.poses < 2 => {
+            return Err(whole
+                .error("a trajectory needs two poses or more, this job has one")
+                .with_help("use `Deformed` to see a single pose"));
+        }
+        _ => Figure::Trajectory { scale: scale()? },
+    })
+}
+
+/// Reads the name of a case.
+fn case(fragment: Fragment<'_>, known: &Known) -> Result<String, LoadError> {
+    let name = fragment.string()?;
+    match &known.cases {
+        Some(cases) if !cases.contains(&name) => {
+            let cases = cases.iter().map(String::as_str);
+            Err(fragment
+                .error(format!("there is no case `{name}`"))
+                .with_help(names::help(&name, "cases", cases)))
+        }
+        _ => Ok(name),
+    }
+}
+
+/// Reads the number of a mode.
+fn number(fragment: Fragment<'_>) -> Result<usize, LoadError> {
+    let expected = format!("the number of a mode, 1 to {}", modes::MOST);
+    match fragment.parse::<usize>(&expected)? {
+        number if (1..=modes::MOST).contains(&number) => Ok(number),
+        _ => Err(fragment.expected(&expected)),
+    }
+}
+
+/// Reads a direction such as `z` or `(0.0, 1.0, -1.0)`.
+fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
+    if fragment.text().starts_with('(') {
+        let numbers = fragment.array("a direction of three numbers, such as `(0.0, 1.0, -1.0)`")?;
+        let [a, b, c] = numbers;
+        let components = [a.number()?, b.number()?, c.number()?];
+        return Along::direction(components).ok_or_else(|| {
+            fragment
+                .error("the direction has no length")
+                .with_help("give three numbers that are not all zero, such as `(0.0, 1.0, -1.0)`")
         });
     }
-    let scale = fields.get("scale").map_or(Ok(Scale::Auto), scale)?;
-    if kind.text() == "Deformed" {
-        let pose = fields.get("pose").map_or(Ok(0), |at| pose(at, poses))?;
-        return Ok(Figure::Deformed { pose, scale });
-    }
-    if poses < 2 {
-        return Err(whole
-            .error("a trajectory needs two poses or more, this job has one")
-            .with_help("use `Deformed` to see a single pose"));
-    }
-    Ok(Figure::Trajectory { scale })
+    let word = fragment.text();
+    Along::named(word).ok_or_else(|| {
+        fragment
+            .error(format!("`{word}` is no direction"))
+            .with_help(format!(
+                "give one of `{}`, or three numbers such as `(0.0, 1.0, -1.0)`",
+                Along::WORDS.join("`, `")
+            ))
+    })
 }
 
 /// Reads a plane such as `z(0.5)`.

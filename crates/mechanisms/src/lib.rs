@@ -47,7 +47,7 @@ mod write;
 pub use batch::{Batch, Job};
 pub use design::{Design, Value, Varied};
 pub use error::{LoadError, Location};
-pub use figures::{Figure, Scale};
+pub use figures::{Along, Figure, Scale};
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };

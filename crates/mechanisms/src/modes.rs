@@ -9,7 +9,7 @@ use crate::fragment::Fragment;
 use crate::names;
 
 /// Frequencies of a job at the most.
-const MOST: usize = 1000;
+pub(crate) const MOST: usize = 1000;
 
 /// Reads `6` or `(count: 6, mass: Lumped)`.
 pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {

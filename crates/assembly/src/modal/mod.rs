@@ -7,6 +7,7 @@
 
 mod lanczos;
 mod mass;
+mod shape;
 mod system;
 
 use hyperstat_elements::{MassShape, RotaryInertia};

@@ -1,4 +1,4 @@
-//! Why a table cannot be drawn.
+//! Why a figure that is asked for cannot be drawn.
 
 use std::io;
 use std::path::PathBuf;
@@ -71,6 +71,48 @@ pub(crate) enum PlotError {
     /// Nothing left to draw.
     #[error("no pose of {} has a result there: there is nothing to draw", .path.display())]
     Nothing { path: PathBuf },
+    /// A figure of a mechanism, asked of a file that holds none.
+    #[error("`{option}` is drawn of a mechanism; {} holds none", .path.display())]
+    NoMechanism { path: PathBuf, option: &'static str },
+    /// An option that chooses what the file does not leave open.
+    #[error("`{option}` chooses from a batch file; {} is {what}", .path.display())]
+    NoChoice {
+        path: PathBuf,
+        option: &'static str,
+        what: &'static str,
+    },
+    /// A direction for a budget that is found already.
+    #[error("{} is solved already, along the direction that it states", .path.display())]
+    Along { path: PathBuf },
+    /// JSON that is not of `solve --why`.
+    #[error("not the JSON of `hyperstat solve --why`: {message}")]
+    NoSolve {
+        location: Box<Location>,
+        message: String,
+    },
+    /// JSON of `solve` without `--why`.
+    #[error("{} holds no budget", .path.display())]
+    NoBudget { path: PathBuf },
+    /// A budget of an output that moves freely.
+    #[error("{}: the output moves freely: nothing elastic gives, and there is no budget", .path.display())]
+    Free { path: PathBuf },
+    /// A budget of nothing.
+    #[error("{}: the output does not move along this direction: nothing has a share in it", .path.display())]
+    NoShares { path: PathBuf },
+    /// A case that the model does not have.
+    #[error("{} holds no case `{name}`", .path.display())]
+    NoCase {
+        path: PathBuf,
+        name: String,
+        known: Vec<String>,
+    },
+    /// A mode beyond the last.
+    #[error("{} has no mode {number}: it has {count}", .path.display())]
+    NoMode {
+        path: PathBuf,
+        number: usize,
+        count: usize,
+    },
     /// A design or a pose that the table does not hold.
     #[error("{} holds no {what} {number}", .path.display())]
     NoRows {
@@ -86,7 +128,8 @@ impl PlotError {
         match self {
             Self::NoRun { location, .. }
             | Self::Cells { location, .. }
-            | Self::NoNumber { location, .. } => Some(location),
+            | Self::NoNumber { location, .. }
+            | Self::NoSolve { location, .. } => Some(location),
             _ => None,
         }
     }
@@ -97,6 +140,30 @@ impl PlotError {
             Self::Extension { .. } | Self::NoRun { .. } => {
                 Some("give a table that `hyperstat run` wrote, such as `out/delta-map.csv`".into())
             }
+            Self::NoMechanism { .. } => Some(
+                "give the mechanism file, or the batch file with `--job`, `--design` and `--pose`"
+                    .into(),
+            ),
+            Self::NoChoice { option, .. } => Some(format!("leave `{option}` out")),
+            Self::Along { .. } => {
+                Some("give `--along` to `hyperstat solve --why`, or draw the mechanism file".into())
+            }
+            Self::NoSolve { .. } | Self::NoBudget { .. } => Some(
+                "give what `hyperstat solve FILE.ron --why --format json` prints, or FILE.ron itself"
+                    .into(),
+            ),
+            Self::Free { .. } => Some("lock a drive or make it elastic".into()),
+            Self::NoShares { .. } => Some("give another direction with `--along`".into()),
+            Self::NoCase { known, .. } => Some(match &**known {
+                [] => "it has no cases: leave `--case` out".into(),
+                known => format!("its cases are {}", known.join(", ")),
+            }),
+            Self::NoMode { count: 0, .. } => {
+                Some("nothing that moves has mass: give the materials a `density`".into())
+            }
+            Self::NoMode { count, .. } => Some(format!(
+                "choose `--mode` from 1 to {count}, or give segments more `elements`"
+            )),
             Self::Cells { .. } | Self::NoNumber { .. } => {
                 Some("the table is not as `hyperstat run` wrote it; run the batch again".into())
             }

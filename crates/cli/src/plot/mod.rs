@@ -1,19 +1,23 @@
-//! `hyperstat plot`: figures from the tables that `hyperstat run` writes.
+//! `hyperstat plot`: figures from the tables that `hyperstat run` writes, of mechanisms, and of what
+//! `hyperstat solve --why` found.
 
 mod error;
 mod lines;
 mod map;
+mod mechanism;
 mod plane;
 mod quantity;
 mod rows;
+mod solved;
 mod table;
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{FigureError, LineFigure, MapFigure, Scale, TrajectoryFigure};
+use hyperstat_figures::{Scale, TrajectoryFigure};
+use hyperstat_mechanisms::Registry;
 
 use crate::args;
-use crate::atomic::AtomicFile;
+use crate::drawing::Drawing;
 use crate::error::CliError;
 pub(crate) use error::PlotError;
 use lines::Lines;
@@ -22,38 +26,28 @@ pub(crate) use quantity::{Drawn, known as quantities};
 pub(crate) use rows::Choice;
 pub(crate) use table::Table;
 
-/// A figure of any kind.
-enum Figure {
-    Map(MapFigure),
-    Lines(LineFigure),
-    Trajectory(TrajectoryFigure),
+/// A figure, and the name of its files beside the input.
+struct Plotted {
+    drawing: Drawing,
+    name: String,
 }
 
-impl Figure {
-    /// The figure as an SVG document.
-    fn svg(&self) -> Result<String, FigureError> {
-        match self {
-            Self::Map(figure) => figure.svg(),
-            Self::Lines(figure) => figure.svg(),
-            Self::Trajectory(figure) => figure.svg(),
-        }
-    }
+/// What a file is, by its name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Table,
+    Json,
+    /// Everything else: a mechanism or batch file.
+    Ron,
+}
 
-    /// The figure as a PNG file.
-    fn png(&self) -> Result<Vec<u8>, FigureError> {
-        match self {
-            Self::Map(figure) => figure.png(),
-            Self::Lines(figure) => figure.png(),
-            Self::Trajectory(figure) => figure.png(),
-        }
-    }
-
-    /// What a caption says of it.
-    fn caption(&self) -> String {
-        match self {
-            Self::Map(figure) => format!("{} {}", figure.subtitle, figure.caption()),
-            Self::Lines(figure) => format!("{} {}", figure.subtitle, figure.caption()),
-            Self::Trajectory(_) => "Commanded and deflected trajectory.".into(),
+impl Kind {
+    fn of(path: &Path) -> Self {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        match extension.map(str::to_ascii_lowercase).as_deref() {
+            Some("csv" | "parquet") => Self::Table,
+            Some("json") => Self::Json,
+            _ => Self::Ron,
         }
     }
 }
@@ -61,25 +55,77 @@ impl Figure {
 /// Draws what the command line asks for. `tell` gets the files and the caption.
 pub(crate) fn run(
     args: &args::Plot,
+    registry: &Registry,
     tell: impl FnOnce(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
-    let table = Table::open(&args.table)?;
-    let (figure, kind) = figure(args, &table)?;
+    let Plotted { drawing, name } = plotted(args, registry)?;
     let stem = match &args.out {
         Some(out) => without_extension(out),
-        None => args.table.with_file_name(format!("{}-{kind}", table.job())),
+        None => args.file.with_file_name(name),
     };
     let mut told = String::new();
-    for path in write(&stem, figure.svg(), figure.png())? {
+    for path in drawing.write(&stem)? {
         told += &format!("{}\n", path.display());
     }
-    told += &format!("{}\n", figure.caption());
+    let caption = drawing.caption().map_err(|source| CliError::Figure {
+        path: stem.clone(),
+        source,
+    })?;
+    told += &format!("{caption}\n");
     tell(&told)?;
     Ok(true)
 }
 
-/// The figure that is asked for, and what it is called.
-fn figure(args: &args::Plot, table: &Table) -> Result<(Figure, String), CliError> {
+/// The figure that is asked for.
+fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> {
+    let kind = Kind::of(&args.file);
+    let of_mechanism = match &args.kind {
+        kind if kind.deformed => Some("--deformed"),
+        kind if kind.mode.is_some() => Some("--mode"),
+        kind if kind.budget => Some("--budget"),
+        _ => None,
+    };
+    match (of_mechanism, kind) {
+        (None, _) => {
+            refuse(args, "a table", [("--job", args.job.is_some())])?;
+            of_table(args)
+        }
+        (Some(_), Kind::Ron) => mechanism::figure(args, registry),
+        (Some("--budget"), Kind::Json) => {
+            let chosen = [
+                ("--job", args.job.is_some()),
+                ("--design", args.design.is_some()),
+                ("--pose", args.pose.is_some()),
+            ];
+            refuse(args, "solved already", chosen)?;
+            Ok(solved::figure(args)?)
+        }
+        (Some(option), _) => Err(CliError::Plot(PlotError::NoMechanism {
+            path: args.file.clone(),
+            option,
+        })),
+    }
+}
+
+/// The error of an option that has nothing to choose from.
+fn refuse<const N: usize>(
+    args: &args::Plot,
+    what: &'static str,
+    options: [(&'static str, bool); N],
+) -> Result<(), PlotError> {
+    let given = options.into_iter().find(|(_, given)| *given);
+    given.map_or(Ok(()), |(option, _)| {
+        Err(PlotError::NoChoice {
+            path: args.file.clone(),
+            option,
+            what,
+        })
+    })
+}
+
+/// The figure of a table.
+fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
+    let table = &Table::open(&args.file)?;
     let title = args.title.clone();
     let choice = Choice {
         design: args.design,
@@ -90,7 +136,7 @@ fn figure(args: &args::Plot, table: &Table) -> Result<(Figure, String), CliError
         design: choice.design.or(Some(0)),
         ..choice
     };
-    if let Some(value) = &args.kind.map {
+    let (drawing, kind) = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),
             planes: args.plane.clone(),
@@ -98,9 +144,8 @@ fn figure(args: &args::Plot, table: &Table) -> Result<(Figure, String), CliError
             choice: one_design,
             title,
         };
-        return Ok((Figure::Map(map::figure(table, &map)?), value.clone()));
-    }
-    if let Some(values) = &args.kind.lines {
+        (Drawing::Map(map::figure(table, &map)?), value.clone())
+    } else if let Some(values) = &args.kind.lines {
         let over = args.over.clone().unwrap_or_else(|| "pose".into());
         // Along what varies from design to design: one pose of each.
         let design = table.find("design");
@@ -118,10 +163,15 @@ fn figure(args: &args::Plot, table: &Table) -> Result<(Figure, String), CliError
             title,
         };
         let figure = lines::figure(table, &lines)?;
-        return Ok((Figure::Lines(figure), values.join("-")));
-    }
-    let figure = trajectory(table, one_design, args.scale, title)?;
-    Ok((Figure::Trajectory(figure), "trajectory".into()))
+        (Drawing::Lines(figure), values.join("-"))
+    } else {
+        let figure = trajectory(table, one_design, args.scale, title)?;
+        (Drawing::Trajectory(figure), "trajectory".into())
+    };
+    Ok(Plotted {
+        drawing,
+        name: format!("{}-{kind}", table.job()),
+    })
 }
 
 /// The poses with a result as a trajectory, commanded and deflected.
@@ -139,7 +189,7 @@ fn trajectory(
         commanded: Vec::new(),
         displacement: Vec::new(),
         second: None,
-        scale: scale.map_or(Scale::Auto, Scale::Factor),
+        scale: magnified(scale),
     };
     for row in choice.rows(table)? {
         let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
@@ -156,31 +206,15 @@ fn trajectory(
     }
 }
 
-/// Writes a figure as `STEM.svg` and `STEM.png`; both are drawn before the first is written.
-pub(crate) fn write(
-    stem: &Path,
-    svg: Result<String, FigureError>,
-    png: Result<Vec<u8>, FigureError>,
-) -> Result<[PathBuf; 2], CliError> {
-    let [as_svg, as_png] = ["svg", "png"].map(|extension| {
-        let mut path = stem.as_os_str().to_owned();
-        path.push(".");
-        path.push(extension);
-        PathBuf::from(path)
-    });
-    let cannot_draw = |path: &Path, source| CliError::Figure {
-        path: path.into(),
-        source,
-    };
-    let svg = svg.map_err(|source| cannot_draw(&as_svg, source))?;
-    let png = png.map_err(|source| cannot_draw(&as_png, source))?;
-    for (path, content) in [(&as_svg, svg.as_bytes()), (&as_png, &png)] {
-        AtomicFile::write(path, content).map_err(|source| CliError::Write {
-            path: path.clone(),
-            source,
-        })?;
-    }
-    Ok([as_svg, as_png])
+/// A magnification from the command line.
+fn magnified(factor: Option<f64>) -> Scale {
+    factor.map_or(Scale::Auto, Scale::Factor)
+}
+
+/// Name of a file without folder and extension.
+fn stem(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default();
+    stem.to_string_lossy().into_owned()
 }
 
 /// `map` for `map`, `map.svg` and `map.png`.

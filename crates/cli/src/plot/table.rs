@@ -74,8 +74,7 @@ impl Table {
 
     /// Name of the job: that of the file without its extension.
     pub(crate) fn job(&self) -> String {
-        let stem = self.path.file_stem().unwrap_or_default();
-        stem.to_string_lossy().into_owned()
+        super::stem(&self.path)
     }
 
     pub(crate) fn names(&self) -> &[String] {

@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
 use super::{
-    DISPLACEMENT, Entries, Table, WRENCH, heads, inner_displacements_of, numbers, section,
+    DISPLACEMENT, Entries, Table, WRENCH, displacement_table, heads, inner_displacements_of,
+    numbers, section,
 };
 
 /// What a case does. Field names are those of the JSON output.
@@ -70,20 +71,19 @@ impl CaseReport {
         let mut table = Table::new(0, &DISPLACEMENT);
         table.row(&[], self.output.displacement);
         section(text, &title("displacement of the output [m, rad]"), table);
-        let mut table = Table::new(1, &heads(&["node"], DISPLACEMENT));
-        for (name, displacement) in &self.displacements.0 {
-            table.row(&[name], *displacement);
-        }
-        section(text, &title("displacements [m, rad]"), table);
+        let table = displacement_table(&self.displacements);
+        section(text, &title("displacements of the nodes [m, rad]"), table);
         if !self.joints.0.is_empty() {
             let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
-            section(text, &title("joint wrenches [N, N·m]"), table);
+            let heading =
+                "joint wrenches, on the second body, at the joint, in the joint frame [N, N·m]";
+            section(text, &title(heading), table);
         }
         if !self.segments.is_empty() {
             let (forces, stresses) = segment_tables(&self.segments);
             section(
                 text,
-                &title("forces on the ends of segments [N, N·m]"),
+                &title("forces on the ends of segments, in the element frame [N, N·m]"),
                 forces,
             );
             section(text, &title("largest stresses of segments [Pa]"), stresses);

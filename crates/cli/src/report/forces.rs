@@ -5,7 +5,7 @@ use hyperstat_assembly::{
 };
 use serde::Serialize;
 
-use super::{Entries, Table, numbers, section};
+use super::{Entries, ROUNDING, Table, numbers, section};
 
 /// Forces on a section of a segment.
 #[derive(Debug, Serialize)]
@@ -108,10 +108,13 @@ pub(super) fn write_worst(bodies: &Entries<BodyReport>, text: &mut String) {
     let mut table = Table::new(2, &heads);
     for (name, point) in worst {
         let segment = point.segment.join("-");
+        let size = point.y.hypot(point.z);
+        let in_section =
+            [point.y, point.z].map(|c| if c.abs() < ROUNDING * size { 0.0 } else { c });
         let mut row = vec![
             point.at,
-            point.y,
-            point.z,
+            in_section[0],
+            in_section[1],
             point.normal,
             point.shear,
             point.von_mises,

@@ -4,6 +4,7 @@ mod cases;
 mod check;
 mod forces;
 mod inner;
+mod loads;
 mod modes;
 mod parameters;
 mod solve;
@@ -23,7 +24,7 @@ use inner::inner_displacements_of;
 pub(crate) use modes::ModesReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
-pub(crate) use why::Why;
+pub(crate) use why::{BudgetReport, Sum, Why, budget};
 
 /// The name of a mechanism and, where it is from a batch, of which job, design and pose.
 fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {
@@ -104,7 +105,46 @@ fn matrix_table(row_names: [&str; 6], column_names: [&str; 6], matrix: &Rows) ->
     table
 }
 
-/// Entries of a matrix below this share of √(K_ii K_jj) are rounding.
+/// What is rounding beside the largest number of its kind, shown as 0: of six components, the first
+/// three are of one kind and the last three of another.
+struct Rounding([f64; 2]);
+
+impl Rounding {
+    /// Of all rows of a table.
+    fn of<'a>(rows: impl IntoIterator<Item = &'a [f64; 6]>) -> Self {
+        let mut largest = [0.0_f64; 2];
+        for row in rows {
+            for (k, number) in row.iter().enumerate() {
+                largest[k / 3] = largest[k / 3].max(number.abs());
+            }
+        }
+        Self(largest.map(|largest| ROUNDING * largest))
+    }
+
+    /// A row as it is shown.
+    fn shown(&self, row: &[f64; 6]) -> [f64; 6] {
+        std::array::from_fn(|k| {
+            if row[k].abs() < self.0[k / 3] {
+                0.0
+            } else {
+                row[k]
+            }
+        })
+    }
+}
+
+/// A table of names and displacements.
+fn displacement_table(displacements: &Entries<[f64; 6]>) -> Table {
+    let rounding = Rounding::of(displacements.0.iter().map(|(_, row)| row));
+    let mut table = Table::new(1, &heads(&["node"], DISPLACEMENT));
+    for (name, displacement) in &displacements.0 {
+        table.row(&[name], rounding.shown(displacement));
+    }
+    table
+}
+
+/// Entries of a matrix below this share of √(K_ii K_jj) are rounding, and numbers of a list below
+/// this share of the largest.
 const ROUNDING: f64 = 1e-14;
 
 /// A stiffness matrix as a table: each column the wrench of a unit displacement.

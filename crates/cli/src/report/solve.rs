@@ -12,10 +12,11 @@ use serde::Serialize;
 
 use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::loads::loads;
 use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, inner_displacements, list,
-    matrix_table, numbers, redundancies, rows, section, stiffness_table,
+    DISPLACEMENT, Entries, ModesReport, Rounding, Rows, Table, WRENCH, displacement_table, heads,
+    inner_displacements, list, matrix_table, numbers, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -51,6 +52,9 @@ pub(crate) struct SolveReport {
     why: Option<Why>,
     #[serde(skip_serializing_if = "Entries::is_empty")]
     cases: Entries<CaseReport>,
+    /// The loads in words and tables, for the text only.
+    #[serde(skip)]
+    loads: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -148,6 +152,7 @@ impl SolveReport {
             bodies: bodies(model, solution),
             why: None,
             cases: cases(model, solution),
+            loads: loads(model),
         }
     }
 
@@ -199,23 +204,21 @@ impl SolveReport {
             "Idle motions (the displacements of these bodies are defined only up to them)",
             &self.idle_motions,
         );
+        text += &self.loads;
         self.output.write(&mut text);
 
-        let mut table = Table::new(1, &heads(&["node"], DISPLACEMENT));
-        for (name, displacement) in &self.displacements.0 {
-            table.row(&[name], *displacement);
-        }
-        section(&mut text, "Displacements [m, rad]", table);
+        let table = displacement_table(&self.displacements);
+        section(&mut text, "Displacements of the nodes [m, rad]", table);
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
+        write_worst(&self.bodies, &mut text);
         for (name, case) in &self.cases.0 {
             case.write(name, &mut text);
         }
         if let Some(modes) = &self.modes {
             modes.write(&mut text);
         }
-        write_worst(&self.bodies, &mut text);
         if let Some(why) = &self.why {
             why.write(&mut text);
         }
@@ -268,9 +271,15 @@ impl SolveReport {
 /// The wrenches of joints as a table.
 pub(super) fn joint_table(joints: &Entries<JointReport>, heads: Vec<&str>) -> Table {
     let mut table = Table::new(1, &heads);
+    let rounding = Rounding::of(
+        joints
+            .0
+            .iter()
+            .filter_map(|(_, joint)| joint.wrench.as_ref()),
+    );
     for (name, joint) in &joints.0 {
         match joint.wrench {
-            Some(wrench) => table.row(&[name], wrench),
+            Some(wrench) => table.row(&[name], rounding.shown(&wrench)),
             None => table.remark(&[name], "not determined by statics"),
         }
     }
@@ -281,10 +290,11 @@ pub(super) fn joint_table(joints: &Entries<JointReport>, heads: Vec<&str>) -> Ta
 pub(super) fn segment_tables(segments: &[SegmentReport]) -> (Table, Table) {
     let mut forces = Table::new(3, &heads(&["body", "segment", "at"], WRENCH));
     let mut stresses = Table::new(2, &["body", "segment", "normal", "shear", "von Mises"]);
+    let rounding = Rounding::of(segments.iter().flat_map(|segment| &segment.end_forces));
     for segment in segments {
         let name = segment.points.join("-");
         for (point, wrench) in segment.points.iter().zip(segment.end_forces) {
-            forces.row(&[&segment.body, &name, point], wrench);
+            forces.row(&[&segment.body, &name, point], rounding.shown(&wrench));
         }
         match &segment.stress {
             Some(stress) => stresses.row(

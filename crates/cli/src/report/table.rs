@@ -71,11 +71,13 @@ pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
     }
-    if (1e-2..1e5).contains(&value.abs()) {
-        let digits = 5 - value.abs().log10().floor() as i32;
-        return format!("{value:.*}", digits.max(0) as usize);
+    let text = format!("{value:.5e}");
+    // Its power of ten, after rounding.
+    let power = text.split('e').nth(1).and_then(|power| power.parse().ok());
+    match power {
+        Some(power @ -2..=4) => format!("{value:.*}", (5_i32 - power) as usize),
+        _ => text,
     }
-    format!("{value:.5e}")
 }
 
 #[cfg(test)]
@@ -90,6 +92,10 @@ mod tests {
             (-12.345_678_9, "-12.3457"),
             (0.05, "0.0500000"),
             (99_999.4, "99999.4"),
+            (99_999.96, "1.00000e5"),
+            (9.999_999_9, "10.0000"),
+            (9.999_999_9e-3, "0.0100000"),
+            (f64::NAN, "NaN"),
             (123_456_789.0, "1.23457e8"),
             (-1.5e-7, "-1.50000e-7"),
         ];

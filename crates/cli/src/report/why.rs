@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    Budget, Deformation, Influence, Part, PartSource, Sensitivity, Solution, SolveError,
+    Budget, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution, SolveError,
 };
-use nalgebra::Vector6;
-use serde::Serialize;
+use hyperstat_mechanisms::Along;
+use nalgebra::{Matrix6, Vector6};
+use serde::{Deserialize, Serialize};
 
 use super::{Rows, Table, number, numbers, parameters, rows, section};
-use crate::args::Along;
 use crate::case::Case;
 
 /// Parts and parameters that the text tells; JSON has all.
@@ -27,36 +27,38 @@ pub(crate) struct Why {
     sensitivities: Option<Vec<SensitivityReport>>,
 }
 
-#[derive(Debug, Serialize)]
-struct BudgetReport {
+/// Where the displacement of the output, or its compliance, comes from.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct BudgetReport {
     /// `displacement` under the loads, or `compliance` where there is none.
-    of: &'static str,
+    pub(crate) of: String,
     /// The unit wrench along which.
-    along: [f64; 6],
-    total: f64,
-    parts: Vec<PartReport>,
-    by_deformation: Vec<Sum>,
-    by_part: Vec<Sum>,
-    rest: f64,
+    pub(crate) along: [f64; 6],
+    pub(crate) total: f64,
+    pub(crate) parts: Vec<PartReport>,
+    pub(crate) by_deformation: Vec<Sum>,
+    pub(crate) by_part: Vec<Sum>,
+    pub(crate) rest: f64,
 }
 
-#[derive(Debug, Serialize)]
-struct PartReport {
+/// What a body or a joint gives by one kind of deformation.
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct PartReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     body: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     joint: Option<String>,
-    deformation: &'static str,
+    deformation: String,
     displacement: f64,
     share: Option<f64>,
 }
 
 /// A sum of parts.
-#[derive(Debug, Serialize)]
-struct Sum {
-    name: String,
-    displacement: f64,
-    share: Option<f64>,
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Sum {
+    pub(crate) name: String,
+    pub(crate) displacement: f64,
+    pub(crate) share: Option<f64>,
 }
 
 #[derive(Debug, Serialize)]
@@ -105,23 +107,37 @@ struct SensitivityReport {
     stiffness: Option<Rows>,
 }
 
-impl Why {
-    /// Finds out why the output of a solved mechanism gives along a direction.
-    pub(crate) fn new(case: &Case, solution: &Solution, along: Along) -> Result<Self, SolveError> {
-        let (model, output) = (&case.model, &solution.output);
-        let Some(compliance) = &output.compliance else {
-            return Ok(Self {
-                budget: None,
-                measures: None,
-                sensitivities: None,
-            });
-        };
+/// The budget of the output of a solved mechanism along a direction; `None` where it moves freely.
+pub(crate) fn budget(
+    model: &Model,
+    solution: &Solution,
+    along: Along,
+) -> Result<Option<BudgetReport>, SolveError> {
+    let question = Question::new(model, solution, along);
+    let answer = |question: Question<'_>| Ok(question.budget(&Influence::new(model)?));
+    question.map(answer).transpose()
+}
+
+/// What is asked about: an output that is held, and a direction.
+struct Question<'a> {
+    model: &'a Model,
+    solution: &'a Solution,
+    compliance: &'a Matrix6<f64>,
+    measures: Option<Measures>,
+    /// Whether the loads move the output.
+    moved: bool,
+    direction: Vector6<f64>,
+}
+
+impl<'a> Question<'a> {
+    fn new(model: &'a Model, solution: &'a Solution, along: Along) -> Option<Self> {
+        let output = &solution.output;
+        let compliance = output.compliance.as_ref()?;
         let reference = model
             .output()
             .map(|node| model.geometry().positions[node.0]);
         let measures = output.stiffness.as_ref().zip(reference);
         let measures = measures.and_then(|(k, at)| Measures::new(k, compliance, &at, None));
-        let influence = Influence::new(model)?;
         let moved = Budget::direction_of(&output.displacement);
         let direction = match along {
             Along::Wrench(wrench) => Vector6::from(wrench),
@@ -135,22 +151,53 @@ impl Why {
                 })
             }),
         };
-        let (of, budget) = match moved {
-            Some(_) => ("displacement", influence.budget(solution, &direction)),
-            None => (
-                "compliance",
-                influence.compliance_budget(compliance, &direction),
-            ),
+        Some(Self {
+            model,
+            solution,
+            compliance,
+            measures,
+            moved: moved.is_some(),
+            direction,
+        })
+    }
+
+    fn budget(&self, influence: &Influence<'_>) -> BudgetReport {
+        let (of, budget) = if self.moved {
+            let budget = influence.budget(self.solution, &self.direction);
+            ("displacement", budget)
+        } else {
+            let budget = influence.compliance_budget(self.compliance, &self.direction);
+            ("compliance", budget)
         };
-        let relative = |s: &Sensitivity| match moved {
-            Some(_) => s.relative(&output.displacement, &direction),
-            None => s.relative_compliance(compliance, &direction),
+        BudgetReport::new(self.model, of, &budget)
+    }
+
+    /// Relative change of what is asked about per relative change of a parameter.
+    fn relative(&self, sensitivity: &Sensitivity) -> Option<f64> {
+        let displacement = &self.solution.output.displacement;
+        match self.moved {
+            true => sensitivity.relative(displacement, &self.direction),
+            false => sensitivity.relative_compliance(self.compliance, &self.direction),
+        }
+    }
+}
+
+impl Why {
+    /// Finds out why the output of a solved mechanism gives along a direction.
+    pub(crate) fn new(case: &Case, solution: &Solution, along: Along) -> Result<Self, SolveError> {
+        let Some(question) = Question::new(&case.model, solution, along) else {
+            return Ok(Self {
+                budget: None,
+                measures: None,
+                sensitivities: None,
+            });
         };
+        let influence = Influence::new(&case.model)?;
         let mut sensitivities: Vec<_> = (influence.sensitivities(solution)?.iter())
             .map(|s| SensitivityReport {
                 parameter: parameters::name(case, &s.parameter),
                 value: s.value,
-                relative: relative(s),
+                relative: question.relative(s),
                 displacement: numbers(&s.displacement),
                 compliance: rows(&s.compliance),
                 stiffness: s.stiffness.as_ref().map(rows),
@@ -159,8 +206,8 @@ impl Why {
         let size = |s: &SensitivityReport| s.relative.unwrap_or(0.0).abs();
         sensitivities.sort_by(|a, b| size(b).total_cmp(&size(a)));
         Ok(Self {
-            budget: Some(BudgetReport::new(case, of, &budget)),
-            measures: measures.as_ref().map(MeasuresReport::new),
+            budget: Some(question.budget(&influence)),
+            measures: question.measures.as_ref().map(MeasuresReport::new),
             sensitivities: Some(sensitivities),
         })
     }
@@ -186,17 +233,17 @@ impl Why {
 }
 
 impl BudgetReport {
-    fn new(case: &Case, of: &'static str, budget: &Budget) -> Self {
+    fn new(model: &Model, of: &str, budget: &Budget) -> Self {
         let name = |source: PartSource| match source {
-            PartSource::Body(id) => (Some(case.model.bodies()[id.0].name.clone()), None),
-            PartSource::Joint(id) => (None, Some(case.model.joints()[id.0].name.clone())),
+            PartSource::Body(id) => (Some(model.bodies()[id.0].name.clone()), None),
+            PartSource::Joint(id) => (None, Some(model.joints()[id.0].name.clone())),
         };
         let part = |part: &Part| {
             let (body, joint) = name(part.source);
             PartReport {
                 body,
                 joint,
-                deformation: word(part.deformation),
+                deformation: word(part.deformation).into(),
                 displacement: part.displacement,
                 share: part.share,
             }
@@ -216,7 +263,7 @@ impl BudgetReport {
             });
         let by_deformation = budget.by_deformation().into_iter();
         Self {
-            of,
+            of: of.into(),
             along: numbers(&budget.along),
             total: budget.total,
             parts: budget.parts.iter().map(part).collect(),
@@ -228,8 +275,19 @@ impl BudgetReport {
         }
     }
 
-    fn turns(&self) -> bool {
+    /// Whether it is a rotation that is asked about.
+    pub(crate) fn turns(&self) -> bool {
         self.along[..3].iter().all(|c| *c == 0.0)
+    }
+
+    /// What the whole is, with its unit.
+    pub(crate) fn quantity(&self) -> (&'static str, &'static str) {
+        match (&*self.of, self.turns()) {
+            ("compliance", false) => ("compliance", "m/N"),
+            ("compliance", true) => ("compliance", "rad/(N·m)"),
+            (_, false) => ("deflection", "m"),
+            (_, true) => ("rotation", "rad"),
+        }
     }
 
     fn write(&self, text: &mut String) {
@@ -239,15 +297,10 @@ impl BudgetReport {
             &self.along[..3]
         };
         let part: Vec<_> = part.iter().map(|c| number(*c)).collect();
-        let (what, unit) = match (self.of, self.turns()) {
-            ("compliance", false) => ("a compliance", "m/N"),
-            ("compliance", true) => ("a compliance", "rad/(N·m)"),
-            (_, false) => ("a deflection", "m"),
-            (_, true) => ("a rotation", "rad"),
-        };
+        let (what, unit) = self.quantity();
         let about = if self.turns() { "about" } else { "along" };
         let mut body = format!(
-            "  The output has {what} of {} {unit} {about} ({}). It comes from\n",
+            "  The output has a {what} of {} {unit} {about} ({}). It comes from\n",
             number(self.total),
             part.join(", ")
         );
@@ -288,11 +341,7 @@ fn bars(text: &mut String, sums: &[Sum], unit: &str) {
 }
 
 fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text: &mut String) {
-    let what = match (budget.of, budget.turns()) {
-        ("compliance", _) => "compliance",
-        (_, true) => "rotation",
-        _ => "deflection",
-    };
+    let (what, _) = budget.quantity();
     let effective = found
         .iter()
         .filter(|s| s.relative.is_some_and(|r| r != 0.0));
@@ -301,12 +350,17 @@ fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text:
     let width = width.unwrap_or(0);
     let mut body = String::new();
     for sensitivity in &told {
+        let relative = sensitivity.relative.unwrap_or(0.0);
+        // What is rounded to zero has no sign.
+        let relative = match relative.abs() < 5e-4 {
+            true => "0.000".into(),
+            false => format!("{relative:+.3}"),
+        };
         let _ = writeln!(
             body,
-            "  {:<width$}  {:>12}   {:>+8.3} % {what}",
+            "  {:<width$}  {:>12}   {relative:>8} % {what}",
             sensitivity.parameter,
             number(sensitivity.value),
-            sensitivity.relative.unwrap_or(0.0)
         );
     }
     section(text, "What 1 % more of each value changes", body);

@@ -10,6 +10,7 @@ mod messages;
 mod modes;
 mod plot;
 mod run;
+mod shapes;
 mod solve;
 mod support;
 mod tables;

@@ -96,6 +96,55 @@ fn the_report_shows_what_an_engineer_looks_for() {
 }
 
 #[test]
+fn the_report_states_its_loads_and_no_rounding() {
+    let bench = Bench::new("solve-loads");
+    let more = r#"gravity: (0.0, 0.0, -9.81),
+    cases: {
+        "wind": [(on: "bar", per_length: (0.0, 2.0, 0.0)), (on: ("bar", "B"), force: (1.0, 0.0, 0.0))],
+        "rest": [],
+    },
+    output:"#;
+    let dense = CANTILEVER.replace("poisson: 0.3", "poisson: 0.3, density: 7850.0");
+    let warm = dense
+        .replace("density: 7850.0", "density: 7850.0, expansion: 1.2e-5")
+        .replace(
+            "material: \"steel\")",
+            "material: \"steel\", temperature: 20.0)",
+        );
+    bench.file("bar.ron", &warm.replacen("output:", more, 1));
+    let outcome = bench.hyperstat(&["solve", "bar.ron"]).ends_with(0);
+    let mut lines = outcome.out().lines();
+    for line in [
+        "Gravity",
+        "  (0, 0, -9.81000) m/s² on all masses, in every case too",
+        "Temperature [K], in every case too",
+        "  bar   20.0000",
+        "Loads [N, N·m]",
+        "  on     axes    Fx  Fy        Fz       Mx  My  Mz",
+        "  bar.B  global   0   0  -100.000  10.0000   0   0",
+        "Loads of case `wind` [N, N·m]",
+        "  bar.B  global  1.00000   0   0   0   0   0",
+        "Loads of case `wind`, along beams [N/m, N]",
+        "  bar.A-B  A   global   0  2.00000   0   0   0   0",
+        "  bar.A-B  B   global   0  2.00000   0   0   0   0",
+        "Loads of case `rest`",
+        "  none",
+        "Displacements of the nodes [m, rad]",
+    ] {
+        assert!(
+            lines.any(|found| found == line),
+            "no `{line}`, or not there, in\n{}",
+            outcome.out()
+        );
+    }
+    let noise = ["e-15", "e-16", "e-17", "e-18"];
+    let noise = noise
+        .into_iter()
+        .find(|digits| outcome.out().contains(digits));
+    assert_eq!(noise, None, "{}", outcome.out());
+}
+
+#[test]
 fn an_output_that_moves_freely_is_told_and_ends_with_2() {
     let bench = Bench::new("solve-free");
     // A load on the hinge's own point does no work.

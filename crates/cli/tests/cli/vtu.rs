@@ -1,80 +1,110 @@
-//! `solve --vtu`, read back by an XML reader of other authorship: the grid is well formed, and its
-//! numbers are those of closed forms.
+//! `solve --vtu`, read back by `vtkio`, a reader of VTK files of other authorship: points, cells and
+//! arrays hold the numbers of closed forms and those that `solve` itself prints.
 
-use resvg::usvg::roxmltree::{Document, Node};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::ops::Index;
+use std::path::Path;
+
+use serde_json::Value;
+use vtkio::Vtk;
+use vtkio::model::{Attribute, CellType, DataSet, VertexNumbers};
 
 use crate::support::{Bench, CANTILEVER, assert_near, delta_batch, numbers};
 
-/// The numbers of an array, in rows of its components.
-fn array(document: &Document<'_>, name: &str) -> Vec<Vec<f64>> {
-    let is_it = |n: &Node<'_, '_>| n.has_tag_name("DataArray") && n.attribute("Name") == Some(name);
-    let node = document.descendants().find(is_it);
-    let node = node.unwrap_or_else(|| panic!("no array `{name}`"));
-    assert_eq!(node.attribute("format"), Some("ascii"));
-    let components = node
-        .attribute("NumberOfComponents")
-        .map_or(1, |n| n.parse().unwrap());
-    let text = node.text().unwrap_or_default();
-    let numbers: Vec<f64> = text
-        .split_whitespace()
-        .map(|n| n.parse().unwrap())
-        .collect();
-    numbers.chunks(components).map(<[f64]>::to_vec).collect()
+/// What the reader found in a file.
+struct Grid {
+    points: Vec<Vec<f64>>,
+    cells: Vec<(CellType, Vec<usize>)>,
+    /// By name, in rows of its components.
+    arrays: BTreeMap<String, Vec<Vec<f64>>>,
 }
 
-/// Checks the grid: as many of everything as it says, and every cell of points that there are.
-fn assert_whole(document: &Document<'_>) {
-    let root = document.root_element();
-    assert_eq!(root.tag_name().name(), "VTKFile");
-    assert_eq!(root.attribute("type"), Some("UnstructuredGrid"));
-    let piece = document
-        .descendants()
-        .find(|n| n.has_tag_name("Piece"))
-        .unwrap();
-    let count = |name: &str| piece.attribute(name).unwrap().parse::<usize>().unwrap();
-    let (points, cells) = (count("NumberOfPoints"), count("NumberOfCells"));
-    let of = |tag: &str| -> Vec<(String, usize)> {
-        let parent = document
-            .descendants()
-            .find(|n| n.has_tag_name(tag))
-            .unwrap();
-        let arrays = parent.children().filter(|n| n.has_tag_name("DataArray"));
-        let named = arrays.map(|n| n.attribute("Name").unwrap().to_string());
-        named
-            .map(|name| {
-                let rows = array(document, &name).len();
-                (name, rows)
-            })
-            .collect()
-    };
-    for (tag, expected) in [
-        ("Points", points),
-        ("PointData", points),
-        ("CellData", cells),
-    ] {
-        for (name, rows) in of(tag) {
-            assert_eq!(rows, expected, "{name}");
+impl Grid {
+    fn read(path: &Path) -> Self {
+        let file = Vtk::import(path).unwrap_or_else(|error| panic!("{error:?}"));
+        let DataSet::UnstructuredGrid { pieces, .. } = file.data else {
+            panic!("no unstructured grid");
+        };
+        let [piece] = <[_; 1]>::try_from(pieces).unwrap();
+        let piece = piece.into_loaded_piece_data(None).unwrap();
+        let rows = |numbers: Vec<f64>, of: usize| -> Vec<Vec<f64>> {
+            numbers.chunks(of).map(<[f64]>::to_vec).collect()
+        };
+        let points = rows(piece.points.cast_into().unwrap(), 3);
+        let VertexNumbers::XML {
+            connectivity,
+            offsets,
+        } = piece.cells.cell_verts
+        else {
+            panic!("cells of the old format");
+        };
+        let mut start = 0;
+        let cells = offsets.iter().zip(piece.cells.types).map(|(end, kind)| {
+            let of_cell = &connectivity[start..*end as usize];
+            start = *end as usize;
+            (kind, of_cell.iter().map(|point| *point as usize).collect())
+        });
+        let cells: Vec<(CellType, Vec<usize>)> = cells.collect();
+        let mut arrays = BTreeMap::new();
+        let counts = [points.len(), cells.len()];
+        for (attributes, count) in [piece.data.point, piece.data.cell].into_iter().zip(counts) {
+            for attribute in attributes {
+                let Attribute::DataArray(array) = attribute else {
+                    panic!("{attribute:?}");
+                };
+                let components = array.num_comp();
+                let values = rows(array.data.cast_into().unwrap(), components);
+                assert_eq!(values.len(), count, "{}", array.name);
+                assert!(arrays.insert(array.name, values).is_none());
+            }
+        }
+        let grid = Self {
+            points,
+            cells,
+            arrays,
+        };
+        grid.assert_whole();
+        grid
+    }
+
+    /// Every cell is of points that there are, as many as its kind has.
+    fn assert_whole(&self) {
+        for (kind, points) in &self.cells {
+            let count = match kind {
+                CellType::Vertex => 1,
+                CellType::Line => 2,
+                other => panic!("{other:?}"),
+            };
+            assert_eq!(points.len(), count);
+            assert!(points.iter().all(|point| *point < self.points.len()));
         }
     }
-    let offsets: Vec<usize> = array(document, "offsets")
-        .iter()
-        .map(|o| o[0] as usize)
-        .collect();
-    let types = array(document, "types");
-    assert_eq!((offsets.len(), types.len()), (cells, cells));
-    let connectivity = array(document, "connectivity");
-    assert_eq!(connectivity.len(), *offsets.last().unwrap());
-    assert!(
-        connectivity
-            .iter()
-            .all(|point| point[0] >= 0.0 && point[0] < points as f64)
-    );
-    let mut start = 0;
-    for (end, kind) in offsets.into_iter().zip(types) {
-        // Vertices (1) have one point, lines (3) two.
-        assert_eq!(end - start, if kind[0] == 1.0 { 1 } else { 2 });
-        assert!([1.0, 3.0].contains(&kind[0]));
-        start = end;
+
+    /// The lines of segment `k` in the order of the report, each segment of twelve.
+    fn lines(&self, k: usize) -> std::ops::Range<usize> {
+        let lines = 12 * k..12 * (k + 1);
+        for cell in lines.clone() {
+            assert_eq!(self["part"][cell], [0.0]);
+        }
+        lines
+    }
+
+    /// The first and the last point of segment `k`.
+    fn ends(&self, k: usize) -> [usize; 2] {
+        let lines = self.lines(k);
+        [self.cells[lines.start].1[0], self.cells[lines.end - 1].1[1]]
+    }
+}
+
+impl Index<&str> for Grid {
+    type Output = Vec<Vec<f64>>;
+
+    fn index(&self, name: &str) -> &Self::Output {
+        let known = || self.arrays.keys().collect::<Vec<_>>();
+        self.arrays
+            .get(name)
+            .unwrap_or_else(|| panic!("no array `{name}` of {:?}", known()))
     }
 }
 
@@ -86,40 +116,29 @@ fn a_cantilever_has_the_curve_and_the_forces_of_the_textbook() {
     bench
         .hyperstat(&["solve", "bar.ron", "--vtu", "bar.vtu"])
         .ends_with(0);
-    let text = bench.read("bar.vtu");
-    let document = Document::parse(&text).unwrap();
-    assert_whole(&document);
-    let pi = std::f64::consts::PI;
-    let inertia = pi * 0.02_f64.powi(4) / 64.0;
+    let grid = Grid::read(&bench.path("bar.vtu"));
+    let inertia = PI * 0.02_f64.powi(4) / 64.0;
     let stiffness = young(CANTILEVER) * inertia;
-    let points = array(&document, "points");
-    let displacement = array(&document, "displacement");
     let tip = 100.0 * 0.5_f64.powi(3) / (3.0 * stiffness);
-    let mut on_bar = 0;
-    for (point, moved) in points.iter().zip(&displacement) {
+    assert!(grid.points.len() >= 13);
+    for (point, moved) in grid.points.iter().zip(&grid["displacement"]) {
         let x = point[0];
         let expected = -100.0 * x * x * (1.5 - x) / (6.0 * stiffness);
         assert_near(moved[2], expected, 1e-9, tip);
-        on_bar += 1;
     }
-    assert!(on_bar >= 13);
-    let part = array(&document, "part");
-    let (shear, bending) = (array(&document, "Vz"), array(&document, "My"));
-    let (torsion, stress) = (array(&document, "T"), array(&document, "von_mises"));
-    let known = array(&document, "has_stress");
-    let beams: Vec<usize> = (0..part.len()).filter(|k| part[*k][0] == 0.0).collect();
-    assert_eq!(beams.len(), 12);
-    for (k, cell) in beams.into_iter().enumerate() {
+    let beams = grid["part"].iter().filter(|part| part[0] == 0.0).count();
+    assert_eq!(beams, 12);
+    for (k, cell) in grid.lines(0).enumerate() {
         let middle = 0.5 * (k as f64 + 0.5) / 12.0;
         let moment = 100.0 * (0.5 - middle);
-        assert_near(shear[cell][0].abs(), 100.0, 1e-9, 100.0);
-        assert_near(bending[cell][0].abs(), moment, 1e-9, 50.0);
-        assert_near(torsion[cell][0].abs(), 10.0, 1e-9, 10.0);
-        let bent = 32.0 * moment / (pi * 0.02_f64.powi(3));
-        let twisted = 16.0 * 10.0 / (pi * 0.02_f64.powi(3));
+        assert_near(grid["Vz"][cell][0].abs(), 100.0, 1e-9, 100.0);
+        assert_near(grid["My"][cell][0].abs(), moment, 1e-9, 50.0);
+        assert_near(grid["T"][cell][0].abs(), 10.0, 1e-9, 10.0);
+        let bent = 32.0 * moment / (PI * 0.02_f64.powi(3));
+        let twisted = 16.0 * 10.0 / (PI * 0.02_f64.powi(3));
         let expected = (bent * bent + 3.0 * twisted * twisted).sqrt();
-        assert_near(stress[cell][0], expected, 1e-9, expected);
-        assert_eq!(known[cell], [1.0]);
+        assert_near(grid["von_mises"][cell][0], expected, 1e-9, expected);
+        assert_eq!(grid["has_stress"][cell], [1.0]);
     }
 }
 
@@ -134,8 +153,44 @@ fn young(file: &str) -> f64 {
         .unwrap()
 }
 
+/// That a state's arrays hold at the segments what the report says of it: displacements of the
+/// nodes at their ends, section forces, and stresses up to their largest.
+fn assert_state(grid: &Grid, prefix: &str, state: &Value) {
+    let array = |name: &str| &grid[&*format!("{prefix}{name}")];
+    for (k, segment) in state["segments"].as_array().unwrap().iter().enumerate() {
+        let body = segment["body"].as_str().unwrap();
+        for (point, end) in segment["points"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .zip(grid.ends(k))
+        {
+            let name = format!("{body}.{}", point.as_str().unwrap());
+            let node = numbers(&state["displacements"][&name]);
+            let found = [&*array("displacement")[end], &array("rotation")[end]].concat();
+            for (found, node) in found.iter().zip(node) {
+                // Numbers read back to the same double, but curves are formed in local axes.
+                assert_near(*found, node, 1e-12, 1e-3);
+            }
+        }
+        let at = |end: usize| numbers(&segment["section_forces"][end]["wrench"]);
+        let [first, last] = [at(0), at(1)];
+        let largest = segment["stress"]["von_mises"].as_f64().unwrap();
+        for (line, cell) in grid.lines(k).enumerate() {
+            let xi = (line as f64 + 0.5) / 12.0;
+            for (axis, name) in ["N", "Vy", "Vz", "T", "My", "Mz"].iter().enumerate() {
+                // Linear where nothing loads the beam between its ends.
+                let expected = (1.0 - xi) * first[axis] + xi * last[axis];
+                assert_near(array(name)[cell][0], expected, 1e-9, 100.0);
+            }
+            let stress = array("von_mises")[cell][0];
+            assert!((0.0..=largest * (1.0 + 1e-9)).contains(&stress));
+        }
+    }
+}
+
 #[test]
-fn a_delta_has_its_platform_its_joints_and_its_modes() {
+fn a_delta_has_what_its_report_says() {
     let bench = Bench::new("vtu-delta");
     bench.file(
         "delta.ron",
@@ -146,28 +201,65 @@ fn a_delta_has_its_platform_its_joints_and_its_modes() {
         .hyperstat(&[&solve[..], &["--vtu", "delta.vtu"]].concat())
         .ends_with(0);
     let json = outcome.json();
-    let text = bench.read("delta.vtu");
-    let document = Document::parse(&text).unwrap();
-    assert_whole(&document);
-    let (points, moved) = (array(&document, "points"), array(&document, "displacement"));
-    let turned = array(&document, "rotation");
-    let (first, second) = (array(&document, "mode1"), array(&document, "mode2"));
-    let expected = numbers(&json["output"]["displacement"]);
-    let shape = numbers(&json["modes"][1]["shape"]["platform.P"]);
-    let at = |point: &Vec<f64>| point[0].hypot(point[1]).hypot(point[2] - 0.5) < 1e-9;
-    let place = points.iter().rposition(at).expect("the platform's point P");
-    for k in 0..3 {
-        assert_near(moved[place][k], expected[k], 1e-12, 1e-4);
-        assert_near(turned[place][k], expected[k + 3], 1e-12, 1e-3);
-        assert_near(second[place][k], shape[k], 1e-9, 1.0);
+    let grid = Grid::read(&bench.path("delta.vtu"));
+    assert_state(&grid, "", &json);
+    // Modes at the ends of all segments, and at the platform's P.
+    let segments = json["segments"].as_array().unwrap();
+    for (mode, shape) in json["modes"].as_array().unwrap().iter().enumerate() {
+        let shape = &shape["shape"];
+        let found = &grid[&*format!("mode{}", mode + 1)];
+        for (k, segment) in segments.iter().enumerate() {
+            let body = segment["body"].as_str().unwrap();
+            for (place, end) in grid.ends(k).into_iter().enumerate() {
+                let point = segment["points"][place].as_str().unwrap();
+                let node = numbers(&shape[&format!("{body}.{point}")]);
+                for (found, node) in found[end].iter().zip(node) {
+                    assert_near(*found, node, 1e-9, 1.0);
+                }
+            }
+        }
     }
-    assert_eq!(first.len(), points.len());
-    let part = array(&document, "part");
-    let joints = part.iter().filter(|part| part[0] == 2.0).count();
-    assert_eq!(joints, json["joints"].as_object().unwrap().len());
-    assert!(part.iter().any(|part| part[0] == 1.0));
-    let stress = array(&document, "von_mises");
-    assert!(stress.iter().all(|stress| stress[0].is_finite()));
+    // The platform's own P; the mean of its points lies in the same place.
+    let at = |k: &usize| {
+        let [x, y, z] = grid.points[*k][..] else {
+            panic!("a point of three coordinates");
+        };
+        x.hypot(y).hypot(z - 0.5) < 1e-9
+    };
+    let expected = numbers(&json["displacements"]["platform.P"]);
+    let found = (0..grid.points.len())
+        .filter(at)
+        .any(|k| grid["displacement"][k] == expected[..3] && grid["rotation"][k] == expected[3..]);
+    assert!(found);
+    let of_part = |wanted: f64| grid["part"].iter().filter(move |part| part[0] == wanted);
+    let joints = json["joints"].as_object().unwrap().len();
+    assert_eq!(of_part(2.0).count(), joints);
+    assert_eq!(of_part(0.0).count(), 12 * segments.len());
+    assert!(of_part(1.0).count() > 0);
+}
+
+#[test]
+fn cases_have_arrays_of_their_own() {
+    let bench = Bench::new("vtu-cases");
+    // Names that mean something in XML.
+    let cases = r#"cases: {
+        "push & <pull>": [(on: ("bar", "B"), force: (0.0, 30.0, 0.0))],
+        "twist": [(on: ("bar", "B"), moment: (5.0, 0.0, 0.0))],
+    },
+    output:"#;
+    bench.file("bar.ron", &CANTILEVER.replacen("output:", cases, 1));
+    let solve = ["solve", "bar.ron", "--format", "json", "--vtu", "bar.vtu"];
+    let json = bench.hyperstat(&solve).ends_with(0).json();
+    let grid = Grid::read(&bench.path("bar.vtu"));
+    assert_state(&grid, "", &json);
+    let names: Vec<_> = json["cases"].as_object().unwrap().keys().collect();
+    assert_eq!(names.len(), 2);
+    for name in names {
+        assert_state(&grid, &format!("{name}."), &json["cases"][name]);
+    }
+    // T of `twist` in the middle of the bar.
+    assert_near(grid["twist.T"][5][0].abs(), 5.0, 1e-12, 5.0);
+    assert_eq!(grid["twist.Vz"][5][0], 0.0);
 }
 
 #[test]

@@ -15,7 +15,7 @@ const RIGHT: f64 = 742.0;
 const TOP: f64 = 116.0;
 
 /// Distance of panels beside and above each other \[pixels\].
-const BESIDE: f64 = 24.0;
+const BESIDE: f64 = 40.0;
 const ABOVE: f64 = 42.0;
 
 /// Room for the axis below the panels and the caption \[pixels\].

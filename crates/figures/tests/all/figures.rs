@@ -2,7 +2,7 @@
 //! what can be drawn, and data that cannot be.
 
 use hyperstat_figures::{
-    Axis, Curve, DeformedFigure, FigureError, RigidBody, Scale, SecondMethod, SecondPoints,
+    Axis, Curve, DeformedFigure, FigureError, RigidBody, Scale, SecondMethod, SecondPoints, Shown,
     TrajectoryFigure,
 };
 use resvg::usvg::roxmltree::{Document, Node};
@@ -33,6 +33,7 @@ fn trajectory() -> TrajectoryFigure {
 fn deformed() -> DeformedFigure {
     let part = |k: u32| f64::from(k) / 10.0;
     DeformedFigure {
+        shown: Shown::Deflection,
         title: "cantilever".into(),
         curves: vec![Curve {
             points: (0..=10).map(|k| [0.0, 0.0, part(k)]).collect(),

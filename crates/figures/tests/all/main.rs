@@ -1,5 +1,6 @@
 //! The figures from data.
 
+mod bars;
 mod figures;
 mod lines;
 mod maps;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Batch, Figure, Input, Registry, Scale, batch_from_str, load, load_batch, load_mechanism,
+    Along, Batch, Figure, Input, Registry, Scale, batch_from_str, load, load_batch, load_mechanism,
 };
 use nalgebra::Vector6;
 
@@ -52,6 +52,7 @@ fn the_paper_s_batch_holds_both_case_studies() {
         Figure::Trajectory { scale: Scale::Auto },
         Figure::Deformed {
             pose: 0,
+            case: None,
             scale: Scale::Auto,
         },
     ];
@@ -213,8 +214,39 @@ fn figures_have_defaults() {
         Figure::Trajectory { scale: Scale::Auto },
         Figure::Deformed {
             pose: 1,
+            case: None,
             scale: Scale::Factor(50.0),
         },
+    ];
+    assert_eq!(batch.jobs[0].figures, wanted);
+}
+
+#[test]
+fn figures_of_cases_modes_and_budgets() {
+    let cases = "cases: { \"push\": [(on: (\"platform\", \"P\"), force: (1, 0, 0))] }";
+    let batch = delta(&format!(
+        "poses: List([(0, 0, 0.5), (0, 0, 0.6)]), {cases}, figures: [
+            Deformed(case: \"push\"), Mode, Mode(number: 3, pose: 1, scale: 0.5), Budget,
+            Budget(along: rx, pose: 1), Budget(along: (0, 3, -4)),
+        ]"
+    ));
+    let mode = |number, pose, scale| Figure::Mode {
+        number,
+        pose,
+        scale,
+    };
+    let budget = |along, pose| Figure::Budget { along, pose };
+    let wanted = [
+        Figure::Deformed {
+            pose: 0,
+            case: Some("push".into()),
+            scale: Scale::Auto,
+        },
+        mode(1, 0, Scale::Auto),
+        mode(3, 1, Scale::Factor(0.5)),
+        budget(Along::Displacement, 0),
+        budget(Along::Wrench([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]), 1),
+        budget(Along::Wrench([0.0, 0.6, -0.8, 0.0, 0.0, 0.0]), 0),
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
 }

@@ -1,37 +1,53 @@
-//! From solutions to the drawings of `hyperstat-figures`.
+//! The figures that a job asks for.
 
-mod deformed;
 mod trajectory;
 
 use std::path::Path;
 
-use hyperstat_figures::{DeformedFigure, FigureError, MapFigure, TrajectoryFigure};
-use hyperstat_mechanisms::{Figure, Job, Scale};
-use nalgebra::Vector6;
+use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Solution};
+use hyperstat_mechanisms::{Along, Figure, Job, Scale};
 
 use super::summary::Summary;
+use crate::case::{Source, job_model};
+use crate::drawing::{self, Drawing};
 use crate::error::CliError;
 use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
+use crate::report;
 pub(crate) use trajectory::Trajectory;
 
-/// Name of the second method in the figures.
-const SECOND: &str = "reference solver";
-
-/// That the job's maps are of quantities that its table, with these columns, will hold.
+/// That the job's maps are of quantities that its table, with these columns, will hold, and that it
+/// has modes where one is to be drawn.
 pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
-    let unknown = job.figures.iter().find_map(|figure| match figure {
-        Figure::Map { value, .. } if Drawn::named(value, columns).is_none() => Some(value),
-        _ => None,
-    });
-    match unknown {
-        Some(value) => Err(CliError::UnknownQuantity {
-            location: Box::new(job.location()),
-            job: job.name.clone(),
-            value: value.clone(),
-            help: quantities(columns),
-        }),
-        None => Ok(()),
+    for figure in &job.figures {
+        match figure {
+            Figure::Map { value, .. } if Drawn::named(value, columns).is_none() => {
+                return Err(CliError::UnknownQuantity {
+                    location: Box::new(job.location()),
+                    job: job.name.clone(),
+                    value: value.clone(),
+                    help: quantities(columns),
+                });
+            }
+            Figure::Mode { number, .. } => {
+                // Where no pose can be reached there is no model, and no figure.
+                if let Ok(model) = job.model() {
+                    ModalPlan::new(&model, &modal_options(job, *number))
+                        .map_err(|error| Source::Job(job).unsolvable(&model, error))?;
+                }
+            }
+            _ => {}
+        }
     }
+    Ok(())
+}
+
+/// The masses that the job's modes are found with, for so many of them.
+fn modal_options(job: &Job, count: usize) -> ModalOptions {
+    let of_job = job.modes.clone();
+    of_job.map_or_else(
+        || ModalOptions::lowest(count),
+        |options| ModalOptions { count, ..options },
+    )
 }
 
 /// Draws the figures of a job and writes them beside its table.
@@ -48,9 +64,16 @@ pub(crate) fn draw(
                 .filter(|trajectory| !trajectory.is_empty())
                 .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, *scale)))
                 .ok_or_else(|| NO_RESULT.to_string()),
-            Figure::Deformed { pose, scale } => deformed::figure(job, *pose, *scale)
-                .map(Drawing::Deformed)
-                .ok_or_else(|| NO_RESULT.to_string()),
+            Figure::Deformed { pose, case, scale } => {
+                deformed(job, *pose, case.as_deref(), figure_scale(*scale))
+                    .ok_or_else(|| NO_RESULT.to_string())
+            }
+            Figure::Mode {
+                number,
+                pose,
+                scale,
+            } => mode(job, *number, *pose, figure_scale(*scale)),
+            Figure::Budget { along, pose } => budget(job, *along, *pose),
             Figure::Map { value, plane } => map(table, value, *plane).map_err(|error| {
                 let help = error
                     .help()
@@ -68,11 +91,78 @@ pub(crate) fn draw(
         if let Some(difference) = drawing.difference() {
             summary.compared(difference);
         }
-        for path in plot::write(&table.with_file_name(name), drawing.svg(), drawing.png())? {
+        for path in drawing.write(&table.with_file_name(name))? {
             summary.wrote(path);
         }
     }
     Ok(())
+}
+
+/// The model at a pose with its solution; `None` where it has none, or the output moves freely.
+fn solved(job: &Job, pose: usize) -> Option<(Model, Solution)> {
+    let model = job_model(job, pose).ok()?;
+    let solution = hyperstat_assembly::solve(&model).ok()?;
+    let held = solution.output.free_motions.is_empty();
+    held.then_some((model, solution))
+}
+
+/// Title of a figure of the job's first design.
+fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
+    let design = (!job.varied().is_empty()).then_some(0);
+    drawing::title(&job.name, design, Some(pose), case)
+}
+
+fn deformed(
+    job: &Job,
+    pose: usize,
+    case: Option<&str>,
+    scale: hyperstat_figures::Scale,
+) -> Option<Drawing> {
+    let (model, solution) = solved(job, pose)?;
+    let place = match case {
+        None => None,
+        Some(name) => Some(solution.cases.iter().position(|case| case.name == name)?),
+    };
+    let title = title(job, pose, case);
+    let mut figure = drawing::deformed(&model, &solution, place, title, scale).ok()?;
+    if case.is_none()
+        && let Ok(reference) = hyperstat_reference::solve(&model)
+    {
+        drawing::compare(&mut figure, &model, &solution, &reference);
+    }
+    Some(Drawing::Deformed(figure))
+}
+
+fn mode(
+    job: &Job,
+    number: usize,
+    pose: usize,
+    scale: hyperstat_figures::Scale,
+) -> Result<Drawing, String> {
+    let model = job_model(job, pose).map_err(|_| NO_RESULT)?;
+    let found = hyperstat_assembly::modes(&model, &modal_options(job, number))
+        .map_err(|error| error.to_string())?;
+    let mode = found.modes.get(number - 1).ok_or_else(|| {
+        format!(
+            "there are {} modes only (more `elements` a segment make more)",
+            found.modes.len()
+        )
+    })?;
+    let title = title(job, pose, None);
+    drawing::mode(&model, mode, number, title, scale)
+        .map(Drawing::Deformed)
+        .map_err(|error| error.to_string())
+}
+
+fn budget(job: &Job, along: Along, pose: usize) -> Result<Drawing, String> {
+    let (model, solution) = solved(job, pose).ok_or(NO_RESULT)?;
+    let budget = report::budget(&model, &solution, along)
+        .map_err(|error| error.to_string())?
+        .ok_or(NO_RESULT)?;
+    let output = model.output().map(|node| model.node_name(node));
+    drawing::budget(&budget, &output.unwrap_or_default(), title(job, pose, None))
+        .map(Drawing::Budget)
+        .ok_or_else(|| "the output does not move along this direction".into())
 }
 
 /// Why a figure of poses without a result is left out.
@@ -112,40 +202,9 @@ fn kind(figure: &Figure) -> &'static str {
     match figure {
         Figure::Trajectory { .. } => "trajectory",
         Figure::Deformed { .. } => "deformed",
+        Figure::Mode { .. } => "mode",
+        Figure::Budget { .. } => "budget",
         Figure::Map { .. } => "map",
-    }
-}
-
-/// A figure of any kind.
-enum Drawing {
-    Map(MapFigure),
-    Trajectory(TrajectoryFigure),
-    Deformed(DeformedFigure),
-}
-
-impl Drawing {
-    fn svg(&self) -> Result<String, FigureError> {
-        match self {
-            Self::Map(figure) => figure.svg(),
-            Self::Trajectory(figure) => figure.svg(),
-            Self::Deformed(figure) => figure.svg(),
-        }
-    }
-
-    fn png(&self) -> Result<Vec<u8>, FigureError> {
-        match self {
-            Self::Map(figure) => figure.png(),
-            Self::Trajectory(figure) => figure.png(),
-            Self::Deformed(figure) => figure.png(),
-        }
-    }
-
-    fn difference(&self) -> Option<f64> {
-        match self {
-            Self::Map(_) => None,
-            Self::Trajectory(figure) => figure.second.as_ref().map(|second| second.difference),
-            Self::Deformed(figure) => figure.second.as_ref().map(|second| second.difference),
-        }
     }
 }
 
@@ -153,36 +212,5 @@ fn figure_scale(scale: Scale) -> hyperstat_figures::Scale {
     match scale {
         Scale::Auto => hyperstat_figures::Scale::Auto,
         Scale::Factor(factor) => hyperstat_figures::Scale::Factor(factor),
-    }
-}
-
-/// The translation of a displacement.
-fn linear(displacement: &Vector6<f64>) -> [f64; 3] {
-    [displacement[0], displacement[1], displacement[2]]
-}
-
-/// The largest difference between two lists of displacements over the largest displacement in
-/// either; zero where nothing moves.
-fn difference(ours: &[[f64; 3]], others: &[[f64; 3]]) -> f64 {
-    let norm = |v: &[f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
-    let largest = ours.iter().chain(others).map(norm).fold(0.0, f64::max);
-    let pairs = ours.iter().zip(others);
-    let apart = pairs
-        .map(|(a, b)| norm(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
-        .fold(0.0, f64::max);
-    if largest == 0.0 { 0.0 } else { apart / largest }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::difference;
-
-    #[test]
-    fn the_difference_is_relative_to_the_largest_displacement() {
-        let ours = [[0.0, 3.0, 4.0], [1.0, 0.0, 0.0]];
-        let others = [[0.0, 3.0, 4.0], [1.0, 0.5, 0.0]];
-        assert_eq!(difference(&ours, &others), 0.1);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0; 3]]), 0.0);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]]), 1.0);
     }
 }

@@ -4,9 +4,10 @@ use hyperstat_figures::{SecondMethod, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job, Scale};
 use rayon::prelude::*;
 
-use super::{SECOND, difference, figure_scale, linear};
+use super::figure_scale;
 use crate::batch::record::Record;
 use crate::case::job_model;
+use crate::drawing::{SECOND, difference, linear};
 
 /// Most poses that a figure shows: more cannot be told apart, and the reference solver is slow.
 const MOST_POSES: usize = 1000;

@@ -1,0 +1,77 @@
+//! The budget in what `hyperstat solve --why --format json` printed.
+
+use std::fs;
+
+use hyperstat_mechanisms::Location;
+use serde::{Deserialize, Deserializer};
+
+use super::{PlotError, Plotted, stem};
+use crate::args;
+use crate::drawing::{self, Drawing};
+use crate::report::BudgetReport;
+
+/// What of the JSON is drawn.
+#[derive(Debug, Deserialize)]
+struct Solved {
+    name: String,
+    job: Option<String>,
+    design: Option<usize>,
+    pose: Option<usize>,
+    output: Output,
+    /// Not there, `null`, or a budget.
+    #[serde(default, deserialize_with = "given")]
+    budget: Option<Option<BudgetReport>>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Output {
+    node: String,
+}
+
+/// Reads a field that is there, `null` or not.
+fn given<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Option<Option<BudgetReport>>, D::Error> {
+    Deserialize::deserialize(deserializer).map(Some)
+}
+
+/// The figure of the budget.
+pub(super) fn figure(args: &args::Plot) -> Result<Plotted, PlotError> {
+    let path = || args.file.clone();
+    if args.along.is_some() {
+        return Err(PlotError::Along { path: path() });
+    }
+    let text = fs::read_to_string(&args.file).map_err(|source| PlotError::Read {
+        path: path(),
+        source,
+    })?;
+    let solved: Solved = serde_json::from_str(&text).map_err(|error| {
+        // The message ends with the place, which is told by the location.
+        let message = error.to_string();
+        let end = message.rfind(" at line ").unwrap_or(message.len());
+        PlotError::NoSolve {
+            location: Box::new(Location {
+                path: path(),
+                line: error.line().max(1),
+                column: error.column().max(1),
+                width: 1,
+                text: (text.lines().nth(error.line().saturating_sub(1)))
+                    .unwrap_or_default()
+                    .into(),
+            }),
+            message: message[..end].into(),
+        }
+    })?;
+    let budget = solved
+        .budget
+        .ok_or_else(|| PlotError::NoBudget { path: path() })?;
+    let budget = budget.ok_or_else(|| PlotError::Free { path: path() })?;
+    let name = solved.job.as_ref().unwrap_or(&solved.name);
+    let title = args.title.clone();
+    let title = title.unwrap_or_else(|| drawing::title(name, solved.design, solved.pose, None));
+    let figure = drawing::budget(&budget, &solved.output.node, title);
+    Ok(Plotted {
+        drawing: Drawing::Budget(figure.ok_or_else(|| PlotError::NoShares { path: path() })?),
+        name: format!("{}-budget", stem(&args.file)),
+    })
+}
