@@ -11,6 +11,7 @@ mod modes;
 mod plot;
 mod run;
 mod solve;
+mod states;
 mod support;
 mod tables;
 mod tutorials;
