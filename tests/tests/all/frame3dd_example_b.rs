@@ -34,24 +34,25 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3, Vector6};
 
 const LINEAR: [&str; 3] = ["0.0141272", "-0.0502277", "-0.0223740"];
 
-/// Points, and beams by the places of their ends.
-fn frame() -> ([(&'static str, Point3<f64>); 5], [[usize; 2]; 4]) {
-    let points = [
+/// Beams by the places of their ends.
+const BEAMS: [[usize; 2]; 4] = [[1, 0], [0, 2], [0, 3], [4, 0]];
+
+fn points() -> [(&'static str, Point3<f64>); 5] {
+    [
         ("1", Point3::new(0.0, 0.0, 1000.0)),
         ("2", Point3::new(-1200.0, -900.0, 0.0)),
         ("3", Point3::new(1200.0, -900.0, 0.0)),
         ("4", Point3::new(1200.0, 900.0, 0.0)),
         ("5", Point3::new(-1200.0, 900.0, 0.0)),
-    ];
-    (points, [[1, 0], [0, 2], [0, 3], [4, 0]])
+    ]
 }
 
 fn pyramid() -> Model {
     let mut model = Model::new("frame3dd, example B");
-    let (points, beams) = frame();
+    let points = points();
     let steel = material(200000.0, 79300.0);
     let section = general(36.0, 492.0, 492.0, 1000.0, Some(20.0));
-    let members = beams.map(|ends| member(ends, &steel, &section));
+    let members = BEAMS.map(|ends| member(ends, &steel, &section));
     model
         .add_elastic("pyramid", &points, &members)
         .expect("a frame");
@@ -118,13 +119,13 @@ fn four_beams_from_a_file() {
 /// A body a beam, so that each has its own temperature, welded to a small rigid body at the top.
 fn heavy_pyramid() -> Model {
     let mut model = Model::new("frame3dd, example B");
-    let (points, beams) = frame();
+    let points = points();
     let steel = Material::new(200000.0, Elasticity::Shear(79300.0), Some(7.85e-9))
         .and_then(|steel| steel.with_expansion(12e-6))
         .expect("a material");
     let section = general(36.0, 492.0, 492.0, 1000.0, Some(20.0));
     model.add_rigid("top", &points[..1]).expect("a body");
-    for (k, ends) in beams.into_iter().enumerate() {
+    for (k, ends) in BEAMS.into_iter().enumerate() {
         let body = format!("beam{}", k + 1);
         let ends = ends.map(|end| points[end]);
         let straight = member([0, 1], &steel, &section);
@@ -155,8 +156,8 @@ fn heavy_pyramid() -> Model {
 
 /// A load along a beam, given in its local axes at both ends as Frame3DD has it: y level, z up.
 fn along(beam: usize, ends: [[f64; 3]; 2]) -> LineLoad {
-    let (points, beams) = frame();
-    let [first, second] = beams[beam - 1].map(|end| points[end].1);
+    let points = points();
+    let [first, second] = BEAMS[beam - 1].map(|end| points[end].1);
     let x = (second - first).normalize();
     let y = Vector3::z().cross(&x).normalize();
     let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
