@@ -3,7 +3,7 @@
 use hyperstat_assembly::{Connection, JointStiffness, Member, Model, NodeId};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{DofSet, Fixed, Joint};
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, Vector6};
 
 /// A material of this Young's and shear modulus.
 ///
@@ -100,12 +100,17 @@ pub fn weld_to_ground(model: &mut Model, body: &str, point: &str) {
 /// # Panics
 /// Where `printed` is no number.
 pub fn has_printed_digits(found: f64, printed: &str) -> bool {
+    let (value, last) = printed_number(printed);
+    (found - value).abs() <= 0.5 * last * (1.0 + 1e-9)
+}
+
+/// A printed number and a unit of its last digit.
+fn printed_number(printed: &str) -> (f64, f64) {
     let value: f64 = printed.parse().expect("a printed number");
     let (digits, exponent) = printed.split_once('e').unwrap_or((printed, "0"));
     let exponent: i32 = exponent.parse().expect("an exponent");
     let decimals = digits.split_once('.').map_or(0, |(_, d)| d.len() as i32);
-    let last = 10.0_f64.powi(exponent - decimals);
-    (found - value).abs() <= 0.5 * last * (1.0 + 1e-9)
+    (value, 10.0_f64.powi(exponent - decimals))
 }
 
 /// Asserts that every number is the printed one, to every printed digit.
@@ -118,6 +123,26 @@ pub fn assert_printed(what: &str, found: &[f64], printed: &[&str]) {
         assert!(
             has_printed_digits(*found, printed),
             "{what}, number {k}: {found:e}, printed {printed}"
+        );
+    }
+}
+
+/// Asserts that a wrench or displacement is the printed one of a program that keeps its input in
+/// single precision, as Frame3DD keeps sections, moduli, densities and loads: two numbers of it,
+/// each rounded to 2⁻²⁴, make 2⁻²³ of the largest of its kind; the last printed digit is rounded.
+///
+/// # Panics
+/// Where it is not.
+pub fn assert_printed_in_single(what: &str, found: &Vector6<f64>, printed: &[&str; 6]) {
+    let printed = printed.map(printed_number);
+    for (k, (value, last)) in printed.iter().enumerate() {
+        let kind = printed[3 * (k / 3)..][..3].iter();
+        let largest = kind.fold(0.0, |largest: f64, (value, _)| largest.max(value.abs()));
+        let tolerance = 0.5 * last + f64::from(f32::EPSILON) * largest;
+        assert!(
+            (found[k] - value).abs() <= tolerance,
+            "{what}, number {k}: {:e}, printed {value}",
+            found[k]
         );
     }
 }

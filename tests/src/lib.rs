@@ -7,6 +7,7 @@ pub mod lattice;
 pub mod prebuilt;
 pub mod random;
 pub mod runner;
+pub mod states;
 
 use std::path::{Path, PathBuf};
 
@@ -72,6 +73,18 @@ pub fn stiffness(solution: &Solution) -> Matrix6<f64> {
 /// # Panics
 /// Where the new model cannot be built.
 pub fn rebuilt(model: &Model, joint: impl Fn(usize, &Connection) -> Connection) -> Model {
+    rebuilt_with(model, joint, |_, member| member)
+}
+
+/// The same with every segment through `member`.
+///
+/// # Panics
+/// Where the new model cannot be built.
+pub fn rebuilt_with(
+    model: &Model,
+    joint: impl Fn(usize, &Connection) -> Connection,
+    member: impl Fn(usize, Member) -> Member,
+) -> Model {
     let mut new = Model::new(model.name.clone());
     let geometry = model.geometry();
     for body in model.bodies() {
@@ -102,14 +115,15 @@ pub fn rebuilt(model: &Model, joint: impl Fn(usize, &Connection) -> Connection) 
                     .iter()
                     .map(|s| {
                         let segment = &model.segments()[s.0];
-                        Member {
+                        let same = Member {
                             ends: segment.ends.map(place),
                             material: segment.material.clone(),
                             section: segment.section.clone(),
                             taper: segment.taper.clone(),
                             y_axis: geometry.y_axes[s.0],
                             elements: segment.elements,
-                        }
+                        };
+                        member(s.0, same)
                     })
                     .collect();
                 new.add_elastic(&body.name, &points, &members)

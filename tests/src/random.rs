@@ -124,6 +124,7 @@ fn kind(recipe: &JointRecipe) -> Option<(Box<dyn Joint>, Rotation3<f64>)> {
 fn mechanism(recipe: &Recipe) -> Option<Model> {
     let mut model = Model::new("random");
     let material = Material::new(2e11, Elasticity::Poisson(0.3), Some(7850.0)).ok()?;
+    let material = material.with_expansion(1.2e-5).ok()?;
     let shape = SectionShape::Rectangle {
         width: 0.03,
         height: 0.05,

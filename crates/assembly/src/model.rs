@@ -129,6 +129,7 @@ impl Model {
                 section: member.section.clone(),
                 taper: member.taper.clone(),
                 elements: member.elements,
+                y_axis_given: member.y_axis.is_some(),
             });
             self.geometry.y_axes.push(member.y_axis);
             self.bodies[body.0].segments.push(id);

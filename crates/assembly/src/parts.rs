@@ -87,6 +87,9 @@ pub struct Segment {
     pub taper: Option<Section>,
     /// Number of equal beam elements it is divided into.
     pub elements: usize,
+    /// Whether its local y was given. A default one stands upright wherever nothing else says how
+    /// it lies, so that it does not tell how its body is turned.
+    pub y_axis_given: bool,
 }
 
 impl Segment {

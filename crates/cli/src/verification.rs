@@ -1,9 +1,11 @@
 //! A solution beside that of the independent solver (`solve --verify`).
 
-use hyperstat_assembly::{BodyId, Model, Solution};
+use hyperstat_assembly::{BodyId, Model, Segment, Solution};
 use hyperstat_reference::ReferenceSolution;
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;
+
+use crate::report::Entries;
 
 /// Two solutions that agree this well are equal for every use of them.
 const AGREEMENT: f64 = 1e-8;
@@ -19,64 +21,144 @@ pub(crate) struct Verification {
     stiffness: Option<f64>,
     /// The same of its compliance; `None` where it has none.
     compliance: Option<f64>,
+    /// Under the model's own loads.
+    #[serde(flatten)]
+    state: StateDifferences,
+    /// In its cases.
+    #[serde(skip_serializing_if = "Entries::is_empty")]
+    cases: Entries<StateDifferences>,
+    /// What only one of the two solvers finds, or both find differently.
+    disagreements: Vec<String>,
+}
+
+/// The largest differences in one state.
+#[derive(Debug, Serialize)]
+struct StateDifferences {
     /// Of the displacements of all nodes, without those of bodies that move freely: over the
     /// largest, rotations times the mechanism's size.
     displacements: f64,
     /// Of the joint wrenches that are determined: over the largest, forces times the size.
     joint_wrenches: f64,
-    /// What only one of the two solvers finds, or both find differently.
-    disagreements: Vec<String>,
+}
+
+/// What displacements and wrenches are compared by.
+struct Measures {
+    /// Whether a node's body moves freely, by node.
+    free: Vec<bool>,
+    /// The mechanism's size [m].
+    size: f64,
+    /// The largest force with which a heated beam would push between walls, E A α ΔT [N]: where
+    /// nothing holds it, what is left of that is rounding.
+    push: f64,
+    /// What a force gives the stiffest beam, L/(E A) [m/N]: smaller displacements are rounding.
+    give: f64,
 }
 
 impl Verification {
     /// Compares `solution` with `reference`, both of `model`.
     pub(crate) fn new(model: &Model, solution: &Solution, reference: &ReferenceSolution) -> Self {
-        let size = size(model);
-        let free = bodies_that_move(model);
-        let displacements = (solution.displacements.iter())
-            .zip(&reference.displacements)
-            .zip(model.nodes())
-            .filter(|(_, node)| !free.contains(&node.body))
-            .map(|(pair, _)| pair);
-        let wrenches = (solution.joint_wrenches.iter())
-            .zip(&reference.joint_wrenches)
-            .filter_map(|(found, expected)| found.as_ref().zip(expected.as_ref()));
+        let measures = Measures::of(model);
         let both = |found: &Option<Matrix6<f64>>, expected: &Option<Matrix6<f64>>| {
             let pair = found.as_ref().zip(expected.as_ref());
             pair.map(|(found, expected)| matrix_difference(found, expected))
         };
+        let cases = solution.cases.iter().zip(&reference.cases);
         Self {
             stiffness: both(&solution.output.stiffness, &reference.stiffness),
             compliance: both(&solution.output.compliance, &reference.compliance),
-            displacements: vector_difference(displacements, [1.0, size]),
-            joint_wrenches: vector_difference(wrenches, [size, 1.0]),
+            state: measures.compare(
+                [&solution.displacements, &reference.displacements],
+                [&solution.joint_wrenches, &reference.joint_wrenches],
+            ),
+            cases: cases
+                .map(|(case, reference)| {
+                    let differences = measures.compare(
+                        [&case.state.displacements, &reference.displacements],
+                        [&case.state.joint_wrenches, &reference.joint_wrenches],
+                    );
+                    (case.name.clone(), differences)
+                })
+                .collect(),
             disagreements: disagreements(model, solution, reference),
         }
     }
 
     /// Each difference with what it is of.
-    pub(crate) fn differences(&self) -> impl Iterator<Item = (&'static str, f64)> {
-        let optional = [
+    pub(crate) fn differences(&self) -> Vec<(String, f64)> {
+        let output = [
             ("output stiffness", self.stiffness),
             ("output compliance", self.compliance),
-            ("displacements", Some(self.displacements)),
-            ("joint wrenches", Some(self.joint_wrenches)),
         ];
-        optional
-            .into_iter()
-            .filter_map(|(name, difference)| Some((name, difference?)))
+        let output = output.into_iter();
+        let mut all: Vec<_> = output
+            .filter_map(|(name, difference)| Some((name.into(), difference?)))
+            .collect();
+        let cases = self.cases.iter();
+        let cases = cases.map(|(name, state)| (format!(" in case `{name}`"), state));
+        for (of, state) in std::iter::once((String::new(), &self.state)).chain(cases) {
+            all.push((format!("displacements{of}"), state.displacements));
+            all.push((format!("joint wrenches{of}"), state.joint_wrenches));
+        }
+        all
     }
 
     /// What the two solvers do not agree on, in words.
     pub(crate) fn warnings(&self) -> Vec<String> {
-        let far = self
-            .differences()
-            .filter(|(_, d)| *d > AGREEMENT || d.is_nan());
-        far.map(|(name, difference)| {
-            format!("the independent solver's {name} differ by {difference:.1e}")
-        })
-        .chain(self.disagreements.iter().cloned())
-        .collect()
+        let far = self.differences().into_iter();
+        far.filter(|(_, d)| *d > AGREEMENT || d.is_nan())
+            .map(|(name, difference)| {
+                format!("the independent solver's {name} differ by {difference:.1e}")
+            })
+            .chain(self.disagreements.iter().cloned())
+            .collect()
+    }
+}
+
+impl Measures {
+    fn of(model: &Model) -> Self {
+        let moving = bodies_that_move(model);
+        let stretching = |segment: &Segment| {
+            let [a, b] = segment.ends.map(|node| model.geometry().positions[node.0]);
+            segment.material.young() * segment.section.area() / (b - a).norm()
+        };
+        let push = |segment: &Segment| {
+            let change = model.bodies()[segment.body.0].temperature;
+            let strain = segment.material.expansion().unwrap_or(0.0) * change;
+            (segment.material.young() * segment.section.area() * strain).abs()
+        };
+        let nodes = model.nodes().iter();
+        Self {
+            free: nodes.map(|node| moving.contains(&node.body)).collect(),
+            size: size(model),
+            push: largest(model.segments().iter().map(push)),
+            give: 1.0 / largest(model.segments().iter().map(stretching)),
+        }
+    }
+
+    /// Compares displacements and wrenches, found and expected.
+    fn compare(
+        &self,
+        [found, expected]: [&[Vector6<f64>]; 2],
+        [wrenches, expected_wrenches]: [&[Option<Vector6<f64>>]; 2],
+    ) -> StateDifferences {
+        let pairs = found.iter().zip(expected).zip(&self.free);
+        let held = pairs.filter(|(_, free)| !**free).map(|(pair, _)| pair);
+        let wrenches = wrenches.iter().zip(expected_wrenches);
+        let determined =
+            wrenches.filter_map(|(found, expected)| found.as_ref().zip(expected.as_ref()));
+        let moments = [self.size, 1.0];
+        let least = self.push * self.size;
+        let carried = scale(determined.clone(), moments, least);
+        // Without beams nothing gives.
+        let give = if self.give.is_finite() {
+            self.give
+        } else {
+            0.0
+        };
+        StateDifferences {
+            displacements: vector_difference(held, [1.0, self.size], give * carried / self.size),
+            joint_wrenches: vector_difference(determined, moments, least),
+        }
     }
 }
 
@@ -167,22 +249,31 @@ fn matrix_difference(found: &Matrix6<f64>, expected: &Matrix6<f64>) -> f64 {
     largest(differences)
 }
 
-/// Largest difference over the largest expected entry, linear and angular parts times `units`.
+/// Largest difference over the largest expected entry, linear and angular parts times `units`;
+/// over `least` where all of these are smaller.
 fn vector_difference<'a>(
+    pairs: impl Iterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)> + Clone,
+    units: [f64; 2],
+    least: f64,
+) -> f64 {
+    let apart = pairs.clone().map(|(found, expected)| found - expected);
+    let difference = largest(apart.map(|apart| longest(&apart, units)));
+    ratio(difference, scale(pairs, units, least))
+}
+
+/// The largest expected entry; `least` where all are smaller.
+fn scale<'a>(
     pairs: impl Iterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)>,
     units: [f64; 2],
+    least: f64,
 ) -> f64 {
-    let (mut difference, mut scale) = (0.0, 0.0);
-    for (found, expected) in pairs {
-        let unit = |k: usize| units[k / 3];
-        difference = largest(
-            (0..6)
-                .map(|k| (found[k] - expected[k]).abs() * unit(k))
-                .chain([difference]),
-        );
-        scale = largest((0..6).map(|k| expected[k].abs() * unit(k)).chain([scale]));
-    }
-    ratio(difference, scale)
+    let expected = pairs.map(|(_, expected)| longest(expected, units));
+    largest(expected.chain([least]))
+}
+
+/// The largest entry, linear and angular part times `units`.
+fn longest(vector: &Vector6<f64>, units: [f64; 2]) -> f64 {
+    largest((0..6).map(|k| vector[k].abs() * units[k / 3]))
 }
 
 /// `difference / scale`, and 0 for no difference from nothing.
@@ -233,26 +324,41 @@ mod tests {
         let nan = Vector6::repeat(f64::NAN);
         let one = Vector6::repeat(1.0);
         assert_eq!(
-            vector_difference([(&zero, &zero)].into_iter(), [1.0, 1.0]),
+            vector_difference([(&zero, &zero)].into_iter(), [1.0, 1.0], 0.0),
             0.0
         );
         let pairs = [(&nan, &one), (&one, &one)];
-        assert!(vector_difference(pairs.into_iter(), [1.0, 1.0]).is_nan());
+        assert!(vector_difference(pairs.into_iter(), [1.0, 1.0], 1.0).is_nan());
         let verification = Verification {
             stiffness: Some(f64::NAN),
             compliance: None,
-            displacements: 1e-9,
-            joint_wrenches: 2e-8,
+            state: StateDifferences {
+                displacements: 1e-9,
+                joint_wrenches: 2e-8,
+            },
+            cases: Entries::from_iter([(
+                "push".to_string(),
+                StateDifferences {
+                    displacements: 1e-7,
+                    joint_wrenches: 1e-9,
+                },
+            )]),
             disagreements: vec!["mobility".into()],
         };
-        assert_eq!(verification.warnings().len(), 3);
+        let warnings = verification.warnings();
+        assert_eq!(warnings.len(), 4);
+        assert_eq!(
+            warnings[2],
+            "the independent solver's displacements in case `push` differ by 1.0e-7"
+        );
     }
 
     #[test]
     fn rotations_count_with_the_size() {
         let expected = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let found = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.01);
-        let difference = vector_difference([(&found, &expected)].into_iter(), [1.0, 2.0]);
-        assert_eq!(difference, 0.02);
+        let pair = [(&found, &expected)];
+        assert_eq!(vector_difference(pair.into_iter(), [1.0, 2.0], 0.5), 0.02);
+        assert_eq!(vector_difference(pair.into_iter(), [1.0, 2.0], 4.0), 0.005);
     }
 }

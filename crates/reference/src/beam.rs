@@ -25,6 +25,8 @@ pub(crate) struct Element {
     pub frame: Matrix3<f64>,
     /// Length [m].
     pub length: f64,
+    /// Places of its ends along the segment (0 to 1).
+    pub part: [f64; 2],
     /// E A [N].
     axial: f64,
     /// G J [N·m²].
@@ -62,6 +64,7 @@ impl Element {
             nodes,
             frame,
             length,
+            part,
             axial: material.young() * section.area(),
             torsion: material.shear() * section.torsion(),
             bending,

@@ -9,12 +9,24 @@ pub enum ReferenceError {
     /// The model has no output node.
     #[error("the model has no output node")]
     NoOutput,
-    /// Loads that the dense solvers do not know.
+    /// Loads that the traditional method is not given.
     #[error(
-        "the dense solver knows forces and moments on points in global axes only: no gravity, no \
-         temperature, no loads along beams or in axes that turn"
+        "the traditional method takes forces and moments on points in global axes only: no \
+         gravity, no temperature, no loads along beams or in axes that turn"
     )]
     Loads,
+    /// A load in the axes of a body of which nothing says how it lies.
+    #[error("nothing says how body `{body}` lies, in whose axes a load is given")]
+    NoBodyFrame {
+        /// Name of the body.
+        body: String,
+    },
+    /// A beam without density under gravity.
+    #[error("the material of body `{body}` has no density, which its weight needs")]
+    NoDensity {
+        /// Name of the body.
+        body: String,
+    },
     /// More coordinates than a dense matrix should have.
     #[error(
         "the model has {coordinates} displacement coordinates; the dense solver takes at most {limit}"

@@ -188,12 +188,12 @@ impl FreeMotions {
             .collect()
     }
 
-    /// The motion that `loads` drive, where they work on one that nothing resists.
-    pub fn driven(&self, structure: &Structure) -> Option<DVector<f64>> {
+    /// The motion that loads on nodes drive, where they work on one that nothing resists.
+    pub fn driven(&self, structure: &Structure, loads: &DVector<f64>) -> Option<DVector<f64>> {
         let mut size = 0.0;
         let mut driven = DVector::zeros(6 * self.pieces.count);
         for node in 0..structure.positions.len() {
-            let mut wrench: Vector6<f64> = structure.loads.fixed_rows::<6>(6 * node).into();
+            let mut wrench: Vector6<f64> = loads.fixed_rows::<6>(6 * node).into();
             wrench.fixed_rows_mut::<3>(0).scale_mut(structure.size);
             size += wrench.norm_squared();
             for motion in &self.all {

@@ -2,6 +2,7 @@
 //!
 #![doc = include_str!("../README.md")]
 
+mod along;
 mod beam;
 mod error;
 mod flexible;
@@ -12,11 +13,12 @@ mod kinematics;
 mod row;
 mod saddle;
 mod solution;
+mod states;
 mod structure;
 mod taper;
 mod traditional;
 
 pub use error::ReferenceError;
 pub use frequencies::natural_frequencies;
-pub use solution::{ReferenceSolution, solve};
+pub use solution::{ReferenceSolution, ReferenceState, solve};
 pub use traditional::{TraditionalOptions, TraditionalSolution, traditional};

@@ -7,6 +7,7 @@ use crate::error::ReferenceError;
 use crate::kinematics::{FreeMotions, Redundancy, mobility};
 use crate::row::Row;
 use crate::saddle::{Equilibrium, Saddle};
+use crate::states::states;
 use crate::structure::Structure;
 
 /// What the independent solver finds; global axes, SI units, linear part first.
@@ -36,23 +37,40 @@ pub struct ReferenceSolution {
     /// Wrench on the second body of every joint, at the joint, in the joint frame, by `JointId`;
     /// `None` where redundant rigid constraints leave it undetermined.
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
+    /// What the model's cases do, in their order.
+    pub cases: Vec<ReferenceState>,
     /// Relative change of the displacements where refinement settled, the worst of all solves:
     /// near 1e-16 where the numbers are as good as doubles are.
     pub last_change: f64,
+}
+
+/// What loads that act together do, with the weight and the temperatures that act always.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct ReferenceState {
+    /// As [`ReferenceSolution::displacement`].
+    pub displacement: Option<Vector6<f64>>,
+    /// As [`ReferenceSolution::displacements`].
+    pub displacements: Vec<Vector6<f64>>,
+    /// As [`ReferenceSolution::joint_wrenches`].
+    pub joint_wrenches: Vec<Option<Vector6<f64>>>,
 }
 
 /// Solves a model with every node's six displacements as unknowns and every condition as an
 /// equation.
 ///
 /// # Errors
-/// [`ReferenceError`]: no output, too large a model, a segment or joint that cannot be formed,
-/// loads that work on a free motion, a system that is too near to singular.
+/// [`ReferenceError`]: no output, too large a model, a segment, joint or load that cannot be
+/// formed, loads of a state that work on a free motion, a system that is too near to singular.
 pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
     let structure = Structure::new(model)?;
     let (mobility, overconstraint) = mobility(model, &structure);
     let motions = FreeMotions::of(model, &structure);
-    if let Some(driven) = motions.driven(&structure) {
-        return Err(unrestrained(model, &motions, &driven));
+    let states = states(model, &structure)?;
+    for state in &states {
+        if let Some(driven) = motions.driven(&structure, &state.loads) {
+            return Err(unrestrained(model, &motions, &driven));
+        }
     }
     let redundancy = Redundancy::of(model, &structure);
     let rows = Rows::of(&structure, &redundancy);
@@ -67,8 +85,24 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
     let loaded = rows.with(held(&motions.all));
     let system = Saddle::new(structure.positions.len(), &loaded, rows.elements);
     let at_rest = DVector::zeros(loaded.len());
-    let under_load = system.solve(&structure.loads, &at_rest)?;
-    let mut last_change = under_load.change;
+    let no_load = DVector::zeros(6 * structure.positions.len());
+    let mut last_change = 0.0_f64;
+    let mut found = Vec::with_capacity(states.len());
+    for state in &states {
+        let mut deformations = at_rest.clone();
+        let own = state.deformations.len();
+        deformations.rows_mut(0, own).copy_from(&state.deformations);
+        let under_load = system.solve(&state.loads, &deformations)?;
+        last_change = last_change.max(under_load.change);
+        let at = |node| node_displacement(&under_load, node);
+        found.push(ReferenceState {
+            displacement: (free_motions.is_empty()).then(|| at(structure.output)),
+            displacements: (0..model.nodes().len()).map(at).collect(),
+            joint_wrenches: rows.joint_wrenches(&structure, &redundancy, &under_load.forces),
+        });
+    }
+    // The first state is the model's own.
+    let base = found.remove(0);
     let mut output_columns = |solve: &dyn Fn(usize) -> Result<Column, ReferenceError>| {
         let mut matrix = Matrix6::zeros();
         for component in 0..6 {
@@ -81,7 +115,7 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
 
     let compliance = if free_motions.is_empty() {
         Some(output_columns(&|component| {
-            let mut load = DVector::zeros(structure.loads.len());
+            let mut load = no_load.clone();
             load[6 * structure.output + component] = 1.0;
             let found = system.solve(&load, &at_rest)?;
             Ok(Column::displacement(&found, structure.output))
@@ -94,7 +128,6 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
         let first = moved.len();
         moved.extend(structure.output_rows());
         let system = Saddle::new(structure.positions.len(), &moved, rows.elements);
-        let no_load = DVector::zeros(structure.loads.len());
         Some(output_columns(&|component| {
             let mut prescribed = DVector::zeros(moved.len());
             prescribed[first + component] = 1.0;
@@ -105,20 +138,17 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
         None
     };
 
-    let displacements = (0..model.nodes().len())
-        .map(|node| node_displacement(&under_load, node))
-        .collect();
     Ok(ReferenceSolution {
         mobility,
         overconstraint,
         idle_modes: motions.idle.len(),
-        displacement: (free_motions.is_empty())
-            .then(|| node_displacement(&under_load, structure.output)),
+        displacement: base.displacement,
         free_motions,
         stiffness,
         compliance,
-        displacements,
-        joint_wrenches: rows.joint_wrenches(&structure, &redundancy, &under_load.forces),
+        displacements: base.displacements,
+        joint_wrenches: base.joint_wrenches,
+        cases: found,
         last_change,
     })
 }

@@ -1,7 +1,7 @@
 //! A model as nodes, elements and rows: every body's every node with six coordinates of its own.
 
 use hyperstat_assembly::{BodyKind, Geometry, Model, NodeId};
-use nalgebra::{DVector, Point3, Vector3, Vector6};
+use nalgebra::{Point3, Vector3, Vector6};
 
 use crate::beam::{Element, join, segment_frame};
 use crate::error::ReferenceError;
@@ -27,8 +27,6 @@ pub(crate) struct Structure {
     pub joints: Vec<JointConditions>,
     /// Output node.
     pub output: usize,
-    /// Wrenches on all nodes under the model's loads.
-    pub loads: DVector<f64>,
     /// Diagonal of the box around all nodes [m]; 1 where they coincide.
     pub size: f64,
 }
@@ -51,14 +49,6 @@ impl Structure {
                 joint: connection.name.clone(),
             })?);
         }
-        if !model.has_plain_loads() {
-            return Err(ReferenceError::Loads);
-        }
-        let mut loads = DVector::zeros(6 * positions.len());
-        for load in model.loads() {
-            let mut block = loads.fixed_rows_mut::<6>(6 * load.node.0);
-            block += load.wrench;
-        }
         Ok(Self {
             size: size(&positions),
             positions,
@@ -67,7 +57,6 @@ impl Structure {
             rigid_bodies: rigid_bodies(model),
             joints,
             output,
-            loads,
         })
     }
 

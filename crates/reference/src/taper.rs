@@ -70,7 +70,7 @@ impl TaperFlexibility {
 
 /// The section at `xi`: dimensions linear, general properties as those of a scaled shape, shear
 /// areas by their ratio to the area.
-fn section(from: &Section, to: &Section, xi: f64) -> Section {
+pub(crate) fn section(from: &Section, to: &Section, xi: f64) -> Section {
     let mix = |a: f64, b: f64| (1.0 - xi) * a + xi * b;
     let scaled =
         |a: f64, b: f64, power: f64| mix(a.powf(1.0 / power), b.powf(1.0 / power)).powf(power);
@@ -120,7 +120,7 @@ fn section(from: &Section, to: &Section, xi: f64) -> Section {
 
 /// Places and weights between two places along a segment, apart where a rectangle is a square (the
 /// formula of its torsion constant has a kink there).
-fn points(from: &Section, to: &Section, part: [f64; 2]) -> Vec<(f64, f64)> {
+pub(crate) fn points(from: &Section, to: &Section, part: [f64; 2]) -> Vec<(f64, f64)> {
     let mut ends = vec![part[0], part[1]];
     if let (
         SectionShape::Rectangle { width, height },

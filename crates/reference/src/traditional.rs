@@ -42,12 +42,16 @@ pub struct TraditionalSolution {
 /// by dense LU as they stand, neither scaled nor refined.
 ///
 /// # Errors
-/// As [`solve`](crate::solve); [`ReferenceError::Singular`] where elimination meets a zero
-/// pivot or gives numbers that are not finite.
+/// As [`solve`](crate::solve); [`ReferenceError::Loads`] where more acts than global wrenches on
+/// nodes; [`ReferenceError::Singular`] where elimination meets a zero pivot or gives numbers that
+/// are not finite.
 pub fn traditional(
     model: &Model,
     options: &TraditionalOptions,
 ) -> Result<TraditionalSolution, ReferenceError> {
+    if !model.has_plain_loads() {
+        return Err(ReferenceError::Loads);
+    }
     let structure = Structure::new(model)?;
     let coordinates = 6 * structure.positions.len();
     let equations = coordinates + structure.rigid_bodies.len();
@@ -89,9 +93,10 @@ pub fn traditional(
     for component in 0..6 {
         columns[(output + component, component)] = 1.0;
     }
-    columns
-        .view_mut((0, 6), (coordinates, 1))
-        .copy_from(&structure.loads);
+    for load in model.loads() {
+        let mut block = columns.fixed_view_mut::<6, 1>(6 * load.node.0, 6);
+        block += load.wrench;
+    }
     if !matrix.lu().solve_mut(&mut columns) || !columns.iter().all(|x| x.is_finite()) {
         return Err(ReferenceError::Singular);
     }

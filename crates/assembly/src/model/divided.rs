@@ -45,6 +45,7 @@ impl Model {
                     section,
                     taper,
                     elements: 1,
+                    y_axis_given: segment.y_axis_given,
                 });
                 first = last;
             }

@@ -8,7 +8,7 @@ use hyperstat_assembly::{
     ModelError, NodeId, Plan, SegmentId, Solution, SolveError, solve,
 };
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
-use hyperstat_joints::{DofSet, Fixed, Revolute};
+use hyperstat_joints::{DofSet, Fixed, Prismatic, Revolute};
 use nalgebra::{Point3, Rotation3, Vector3, Vector6};
 
 const YOUNG: f64 = 2.1e11;
@@ -393,6 +393,40 @@ fn a_load_turns_with_its_body() {
     let after = solve(&model).expect("a solution").output.displacement;
     let turned = hyperstat_elements::rotate_vector6(&before, &turn);
     assert!((after - turned).amax() < 1e-11 * before.amax());
+}
+
+/// Poses say how every section lies, also of beams whose local y was not given, and a carriage's
+/// point stays with the rail: neither turns the body.
+#[test]
+fn what_is_not_fixed_in_a_body_does_not_turn_it() {
+    let mut model = beam(["A", "M", "B"]);
+    let beam = model.body("beam").expect("the body");
+    let rail = [("A", Point3::origin()), ("C", Point3::new(0.0, 0.3, 0.1))];
+    let carriage = model.add_rigid("carriage", &rail).expect("a body");
+    let hinge = |name: &str, between, joint| Connection {
+        name: name.into(),
+        between,
+        joint,
+        locked: DofSet::EMPTY,
+        stiffness: JointStiffness::default(),
+    };
+    let foot = [None, Some(node(&model, "B"))];
+    let slide = [Some(node(&model, "A")), model.node("carriage", "A")];
+    for connection in [
+        hinge("foot", foot, Box::new(Revolute)),
+        hinge("slide", slide, Box::new(Prismatic)),
+    ] {
+        model
+            .add_joint(connection, Rotation3::identity())
+            .expect("a joint");
+    }
+    let home = [beam, carriage].map(|body| model.body_frame(body).expect("a frame"));
+    let mut geometry = model.geometry().clone();
+    geometry.y_axes.fill(Some(Vector3::z()));
+    geometry.positions[slide[1].expect("a node").0] += Vector3::new(0.0, 0.2, 0.0);
+    model.set_geometry(geometry);
+    let now = [beam, carriage].map(|body| model.body_frame(body).expect("a frame"));
+    assert_eq!(now, home);
 }
 
 #[test]

@@ -51,8 +51,13 @@ impl<T> FromIterator<(String, T)> for Entries<T> {
 }
 
 impl<T> Entries<T> {
-    fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+
+    /// Names and values in their order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
+        self.0.iter().map(|(name, value)| (&**name, value))
     }
 }
 

@@ -232,7 +232,7 @@ impl SolveReport {
         };
         let mut table = Table::new(1, &["", "largest relative difference"]);
         for (name, difference) in verification.differences() {
-            table.row(&[name], [difference]);
+            table.row(&[&name], [difference]);
         }
         section(text, "Verification by the independent solver", table);
     }

@@ -12,6 +12,7 @@ mod plot;
 mod run;
 mod shapes;
 mod solve;
+mod states;
 mod support;
 mod tables;
 mod tutorials;

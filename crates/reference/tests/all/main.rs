@@ -4,4 +4,5 @@ mod closed_forms;
 mod common;
 mod counts;
 mod every_joint;
+mod states;
 mod traditional;
