@@ -1,7 +1,7 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
 use hyperstat_assembly::{
-    BeamMass, BodyId, ModalOptions, Model, Modes, Motion, Solution, SolveError,
+    BeamMass, BodyId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
@@ -9,7 +9,7 @@ use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, R
 use crate::args;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{SolveReport, Why};
+use crate::report::{FrequencyReport, SolveReport, Why};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -137,6 +137,17 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
+    /// What changes natural frequencies.
+    pub(crate) fn frequencies(
+        &self,
+        options: &ModalOptions,
+    ) -> Result<Vec<FrequencyReport>, CliError> {
+        let found = ModalPlan::new(&self.model, options)
+            .and_then(|plan| plan.sensitivities(self.model.geometry()))
+            .map_err(|error| self.source().unsolvable(&self.model, error))?;
+        Ok(FrequencyReport::all(self, &found))
+    }
+
     /// The solution as a VTU file, with its modes where there are some.
     pub(crate) fn vtu(
         &self,
@@ -170,6 +181,11 @@ impl Case {
             Origin::Mechanism(mechanism) => Some(mechanism),
             Origin::Job { design, .. } => design.mechanism(),
         }
+    }
+
+    /// Whether it is a mechanism file by itself, with the loads and masses written there.
+    pub(crate) fn is_file(&self) -> bool {
+        matches!(self.origin, Origin::Mechanism(_))
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even

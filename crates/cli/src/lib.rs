@@ -99,7 +99,10 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         })?;
     }
     if args.why {
-        report.add_why(case.why(&solution, args.along)?, &case.model);
+        report.add_why(case.why(&solution, args.along)?);
+        if let Some(options) = &options {
+            report.add_frequencies(case.frequencies(options)?);
+        }
     }
     print(&match args.format {
         Format::Text => report.text(),

@@ -59,6 +59,14 @@ pub(super) fn name(case: &Case, parameter: &Parameter) -> String {
                 _ => format!("stiffness {direction} of {}", joint_names(model, joints)),
             }
         }
+        Parameter::Mass { mass, inertia } => {
+            let node = || model.node_name(model.masses()[*mass].node);
+            match (case.is_file(), inertia) {
+                (true, false) => format!("masses.{mass}.mass"),
+                (_, false) => format!("mass on {}", node()),
+                (_, true) => format!("inertia on {}", node()),
+            }
+        }
     }
 }
 

@@ -14,8 +14,8 @@ use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
 use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, inner_displacements, list,
-    matrix_table, numbers, redundancies, rows, section, stiffness_table,
+    DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rows, Table, WRENCH, heads,
+    inner_displacements, list, matrix_table, numbers, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -49,6 +49,8 @@ pub(crate) struct SolveReport {
     bodies: Entries<BodyReport>,
     #[serde(flatten)]
     why: Option<Why>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    frequency_sensitivities: Vec<FrequencyReport>,
     #[serde(skip_serializing_if = "Entries::is_empty")]
     cases: Entries<CaseReport>,
 }
@@ -93,10 +95,6 @@ struct StressReport {
     shear: f64,
     von_mises: f64,
 }
-
-/// What sensitivities leave out where gravity acts.
-const KEPT_WEIGHT: &str = "sensitivities: the weight is kept as it is; what a thicker part weighs \
-                           more is not in them";
 
 impl SolveReport {
     /// Collects what is to be reported of a solution.
@@ -147,16 +145,20 @@ impl SolveReport {
             modes: None,
             bodies: bodies(model, solution),
             why: None,
+            frequency_sensitivities: Vec::new(),
             cases: cases(model, solution),
         }
     }
 
     /// Adds what is soft and why.
-    pub(crate) fn add_why(&mut self, why: Why, model: &Model) {
+    pub(crate) fn add_why(&mut self, why: Why) {
+        self.warnings.extend(why.remarks());
         self.why = Some(why);
-        if model.gravity().iter().any(|component| *component != 0.0) {
-            self.warnings.push(KEPT_WEIGHT.into());
-        }
+    }
+
+    /// Adds what changes natural frequencies.
+    pub(crate) fn add_frequencies(&mut self, frequencies: Vec<FrequencyReport>) {
+        self.frequency_sensitivities = frequencies;
     }
 
     /// Adds the displacements of the nodes inside segments, of all states.
@@ -218,6 +220,9 @@ impl SolveReport {
         write_worst(&self.bodies, &mut text);
         if let Some(why) = &self.why {
             why.write(&mut text);
+        }
+        for frequencies in &self.frequency_sensitivities {
+            frequencies.write(&mut text);
         }
         self.write_verification(&mut text);
         text

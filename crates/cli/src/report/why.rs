@@ -10,11 +10,12 @@ use hyperstat_assembly::{
 use nalgebra::Vector6;
 use serde::Serialize;
 
-use super::{Rows, Table, number, numbers, parameters, rows, section};
+use super::sensitivities::SensitivityReport;
+use super::{Table, number, numbers, section};
 use crate::args::Along;
 use crate::case::Case;
 
-/// Parts and parameters that the text tells; JSON has all.
+/// Parts that the text tells; JSON has all.
 const TOLD: usize = 15;
 /// Width of a bar of 100 %.
 const WIDTH: f64 = 40.0;
@@ -94,17 +95,6 @@ struct VirtualWork {
     moment: f64,
 }
 
-#[derive(Debug, Serialize)]
-struct SensitivityReport {
-    parameter: String,
-    value: f64,
-    /// Relative change of the budget's total per relative change of the parameter.
-    relative: Option<f64>,
-    displacement: [f64; 6],
-    compliance: Rows,
-    stiffness: Option<Rows>,
-}
-
 impl Why {
     /// Finds out why the output of a solved mechanism gives along a direction.
     pub(crate) fn new(case: &Case, solution: &Solution, along: Along) -> Result<Self, SolveError> {
@@ -146,23 +136,20 @@ impl Why {
             Some(_) => s.relative(&output.displacement, &direction),
             None => s.relative_compliance(compliance, &direction),
         };
-        let mut sensitivities: Vec<_> = (influence.sensitivities(solution)?.iter())
-            .map(|s| SensitivityReport {
-                parameter: parameters::name(case, &s.parameter),
-                value: s.value,
-                relative: relative(s),
-                displacement: numbers(&s.displacement),
-                compliance: rows(&s.compliance),
-                stiffness: s.stiffness.as_ref().map(rows),
-            })
-            .collect();
-        let size = |s: &SensitivityReport| s.relative.unwrap_or(0.0).abs();
-        sensitivities.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let sensitivities = SensitivityReport::all(case, &influence, solution, relative)?;
         Ok(Self {
             budget: Some(BudgetReport::new(case, of, &budget)),
             measures: measures.as_ref().map(MeasuresReport::new),
             sensitivities: Some(sensitivities),
         })
+    }
+
+    /// What the user should know about it.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let sensitivities = self.sensitivities.iter().flatten();
+        sensitivities
+            .filter_map(SensitivityReport::remark)
+            .collect()
     }
 
     /// Writes it as tables, the largest first.
@@ -177,7 +164,7 @@ impl Why {
         };
         budget.write(text);
         if let Some(sensitivities) = &self.sensitivities {
-            write_sensitivities(sensitivities, budget, text);
+            SensitivityReport::write(sensitivities, budget.what(), text);
         }
         if let Some(measures) = &self.measures {
             measures.write(text);
@@ -225,6 +212,15 @@ impl BudgetReport {
                 .collect(),
             by_part: by_part.collect(),
             rest: budget.rest,
+        }
+    }
+
+    /// What it is of, in a word.
+    fn what(&self) -> &'static str {
+        match (self.of, self.turns()) {
+            ("compliance", _) => "compliance",
+            (_, true) => "rotation",
+            _ => "deflection",
         }
     }
 
@@ -285,31 +281,6 @@ fn bars(text: &mut String, sums: &[Sum], unit: &str) {
         let count = sums.len() - told.len();
         let _ = writeln!(text, "    and {count} more, {:.1} % together", 100.0 * rest);
     }
-}
-
-fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text: &mut String) {
-    let what = match (budget.of, budget.turns()) {
-        ("compliance", _) => "compliance",
-        (_, true) => "rotation",
-        _ => "deflection",
-    };
-    let effective = found
-        .iter()
-        .filter(|s| s.relative.is_some_and(|r| r != 0.0));
-    let told: Vec<_> = effective.take(TOLD).collect();
-    let width = told.iter().map(|s| s.parameter.chars().count()).max();
-    let width = width.unwrap_or(0);
-    let mut body = String::new();
-    for sensitivity in &told {
-        let _ = writeln!(
-            body,
-            "  {:<width$}  {:>12}   {:>+8.3} % {what}",
-            sensitivity.parameter,
-            number(sensitivity.value),
-            sensitivity.relative.unwrap_or(0.0)
-        );
-    }
-    section(text, "What 1 % more of each value changes", body);
 }
 
 impl MeasuresReport {
