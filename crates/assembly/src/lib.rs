@@ -55,7 +55,7 @@ pub use modal::{
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
-    Segment, SegmentId,
+    Segment, SegmentId, ValuePlace,
 };
 pub use parameters::Parameter;
 pub use plan::{Plan, Workspace};

@@ -6,9 +6,10 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::directions::Directions;
 use crate::error::SolveError;
-use crate::model::{BodyId, JointId, JointStiffness, Model, Segment, SegmentId};
+use crate::model::{BodyId, JointId, JointStiffness, Model, Segment, SegmentId, ValuePlace};
 
-/// A parameter. Equal sections, materials and elastic joints count as one: it changes all of them.
+/// A parameter. Equal sections, materials and elastic joints count as one: it changes all of them,
+/// unless their values have different names ([`Model::name_value`]).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Parameter {
     /// A dimension of a section.
@@ -51,6 +52,8 @@ pub enum Parameter {
 #[derive(Debug)]
 pub(crate) struct Varied {
     pub parameter: Parameter,
+    /// Name of its value, where it has one.
+    pub name: Option<String>,
     /// 1 for a factor.
     pub value: f64,
     pub segments: Vec<(SegmentId, SegmentChange)>,
@@ -157,9 +160,18 @@ pub(crate) fn parameters(model: &Model) -> Result<Vec<Varied>, SolveError> {
         for (inertia, value) in values {
             found.extend(value.map(|value| Varied {
                 parameter: Parameter::Mass { mass, inertia },
+                name: None,
                 value,
                 segments: Vec::new(),
             }));
+        }
+    }
+    // What is not all of the values of a name does not have it.
+    let names: Vec<_> = found.iter().map(|varied| varied.name.clone()).collect();
+    for varied in &mut found {
+        let same = || names.iter().filter(|name| **name == varied.name);
+        if varied.name.is_some() && same().count() > 1 {
+            varied.name = None;
         }
     }
     Ok(found)
@@ -195,16 +207,24 @@ fn of_sections(model: &Model, found: &mut Vec<Varied>) -> Result<(), SolveError>
                     };
                     Ok((SegmentId(*k), change))
                 };
-                found.push(Varied {
-                    parameter: Parameter::Section {
-                        section: own.clone(),
-                        second,
-                        dimension,
-                        bodies: bodies(model, &group),
-                    },
-                    value,
-                    segments: group.iter().map(change).collect::<Result<_, _>>()?,
-                });
+                let place = |k: usize| ValuePlace::Dimension {
+                    segment: SegmentId(k),
+                    second,
+                    dimension,
+                };
+                for (name, part) in by_name(model, &group, place) {
+                    found.push(Varied {
+                        parameter: Parameter::Section {
+                            section: own.clone(),
+                            second,
+                            dimension,
+                            bodies: bodies(model, &part),
+                        },
+                        name,
+                        value,
+                        segments: part.iter().map(change).collect::<Result<_, _>>()?,
+                    });
+                }
             }
         }
     }
@@ -225,15 +245,22 @@ fn of_materials(model: &Model, found: &mut Vec<Varied>) {
                 "expansion" => SegmentChange::Expansion,
                 _ => SegmentChange::Elastic(material.logarithmic_derivative(constant)),
             };
-            found.push(Varied {
-                parameter: Parameter::Material {
-                    material: material.clone(),
-                    constant,
-                    bodies: bodies(model, &group),
-                },
-                value,
-                segments: group.iter().map(|k| (SegmentId(*k), change())).collect(),
-            });
+            let place = |k: usize| ValuePlace::Constant {
+                segment: SegmentId(k),
+                constant,
+            };
+            for (name, part) in by_name(model, &group, place) {
+                found.push(Varied {
+                    parameter: Parameter::Material {
+                        material: material.clone(),
+                        constant,
+                        bodies: bodies(model, &part),
+                    },
+                    name,
+                    value,
+                    segments: part.iter().map(|k| (SegmentId(*k), change())).collect(),
+                });
+            }
         }
     }
 }
@@ -264,16 +291,67 @@ fn of_joints(model: &Model, found: &mut Vec<Varied>) {
             false => vec![(None, 1.0)],
         };
         for (direction, value) in parameters {
-            found.push(Varied {
-                parameter: Parameter::Joint {
+            let parts = match direction {
+                None => vec![(None, group.clone())],
+                Some(direction) => by_name(model, &group, |k| ValuePlace::Stiffness {
+                    joint: JointId(k),
                     direction,
-                    joints: group.iter().map(|k| JointId(*k)).collect(),
-                },
-                value,
-                segments: Vec::new(),
-            });
+                }),
+            };
+            for (name, part) in parts {
+                add_joints(found, name, direction, value, &part);
+            }
         }
     }
+}
+
+/// Adds a stiffness of joints: to that of others, of another kind, where it has the same name.
+fn add_joints(
+    found: &mut Vec<Varied>,
+    name: Option<String>,
+    direction: Option<Dof>,
+    value: f64,
+    joints: &[usize],
+) {
+    let joints: Vec<_> = joints.iter().map(|k| JointId(*k)).collect();
+    let same = found.iter_mut().find_map(|other| {
+        let named = name.is_some() && other.name == name;
+        match &mut other.parameter {
+            Parameter::Joint {
+                direction: own,
+                joints,
+            } if named && *own == direction => Some(joints),
+            _ => None,
+        }
+    });
+    match same {
+        Some(others) => {
+            others.extend(joints);
+            others.sort_unstable();
+        }
+        None => found.push(Varied {
+            parameter: Parameter::Joint { direction, joints },
+            name,
+            value,
+            segments: Vec::new(),
+        }),
+    }
+}
+
+/// Parts of a group whose values have the same name, or none.
+fn by_name(
+    model: &Model,
+    group: &[usize],
+    place: impl Fn(usize) -> ValuePlace,
+) -> Vec<(Option<String>, Vec<usize>)> {
+    let name = |k: usize| model.value_name(place(group[k]));
+    let parts = groups(group.len(), |a, b| name(a) == name(b)).into_iter();
+    parts
+        .map(|part| {
+            let own = name(part[0]).map(Into::into);
+            (own, part.iter().map(|k| group[*k]).collect())
+        })
+        .collect()
 }
 
 /// Bodies that these segments are of.

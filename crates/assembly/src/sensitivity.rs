@@ -20,6 +20,8 @@ use crate::solution::Solution;
 pub struct Sensitivity {
     /// The parameter p.
     pub parameter: Parameter,
+    /// Its name, where its values have one ([`Model::name_value`](crate::Model::name_value)).
+    pub name: Option<String>,
     /// Its value; 1 for a factor.
     pub value: f64,
     /// ∂C_o/∂p, the output's compliance.
@@ -88,6 +90,7 @@ impl Influence<'_> {
             let stiffness = solution.output.stiffness;
             found.push(Sensitivity {
                 parameter: varied.parameter,
+                name: varied.name,
                 value: varied.value,
                 compliance: sum.compliance,
                 stiffness: stiffness.map(|k| -(k * sum.compliance * k)),

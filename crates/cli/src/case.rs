@@ -92,6 +92,13 @@ impl Case {
         }
     }
 
+    /// Names values of the model by their paths in a job's prebuilt mechanism.
+    pub(crate) fn name_values(&mut self) {
+        if let Origin::Job { job, design, .. } = &self.origin {
+            job.name_values(design, &mut self.model);
+        }
+    }
+
     /// Job and pose that it is from.
     pub(crate) fn job(&self) -> Option<(&str, usize)> {
         match &self.origin {

@@ -69,7 +69,10 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
 
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
-    let case = Case::load(&args.input, registry)?;
+    let mut case = Case::load(&args.input, registry)?;
+    if args.why {
+        case.name_values();
+    }
     let solution = case.solve()?;
     let verification = if args.verify {
         Some(case.verify(&solution)?)

@@ -49,6 +49,8 @@ pub struct ModalSensitivities {
 pub struct FrequencySensitivity {
     /// The parameter p.
     pub parameter: Parameter,
+    /// Its name, where its values have one ([`Model::name_value`](crate::Model::name_value)).
+    pub name: Option<String>,
     /// Its value; 1 for a factor.
     pub value: f64,
     /// ∂f/∂p of every frequency of [`ModalSensitivities::frequencies`] \[Hz over the parameter's
@@ -129,6 +131,7 @@ impl ModalPlan {
             };
             found.push(FrequencySensitivity {
                 parameter: varied.parameter,
+                name: varied.name,
                 value: varied.value,
                 derivatives: eigenvalues.zip(&frequencies).map(derivative).collect(),
             });

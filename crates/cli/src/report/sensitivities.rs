@@ -59,7 +59,7 @@ impl SensitivityReport {
         let found = influence.sensitivities(solution)?;
         let mut all: Vec<Self> = (found.iter())
             .map(|s| Self {
-                parameter: parameters::name(case, &s.parameter),
+                parameter: parameters::name(case, s.name.as_deref(), &s.parameter),
                 value: s.value,
                 relative: relative(s),
                 displacement: s.displacement.as_ref().map(numbers),
@@ -103,7 +103,7 @@ impl FrequencyReport {
     pub(crate) fn all(case: &Case, found: &ModalSensitivities) -> Vec<Self> {
         let group = |group: &std::ops::Range<usize>| {
             let own = |s: &FrequencySensitivity| FrequencySensitivityReport {
-                parameter: parameters::name(case, &s.parameter),
+                parameter: parameters::name(case, s.name.as_deref(), &s.parameter),
                 value: s.value,
                 relative: (group.clone())
                     .map(|place| s.relative(&found.frequencies, place))
@@ -135,7 +135,7 @@ impl FrequencyReport {
             relative: s.relative.clone().unwrap_or_default(),
         });
         let heading = format!(
-            "What 1 % more of each value changes of {which}, {} Hz",
+            "What 1 % more of each value changes in {which} ({} Hz)",
             number(self.frequency)
         );
         section(text, &heading, table(changes, "frequency"));

@@ -223,7 +223,7 @@ fn what_changes_frequencies() {
         }
     }
     let text = bench.hyperstat(&arguments).ends_with(0);
-    let told = "What 1 % more of each value changes of frequencies 1 and 2, ";
+    let told = "What 1 % more of each value changes in frequencies 1 and 2 (";
     assert!(text.out().contains(told), "{}", text.out());
     let row = text
         .out()
@@ -241,7 +241,7 @@ fn what_changes_frequencies() {
             _ => vec!["solve", "bar.ron", "--why"],
         };
         let text = bench.hyperstat(&arguments).ends_with(0);
-        assert!(!text.out().contains("changes of freq"), "{}", text.out());
+        assert!(!text.out().contains("changes in freq"), "{}", text.out());
     }
 }
 

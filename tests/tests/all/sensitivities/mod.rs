@@ -3,6 +3,7 @@
 
 mod deflections;
 mod frequencies;
+mod names;
 
 use hyperstat_assembly::{Model, Parameter};
 use hyperstat_mechanisms::{Registry, mechanism_from_str};
