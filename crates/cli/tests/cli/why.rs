@@ -139,10 +139,15 @@ fn why_a_delta_gives() {
         numbers(&report["budget"]["along"]),
         [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
     );
+    // Named as `vary` takes them.
+    let sensitivities = report["sensitivities"].as_array().unwrap();
+    let named = |name: &str| sensitivities.iter().any(|s| s["parameter"] == name);
+    assert!(named("arm.section.diameter") && named("rod.material.young"));
     let text = bench
         .hyperstat(&["solve", "delta.ron", "--why"])
         .ends_with(0);
     for part in [
+        "  arm.section.diameter  ",
         "What is soft, and why",
         "bending",
         "What 1 % more",
