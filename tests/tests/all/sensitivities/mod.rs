@@ -1,6 +1,7 @@
 //! Derivatives of natural frequencies, and of deflections under weight, temperature and loads along
 //! beams: closed forms, and central differences of whole solves.
 
+mod any_topology;
 mod deflections;
 mod frequencies;
 mod names;
