@@ -18,7 +18,7 @@ use super::system::each_deformation;
 use super::{BeamMass, Found, ModalPlan, Outcome, hertz};
 use crate::cluster::segment_beam;
 use crate::error::SolveError;
-use crate::model::{Geometry, SegmentId};
+use crate::model::{Geometry, NodeId, NodeMass, SegmentId};
 use crate::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 use crate::plan::Source;
 
@@ -109,6 +109,15 @@ impl ModalPlan {
         let modes = &outcome.modes[..count];
         let shapes: Vec<Shape> = modes.iter().map(|m| self.shape(outcome, m)).collect();
         let frequencies: Vec<f64> = modes.iter().map(|mode| hertz(mode.eigenvalue)).collect();
+        let sizes = self.model.segments().iter().map(|s| s.elements);
+        let firsts = sizes.scan(0, |next, elements| {
+            *next += elements;
+            Some(*next - elements)
+        });
+        let divided = Divided {
+            firsts: firsts.collect(),
+            masses: self.divided.masses_at(outcome.geometry),
+        };
         let mut found = Vec::new();
         for varied in parameters(&self.model)? {
             if matches!(&varied.parameter, Parameter::Material { constant, .. } if *constant == "expansion")
@@ -123,7 +132,7 @@ impl ModalPlan {
                     .map(|g| DMatrix::zeros(g.len(), g.len()))
                     .collect(),
             };
-            self.add(outcome, &varied, &mut sums)?;
+            self.add(outcome, &divided, &varied, &mut sums)?;
             let eigenvalues = sums.matrices.into_iter().flat_map(ascending);
             let derivative = |(eigenvalue, frequency): (f64, &f64)| match *frequency {
                 0.0 => 0.0,
@@ -177,7 +186,7 @@ impl ModalPlan {
                 }
             },
         );
-        let nodes = (0..self.divided.nodes().len()).map(crate::model::NodeId);
+        let nodes = (0..self.divided.nodes().len()).map(NodeId);
         shape.nodes.extend(nodes.map(|node| {
             let vector = &found.vector;
             (ready.masses).displacement(plan, workspace, geometry, node, vector)
@@ -189,22 +198,16 @@ impl ModalPlan {
     fn add(
         &self,
         outcome: &Outcome<'_>,
+        divided: &Divided,
         varied: &Varied,
         sums: &mut Sums<'_>,
     ) -> Result<(), SolveError> {
-        let sizes = self.model.segments().iter().map(|s| s.elements);
-        let firsts: Vec<usize> = sizes
-            .scan(0, |next, elements| {
-                *next += elements;
-                Some(*next - elements)
-            })
-            .collect();
         for (id, change) in &varied.segments {
             let count = self.model.segments()[id.0].elements;
             let mut whole = None;
             for k in 0..count {
                 let part = Part {
-                    id: SegmentId(firsts[id.0] + k),
+                    id: SegmentId(divided.firsts[id.0] + k),
                     change,
                     place: k,
                     count,
@@ -230,8 +233,7 @@ impl ModalPlan {
                 work.sum()
             }),
             Parameter::Mass { mass, inertia } => {
-                let masses = self.divided.masses_at(outcome.geometry);
-                let own = &masses[*mass];
+                let own = &divided.masses[*mass];
                 sums.add(|a, b| {
                     let [a_node, b_node] = [a, b].map(|shape| shape.nodes[own.node.0]);
                     let start = if *inertia { 3 } else { 0 };
@@ -318,6 +320,14 @@ impl ModalPlan {
             }
         })
     }
+}
+
+/// The divided model beside the model.
+struct Divided {
+    /// First part of every segment.
+    firsts: Vec<usize>,
+    /// Masses of nodes, in this configuration.
+    masses: Vec<NodeMass>,
 }
 
 /// A part of a segment of the model, one of the divided model.
