@@ -144,15 +144,17 @@ impl Case {
             .map_err(|error| self.source().unsolvable(&self.model, error))
     }
 
-    /// What changes natural frequencies.
-    pub(crate) fn frequencies(
+    /// Adds what changes natural frequencies.
+    pub(crate) fn add_frequencies(
         &self,
         options: &ModalOptions,
-    ) -> Result<Vec<FrequencyReport>, CliError> {
+        report: &mut SolveReport,
+    ) -> Result<(), CliError> {
         let found = ModalPlan::new(&self.model, options)
             .and_then(|plan| plan.sensitivities(self.model.geometry()))
             .map_err(|error| self.source().unsolvable(&self.model, error))?;
-        Ok(FrequencyReport::all(self, &found))
+        report.add_frequencies(FrequencyReport::all(self, &found), found.complete);
+        Ok(())
     }
 
     /// The solution as a VTU file, with its modes where there are some.

@@ -104,7 +104,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     if args.why {
         report.add_why(case.why(&solution, args.along)?);
         if let Some(options) = &options {
-            report.add_frequencies(case.frequencies(options)?);
+            case.add_frequencies(options, &mut report)?;
         }
     }
     print(&match args.format {

@@ -39,6 +39,11 @@ pub struct ModalSensitivities {
     /// Their places in groups of equal ones, lowest first; most groups have one. Eigenvalues ω²
     /// are equal that differ by less than 10⁻⁶ of them.
     pub groups: Vec<Range<usize>>,
+    /// Whether all frequencies below the last one were counted, as [`Modes::complete`] says: else a
+    /// group may lack one of its frequencies.
+    ///
+    /// [`Modes::complete`]: crate::Modes::complete
+    pub complete: bool,
     /// What each parameter does, those of bodies first, then of joints, then of masses.
     pub parameters: Vec<FrequencySensitivity>,
 }
@@ -148,6 +153,7 @@ impl ModalPlan {
         Ok(ModalSensitivities {
             frequencies,
             groups,
+            complete: outcome.complete,
             parameters: found,
         })
     }

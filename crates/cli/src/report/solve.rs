@@ -96,6 +96,10 @@ struct StressReport {
     von_mises: f64,
 }
 
+/// What is said of derivatives of frequencies that could not be counted.
+const UNCOUNTED: &str = "sensitivities of frequencies: not all frequencies could be counted; where one \
+                         of several equal ones is missing, their derivatives are not right";
+
 impl SolveReport {
     /// Collects what is to be reported of a solution.
     pub(crate) fn new(
@@ -156,9 +160,12 @@ impl SolveReport {
         self.why = Some(why);
     }
 
-    /// Adds what changes natural frequencies.
-    pub(crate) fn add_frequencies(&mut self, frequencies: Vec<FrequencyReport>) {
+    /// Adds what changes natural frequencies; `complete`: all of them were counted.
+    pub(crate) fn add_frequencies(&mut self, frequencies: Vec<FrequencyReport>, complete: bool) {
         self.frequency_sensitivities = frequencies;
+        if !complete {
+            self.warnings.push(UNCOUNTED.into());
+        }
     }
 
     /// Adds the displacements of the nodes inside segments, of all states.
