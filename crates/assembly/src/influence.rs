@@ -1,9 +1,9 @@
 //! The states of unit loads on the output, and the work that a state's forces do on another's
 //! deformations: what budgets and sensitivities are made of.
 
-use hyperstat_elements::{BeamLoad, StraightBeam, rotate_vector6};
+use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::Dof;
-use nalgebra::{DVector, Matrix6, Vector6};
+use nalgebra::{DVector, Matrix6, Rotation3, Vector6};
 
 use crate::cluster::{SegmentBeam, segment_beam};
 use crate::directions::{Directions, to_directions};
@@ -22,7 +22,11 @@ use crate::solution::{SegmentForces, Solution};
 pub struct Influence<'m> {
     pub(crate) model: &'m Model,
     pub(crate) units: [State; 6],
+    /// Displacement of every node in each of them, global axes.
+    pub(crate) displacements: [Vec<Vector6<f64>>; 6],
     pub(crate) beams: Vec<SegmentBeam>,
+    /// Frame of every segment.
+    pub(crate) frames: Vec<Rotation3<f64>>,
     pub(crate) joints: Vec<ElasticDirections>,
 }
 
@@ -58,8 +62,11 @@ impl<'m> Influence<'m> {
         let plan = Plan::new(model)?;
         let output = model.output().ok_or(SolveError::NoOutput)?;
         let beams = (0..model.segments().len())
-            .map(|k| Ok(segment_beam(model, model.geometry(), SegmentId(k))?.0))
-            .collect::<Result<_, SolveError>>()?;
+            .map(|k| segment_beam(model, model.geometry(), SegmentId(k)))
+            .collect::<Result<Vec<_>, SolveError>>()?;
+        let (beams, frames) = (beams.into_iter())
+            .map(|(beam, frame, _)| (beam, frame))
+            .unzip();
         let joints = model.joints().iter().zip(&model.geometry().frames);
         let joints = joints
             .map(|(joint, frame)| {
@@ -74,13 +81,16 @@ impl<'m> Influence<'m> {
         let mut influence = Self {
             model,
             units: std::array::from_fn(|_| State::empty()),
+            displacements: std::array::from_fn(|_| Vec::new()),
             beams,
+            frames,
             joints,
         };
         let sets = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
-        for (k, state) in plan.respond(model, &sets)?.iter().enumerate() {
+        for (k, state) in plan.respond(model, &sets)?.into_iter().enumerate() {
             influence.units[k] =
                 influence.state_of(&state.displacements, &state.joint_wrenches, &state.segments);
+            influence.displacements[k] = state.displacements;
         }
         Ok(influence)
     }
@@ -181,8 +191,8 @@ impl<'m> Influence<'m> {
     ) -> Vector6<f64> {
         let load = state.load(segment);
         let (end, virtual_end) = (&state.ends[segment.0], &unit.ends[segment.0]);
-        self.beam(segment)
-            .elastic_work(end, &load, virtual_end, weight)
+        let beam = self.beams[segment.0].straight();
+        beam.elastic_work(end, &load, virtual_end, weight)
     }
 
     /// The same work on all strains, those apart that no force makes: the elastic ones, the others.
@@ -195,15 +205,9 @@ impl<'m> Influence<'m> {
         let elastic = self.segment_work(segment, state, unit, &|_| Vector6::repeat(1.0));
         let load = state.load(segment);
         let (end, virtual_end) = (&state.ends[segment.0], &unit.ends[segment.0]);
-        let whole = self.beam(segment).virtual_work(end, &load, virtual_end);
+        let beam = self.beams[segment.0].straight();
+        let whole = beam.virtual_work(end, &load, virtual_end);
         (elastic, (whole - elastic).sum())
-    }
-
-    fn beam(&self, segment: SegmentId) -> &dyn StraightBeam {
-        match &self.beams[segment.0] {
-            SegmentBeam::Prismatic(beam) => beam,
-            SegmentBeam::Tapered(beam) => beam,
-        }
     }
 }
 
@@ -211,11 +215,6 @@ impl ElasticDirections {
     /// Whether a direction is that of a drive: free by the joint's kind, held by a spring.
     pub fn is_drive(&self, joint: &dyn hyperstat_joints::Joint, dof: Dof) -> bool {
         joint.free().contains(dof)
-    }
-
-    /// The elastic directions.
-    pub fn elastic(&self) -> hyperstat_joints::DofSet {
-        self.directions.elastic
     }
 }
 

@@ -23,12 +23,14 @@ mod influence;
 mod jacobian;
 mod kinematics;
 mod lanes;
+mod load_change;
 mod loads;
 pub mod measures;
 mod modal;
 mod model;
 mod numeric;
 mod orientation;
+mod parameters;
 mod parts;
 mod plan;
 mod recover;
@@ -47,16 +49,19 @@ pub use error::{ModelError, SolveError};
 pub use influence::Influence;
 pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
-pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
+pub use modal::{
+    BeamMass, FrequencySensitivity, ModalOptions, ModalPlan, ModalSensitivities, Mode, Modes, modes,
+};
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
-    Segment, SegmentId,
+    Segment, SegmentId, ValuePlace,
 };
+pub use parameters::Parameter;
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;
 pub use redundancy::{Redundancy, redundant_constraints};
-pub use sensitivity::{Parameter, Sensitivity};
+pub use sensitivity::Sensitivity;
 pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
 pub use solve::{PoseResult, solve};
 pub use worst::{WorstPoint, section_wrench, stations};

@@ -2,6 +2,7 @@
 
 mod divided;
 mod turn;
+mod values;
 
 use std::collections::{HashMap, HashSet};
 
@@ -15,6 +16,7 @@ pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
     Member, Node, NodeId, NodeMass, Segment, SegmentId,
 };
+pub use values::ValuePlace;
 
 /// A mechanism in one configuration.
 #[derive(Debug, Clone)]
@@ -36,6 +38,7 @@ pub struct Model {
     joint_names: HashSet<String>,
     /// Nodes of every body by the name of their point, sorted.
     by_point: Vec<Vec<NodeId>>,
+    value_names: HashMap<ValuePlace, String>,
 }
 
 impl Model {
@@ -62,6 +65,7 @@ impl Model {
             body_names: HashMap::new(),
             joint_names: HashSet::new(),
             by_point: Vec::new(),
+            value_names: HashMap::new(),
         }
     }
 

@@ -79,30 +79,14 @@ impl Restraint {
             loads_on.entry(body).or_default().push(k);
         }
         for motion in self.idle.iter().chain(&self.moving) {
-            let mut work = 0.0;
-            let mut scale = 0.0;
-            let mut largest = (0, 0.0);
             let moved = motion.twists.iter().filter_map(|(b, _)| loads_on.get(b));
-            for &k in moved.flatten() {
-                let (node, wrench) = &acting.nodes[k];
-                let twist = node_twist(motion, model, geometry, node.0);
-                let share = wrench.dot(&twist);
-                work += share;
-                // A body that moves at all moves a load by rounding: no less is taken.
-                let (linear, angular) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
-                let travel = linear.norm().max(angular.norm() * self.size);
-                scale += wrench.fixed_rows::<3>(0).norm() * travel;
-                scale += wrench.fixed_rows::<3>(3).norm() * angular.norm();
-                if share.abs() > largest.1 {
-                    largest = (k, share.abs());
-                }
-            }
-            if work.abs() > WORKING * scale {
-                let (node, _) = acting.nodes[largest.0];
+            let wrenches = moved.flatten().map(|&k| (k, &acting.nodes[k]));
+            if let Some(largest) = working(motion, model, geometry, self.size, wrenches) {
+                let (node, _) = acting.nodes[largest];
                 return Err(SolveError::LoadOnFreeMotion {
                     node: model.node_name(node),
                     body: model.nodes()[node.0].body,
-                    load: Some(largest.0).filter(|k| set == 0 && *k < model.loads().len()),
+                    load: Some(largest).filter(|k| set == 0 && *k < model.loads().len()),
                     motion: motion.describe(model),
                 });
             }
@@ -166,6 +150,34 @@ impl Restraint {
         let solved = SparseElimination::new(rows.collect(), plan.inner);
         solved.pivot_columns().collect()
     }
+}
+
+/// Whether numbered wrenches (on nodes, global axes) work on a motion: the number of the one with
+/// the largest share, `None` where they do not. `size` is the mechanism's.
+pub(crate) fn working<'a>(
+    motion: &Motion,
+    model: &Model,
+    geometry: &Geometry,
+    size: f64,
+    wrenches: impl Iterator<Item = (usize, &'a (NodeId, Vector6<f64>))>,
+) -> Option<usize> {
+    let mut work = 0.0;
+    let mut scale = 0.0;
+    let mut largest = (0, 0.0);
+    for (k, (node, wrench)) in wrenches {
+        let twist = node_twist(motion, model, geometry, node.0);
+        let share = wrench.dot(&twist);
+        work += share;
+        // A body that moves at all moves a load by rounding: no less is taken.
+        let (linear, angular) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));
+        let travel = linear.norm().max(angular.norm() * size);
+        scale += wrench.fixed_rows::<3>(0).norm() * travel;
+        scale += wrench.fixed_rows::<3>(3).norm() * angular.norm();
+        if share.abs() > largest.1 {
+            largest = (k, share.abs());
+        }
+    }
+    (work.abs() > WORKING * scale).then_some(largest.0)
 }
 
 /// Rows of the largest minor of some columns, one a column, by complete pivoting; fewer where no

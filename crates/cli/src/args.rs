@@ -74,6 +74,8 @@ Examples:
                                              For ParaView
   hyperstat solve portal.ron --why           What is soft, and which dimension should grow
   hyperstat solve portal.ron --why --along z
+  hyperstat solve portal.ron --why --modes 3
+                                             What changes the frequencies, too
   hyperstat solve paper.ron --job delta --pose 12
 
 A mechanism file, a round bar held at one end:
@@ -180,7 +182,7 @@ pub(crate) struct Solve {
     #[arg(long)]
     pub(crate) lumped: bool,
     /// Say what is soft and why: the share of every part in the deflection, what more of every
-    /// dimension would change, stiffness measures
+    /// dimension would change (of natural frequencies too, where there are some), stiffness measures
     #[arg(long)]
     pub(crate) why: bool,
     /// Direction that `--why` is asked about: `displacement` (of the output under the loads), `x`,

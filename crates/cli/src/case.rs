@@ -1,7 +1,7 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
 use hyperstat_assembly::{
-    BeamMass, BodyId, ModalOptions, Model, Modes, Motion, Solution, SolveError,
+    BeamMass, BodyId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Along, Design, Input, Job, Location, Mechanism, PoseError, Registry};
@@ -11,7 +11,7 @@ use crate::args;
 use crate::drawing;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{SolveReport, Why};
+use crate::report::{FrequencyReport, SolveReport, Why};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -94,6 +94,13 @@ impl Case {
         }
     }
 
+    /// Names values of the model by their paths in a job's prebuilt mechanism.
+    pub(crate) fn name_values(&mut self) {
+        if let Origin::Job { job, design, .. } = &self.origin {
+            job.name_values(design, &mut self.model);
+        }
+    }
+
     /// Job and pose that it is from.
     pub(crate) fn job(&self) -> Option<(&str, usize)> {
         match &self.origin {
@@ -157,6 +164,19 @@ impl Case {
         hyperstat_assembly::modes(&self.model, options).map_err(|error| self.unsolvable(error))
     }
 
+    /// Adds what changes natural frequencies.
+    pub(crate) fn add_frequencies(
+        &self,
+        options: &ModalOptions,
+        report: &mut SolveReport,
+    ) -> Result<(), CliError> {
+        let found = ModalPlan::new(&self.model, options)
+            .and_then(|plan| plan.sensitivities(self.model.geometry()))
+            .map_err(|error| self.source().unsolvable(&self.model, error))?;
+        report.add_frequencies(FrequencyReport::all(self, &found), found.complete);
+        Ok(())
+    }
+
     /// The solution as a VTU file, with its modes where there are some.
     pub(crate) fn vtu(
         &self,
@@ -188,6 +208,11 @@ impl Case {
             Origin::Mechanism(mechanism) => Some(mechanism),
             Origin::Job { design, .. } => design.mechanism(),
         }
+    }
+
+    /// Whether it is a mechanism file by itself, with the loads and masses written there.
+    pub(crate) fn is_file(&self) -> bool {
+        matches!(self.origin, Origin::Mechanism(_))
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even

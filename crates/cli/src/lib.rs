@@ -70,7 +70,10 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
 
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
-    let case = Case::load(&args.input, registry)?;
+    let mut case = Case::load(&args.input, registry)?;
+    if args.why {
+        case.name_values();
+    }
     let solution = case.solve()?;
     let verification = if args.verify {
         Some(case.verify(&solution)?)
@@ -100,7 +103,10 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         })?;
     }
     if args.why {
-        report.add_why(case.why(&solution, args.along)?, &case.model);
+        report.add_why(case.why(&solution, args.along)?);
+        if let Some(options) = &options {
+            case.add_frequencies(options, &mut report)?;
+        }
     }
     print(&match args.format {
         Format::Text => report.text(),

@@ -33,7 +33,7 @@ pub use error::ElementError;
 pub use flexible::FlexibleBody;
 pub use frame::{element_frame, rotate_matrix6, rotate_matrix12, rotate_vector6, transport};
 pub use load::{BeamLoad, TemperatureChange};
-pub use mass::{LineMass, MassShape, RotaryInertia};
+pub use mass::{Along, LineMass, MassShape, RotaryInertia};
 pub use material::{Elasticity, Material};
 pub use rigid_mass::RigidMass;
 pub use section::{Section, SectionShape};

@@ -195,17 +195,24 @@ impl Taper {
 }
 
 impl Material {
-    /// The elastic constants by their names in files, with their values: `young` \[Pa\], and
-    /// `poisson` or `shear` \[Pa\], whichever was given.
-    pub fn constants(&self) -> [(&'static str, f64); 2] {
+    /// The constants that deformation, mass and free strain depend on, by their names in files,
+    /// with their values: `young` \[Pa\], `poisson` or `shear` \[Pa\], whichever was given,
+    /// and `density` \[kg/m³\] and `expansion` \[1/K\] where they are given.
+    pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let second = match self.elasticity() {
             Elasticity::Poisson(poisson) => ("poisson", poisson),
             Elasticity::Shear(shear) => ("shear", shear),
         };
+        let density = self.density().map(|density| ("density", density));
+        let expansion = self.expansion().map(|expansion| ("expansion", expansion));
         [("young", self.young()), second]
+            .into_iter()
+            .chain(density)
+            .chain(expansion)
+            .collect()
     }
 
-    /// ∂ ln (E, G, G, G, E, E)/∂p for the constant p of this name, the other one as it is.
+    /// ∂ ln (E, G, G, G, E, E)/∂p for the constant p of this name, the others as they are.
     pub fn logarithmic_derivative(&self, name: &str) -> Vector6<f64> {
         let [young, shear] = match (name, self.elasticity()) {
             ("young", Elasticity::Poisson(_)) => [1.0 / self.young(); 2],

@@ -167,4 +167,21 @@ pub trait StraightBeam {
         });
         sum
     }
+
+    /// Derivative by p of the displacement at `xi` per wrench on node 2, node 1 held, where the
+    /// rigidities change along the beam by ∂ ln (EA, GA_y, GA_z, GJ, EI_y, EI_z)/∂p: of
+    /// [`shape`](Self::shape) times the cantilever's compliance.
+    fn give_derivative(&self, xi: f64, rigidities: &dyn Fn(f64) -> Vector6<f64>) -> Matrix6<f64> {
+        let length = self.length();
+        let mut sum = Matrix6::zeros();
+        self.intervals(xi, &mut |first, last| {
+            gauss(first, last, |place, weight| {
+                let arm = |to: f64| transport(&Vector3::new(length * (to - place), 0.0, 0.0));
+                let compliance = self.section_compliance_at(place);
+                let change = -compliance.component_mul(&rigidities(place)) * (length * weight);
+                sum += arm(xi) * Matrix6::from_diagonal(&change) * arm(1.0).transpose();
+            });
+        });
+        sum
+    }
 }

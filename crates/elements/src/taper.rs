@@ -166,12 +166,7 @@ impl Taper {
     /// The area \[m²\] along the taper, (1 − ξ)² a₀ + 2 ξ (1 − ξ) a₁ + ξ² a₂: of every kind of
     /// section it is exactly quadratic.
     pub(crate) fn area_controls(&self) -> [f64; 3] {
-        let (first, last) = (self.from.area(), self.to.area());
-        [
-            first,
-            2.0 * self.at(0.5).area() - (first + last) / 2.0,
-            last,
-        ]
+        controls([self.from.area(), self.at(0.5).area(), self.to.area()])
     }
 
     /// Calls `visit` on intervals (first, last) that together make up 0 to `end`. On each of
@@ -216,6 +211,11 @@ impl Taper {
         let (before, after) = (width - height, width_to - height_to);
         (before * after < 0.0).then(|| before / (before - after))
     }
+}
+
+/// The controls c of (1 − ξ)² c₀ + 2 ξ (1 − ξ) c₁ + ξ² c₂ that has these values at 0, ½ and 1.
+pub(crate) fn controls([first, middle, last]: [f64; 3]) -> [f64; 3] {
+    [first, 2.0 * middle - (first + last) / 2.0, last]
 }
 
 /// The value at `xi` of what changes linearly; positive where both ends are.

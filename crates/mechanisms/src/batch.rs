@@ -19,6 +19,7 @@ use crate::prebuilt::PoseError;
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::subject::{Recipe, Subject};
+use crate::value_names;
 use crate::vary::Variation;
 
 /// The jobs of a batch file, in its order, all of them checked.
@@ -208,6 +209,17 @@ impl Job {
             subject,
             poses: Arc::clone(&self.poses),
         })
+    }
+
+    /// Names the values of a design's model by their paths in the job's prebuilt mechanism, as
+    /// `vary` takes them ([`Model::name_value`]): those that stand in the model as they are
+    /// written. Nothing where the mechanism is a file.
+    pub fn name_values(&self, design: &Design, model: &mut Model) {
+        let replaced = match &self.designs {
+            Some(designs) => designs.replaced(design.number),
+            None => Vec::new(),
+        };
+        value_names::find(&self.recipe, &replaced, &design.subject, model);
     }
 
     /// Place of the job's name in the batch file.

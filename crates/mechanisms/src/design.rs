@@ -1,6 +1,7 @@
 //! One design of a job: its mechanism with one choice of the varied values.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, Model};
@@ -165,6 +166,12 @@ impl Designs {
     pub(crate) fn values(&self, number: usize) -> Vec<Value> {
         let places = self.variation.design(number);
         places.iter().map(Value::at).collect()
+    }
+
+    /// What stands in for which bytes of the mechanism's text in a design.
+    pub(crate) fn replaced(&self, number: usize) -> Vec<(Range<usize>, Place)> {
+        let values = self.variation.design(number);
+        self.variation.spans().zip(values).collect()
     }
 
     /// Makes a design of a job with these poses; `similar` is another one.

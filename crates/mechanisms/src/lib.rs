@@ -40,6 +40,7 @@ mod subject;
 mod syntax;
 mod table;
 mod targets;
+mod value_names;
 mod values;
 mod vary;
 mod write;

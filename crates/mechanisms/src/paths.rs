@@ -28,6 +28,47 @@ pub(crate) fn find<'a>(root: Fragment<'a>, key: Fragment<'_>) -> Result<Fragment
     }
 }
 
+/// All numbers in `root`, each with its path.
+pub(crate) fn numbers(root: Fragment<'_>) -> Vec<(String, Fragment<'_>)> {
+    let mut found = Vec::new();
+    add_numbers(root, "", &mut found);
+    found
+}
+
+fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fragment<'a>)>) {
+    let inside = contents(value);
+    let numbered = |items: Vec<Fragment<'a>>| {
+        let items = items.into_iter().enumerate();
+        items.map(|(k, item)| (k.to_string(), item)).collect()
+    };
+    let parts: Result<Vec<(String, Fragment<'a>)>, LoadError> = match inside.text().chars().next() {
+        Some('{') => {
+            (inside.map()).map(|entries| entries.into_iter().map(|e| (e.name, e.value)).collect())
+        }
+        Some('[') => inside.list("a list").map(numbered),
+        Some('(') => match inside.named("") {
+            Ok(fields) => {
+                let pair = |(name, value): (Fragment<'a>, _)| (name.text().to_owned(), value);
+                Ok(fields.into_iter().map(pair).collect())
+            }
+            Err(_) => inside.tuple("a tuple").map(numbered),
+        },
+        _ => {
+            if value.number().is_ok() {
+                found.push((path.into(), value));
+            }
+            return;
+        }
+    };
+    for (name, part) in parts.into_iter().flatten() {
+        let path = match path {
+            "" => name,
+            path => format!("{path}.{name}"),
+        };
+        add_numbers(part, &path, found);
+    }
+}
+
 /// The next step of a path.
 struct Step<'k> {
     /// Where the path is written.

@@ -191,6 +191,19 @@ impl Subject {
         }
     }
 
+    /// The model that another prebuilt mechanism of the same kind has in the pose of this one's
+    /// own; `None` where it has none there.
+    pub(crate) fn model_like(&self, other: &Checked) -> Option<Model> {
+        match (self, other) {
+            (Self::Prebuilt { template, .. }, Checked::Prebuilt(other)) => {
+                let pose = template.as_ref().ok()?.pose;
+                let (target, count) = given(other.as_ref(), &pose);
+                other.model(&target[..count]).ok()
+            }
+            _ => None,
+        }
+    }
+
     /// Names of its cases; none where no pose can be reached.
     pub(crate) fn cases(&self) -> Vec<String> {
         let model = match self {

@@ -24,6 +24,7 @@ mod random_mechanisms;
 mod reference_results;
 mod refinement;
 mod reordering;
+mod sensitivities;
 mod single_freedom;
 mod states;
 mod tapers;

@@ -1,15 +1,16 @@
 //! Mass over the independent displacement coordinates: M = Σ Hᵀ m H over beams and masses of
 //! nodes, with the same mappings H as the stiffness.
 
-use hyperstat_elements::{LineMass, MassShape, RotaryInertia, Taper, rotate_matrix12};
+use hyperstat_elements::rotate_matrix12;
 use nalgebra::{Vector3, Vector6};
 
 use super::ModalOptions;
-use crate::cluster::{SegmentBeam, segment_beam};
+use crate::cluster::segment_beam;
 use crate::coordinates::{read, shift};
 use crate::error::SolveError;
 use crate::model::{BodyId, Geometry, Model, NodeId, SegmentId};
 use crate::numeric::{dot, multiply};
+use crate::parameters::line_mass;
 use crate::plan::{Plan, Source, Workspace};
 use crate::sparse::Pattern;
 
@@ -279,20 +280,15 @@ fn segment_mass(
 ) -> Result<Vec<f64>, SolveError> {
     let segment = &model.segments()[id.0];
     let (beam, frame, span) = segment_beam(model, geometry, id)?;
-    let taper = segment.change_of_section()?;
-    let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
     let density = segment.material.density();
     let density = density.ok_or_else(|| SolveError::NoDensity {
         body: model.bodies()[segment.body.0].name.clone(),
     })?;
-    let line = LineMass::new(density, taper)?;
-    let (shape, rotary): (MassShape, RotaryInertia) = (options.shape, options.rotary_inertia);
-    let mass = match (options.mass, &beam) {
-        (BeamMass::Lumped, _) => line.lumped(span.norm()),
-        (BeamMass::Consistent, SegmentBeam::Prismatic(beam)) => {
-            line.consistent(beam, shape, rotary)
-        }
-        (BeamMass::Consistent, SegmentBeam::Tapered(beam)) => line.consistent(beam, shape, rotary),
+    let line = line_mass(segment, density)?;
+    let (shape, rotary) = (options.shape, options.rotary_inertia);
+    let mass = match options.mass {
+        BeamMass::Lumped => line.lumped(span.norm()),
+        BeamMass::Consistent => line.consistent(beam.straight(), shape, rotary),
     };
     Ok(rotate_matrix12(&mass, &frame).as_slice().to_vec())
 }

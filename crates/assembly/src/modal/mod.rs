@@ -7,6 +7,7 @@
 
 mod lanczos;
 mod mass;
+mod sensitivity;
 mod shape;
 mod system;
 
@@ -21,6 +22,7 @@ use crate::restraint::Restraint;
 use lanczos::lowest;
 pub use mass::BeamMass;
 use mass::{MassPlan, Masses};
+pub use sensitivity::{FrequencySensitivity, ModalSensitivities};
 use system::{Mode as Found, System};
 
 /// Elements of a model at the most.
@@ -185,7 +187,7 @@ impl ModalPlan {
     /// [`SolveError::NoMass`] where nothing has mass; [`SolveError::ModesNotFound`] where they do
     /// not converge; as [`solve`](crate::solve).
     pub fn modes(&self, geometry: &Geometry) -> Result<Modes, SolveError> {
-        self.find(geometry, true, |outcome| Modes {
+        self.find(geometry, self.options.count, true, |outcome| Modes {
             modes: outcome
                 .modes
                 .iter()
@@ -202,7 +204,7 @@ impl ModalPlan {
     /// # Errors
     /// As [`ModalPlan::modes`].
     pub fn frequencies(&self, geometry: &Geometry) -> Result<Vec<f64>, SolveError> {
-        self.find(geometry, false, |outcome| {
+        self.find(geometry, self.options.count, false, |outcome| {
             let modes = outcome.modes.iter();
             modes.map(|mode| hertz(mode.eigenvalue)).collect()
         })
@@ -235,11 +237,12 @@ impl ModalPlan {
         }
     }
 
-    /// Finds the modes of a configuration; `diagnose` looks for motions without energy even where
+    /// Finds the `count` lowest modes of a configuration; `diagnose` looks for motions without energy even where
     /// the plan's own configuration has none.
     fn find<T>(
         &self,
         geometry: &Geometry,
+        count: usize,
         diagnose: bool,
         take: impl FnOnce(Outcome<'_>) -> T,
     ) -> Result<T, SolveError> {
@@ -282,7 +285,6 @@ impl ModalPlan {
             Some(Ok(system)) => system,
             _ => system(Some(&Restraint::new(&self.divided, &geometry, plan.output)))?,
         };
-        let count = self.options.count;
         let mut modes: Vec<Found> = system.moving().take(count).map(Found::at_rest).collect();
         let mut complete = true;
         if modes.len() < count {

@@ -9,7 +9,7 @@ use crate::error::SolveError;
 use crate::kinematics::{characteristic_length, node_twist};
 use crate::model::{Geometry, Model};
 use crate::numeric::{dot, multiply};
-use crate::plan::{Plan, Workspace};
+use crate::plan::{ElementPlan, Plan, Workspace};
 use crate::restraint::{Restraint, largest_minor, scaled};
 use crate::solution::Motion;
 use crate::sparse::Factor;
@@ -223,9 +223,14 @@ impl<'a> System<'a> {
             }
             rest.copy_from_slice(forces);
             for (rest, column) in rest.chunks_exact_mut(n).zip(whole.chunks_exact(n)) {
-                self.each_deformation(column, |operator, _, force| {
-                    operator.subtract_forces(force, rest);
-                });
+                each_deformation(
+                    self.plan,
+                    self.workspace,
+                    column,
+                    |_, operator, _, force| {
+                        operator.subtract_forces(force, rest);
+                    },
+                );
             }
         }
         if whole.iter().all(|value| value.is_finite()) {
@@ -238,31 +243,10 @@ impl<'a> System<'a> {
     /// xᵀ K x, by the elements' deformations.
     fn energy(&self, x: &[f64]) -> f64 {
         let mut energy = 0.0;
-        self.each_deformation(x, |_, deformation, force| energy += dot(deformation, force));
+        each_deformation(self.plan, self.workspace, x, |_, _, deformation, force| {
+            energy += dot(deformation, force);
+        });
         energy
-    }
-
-    /// Calls `take` with the deformation and the force of every element under `x`.
-    fn each_deformation(&self, x: &[f64], mut take: impl FnMut(Operator<'_>, &[f64], &[f64])) {
-        let mut deformation = Vec::new();
-        let mut force = Vec::new();
-        for element in &self.plan.elements {
-            let (rows, count) = (element.rows, element.columns.len());
-            let start = element.operator_start;
-            let operator = Operator {
-                rows,
-                columns: &element.columns,
-                values: &self.workspace.operators[start..start + rows * count],
-            };
-            let start = element.stiffness_start;
-            let k = &self.workspace.stiffnesses[start..start + rows * rows];
-            deformation.clear();
-            deformation.resize(rows, 0.0);
-            operator.add_deformation(x, &mut deformation);
-            force.resize(rows, 0.0);
-            multiply(k, &deformation, rows, &mut force[..rows]);
-            take(operator, &deformation, &force[..rows]);
-        }
     }
 
     /// The mode of a vector, whose image under K⁻¹ M is given.
@@ -298,8 +282,36 @@ impl<'a> System<'a> {
     }
 }
 
+/// Calls `take` with every element, and its operator, deformation and force under `x`.
+pub(super) fn each_deformation(
+    plan: &Plan,
+    workspace: &Workspace,
+    x: &[f64],
+    mut take: impl FnMut(&ElementPlan, Operator<'_>, &[f64], &[f64]),
+) {
+    let mut deformation = Vec::new();
+    let mut force = Vec::new();
+    for element in &plan.elements {
+        let (rows, count) = (element.rows, element.columns.len());
+        let start = element.operator_start;
+        let operator = Operator {
+            rows,
+            columns: &element.columns,
+            values: &workspace.operators[start..start + rows * count],
+        };
+        let start = element.stiffness_start;
+        let k = &workspace.stiffnesses[start..start + rows * rows];
+        deformation.clear();
+        deformation.resize(rows, 0.0);
+        operator.add_deformation(x, &mut deformation);
+        force.resize(rows, 0.0);
+        multiply(k, &deformation, rows, &mut force[..rows]);
+        take(element, operator, &deformation, &force[..rows]);
+    }
+}
+
 /// Deformations of an element by its coordinates.
-struct Operator<'a> {
+pub(super) struct Operator<'a> {
     rows: usize,
     columns: &'a [usize],
     values: &'a [f64],

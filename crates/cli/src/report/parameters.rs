@@ -8,10 +8,14 @@ use crate::case::Case;
 /// Names that are listed one by one.
 const FEW: usize = 3;
 
-/// The name of a parameter: its path in the mechanism file, as `vary` takes it, where the mechanism
-/// is one of a file with a table that holds it; else the bodies or joints that have it.
-pub(super) fn name(case: &Case, parameter: &Parameter) -> String {
+/// The name of a parameter: the one that its values have; its path in the mechanism file, as `vary`
+/// takes it, where the mechanism is one of a file with a table that holds it; else the bodies or
+/// joints that have it.
+pub(super) fn name(case: &Case, named: Option<&str>, parameter: &Parameter) -> String {
     let model = &case.model;
+    if let Some(name) = named {
+        return name.into();
+    }
     match parameter {
         Parameter::Section {
             section,
@@ -57,6 +61,14 @@ pub(super) fn name(case: &Case, parameter: &Parameter) -> String {
                     format!("joints.{joint}.stiffness.{direction}")
                 }
                 _ => format!("stiffness {direction} of {}", joint_names(model, joints)),
+            }
+        }
+        Parameter::Mass { mass, inertia } => {
+            let node = || model.node_name(model.masses()[*mass].node);
+            match (case.is_file(), inertia) {
+                (true, false) => format!("masses.{mass}.mass"),
+                (_, false) => format!("mass on {}", node()),
+                (_, true) => format!("inertia on {}", node()),
             }
         }
     }

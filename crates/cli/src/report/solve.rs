@@ -15,8 +15,9 @@ use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_wor
 use super::loads::loads;
 use super::why::Why;
 use super::{
-    DISPLACEMENT, Entries, ModesReport, Rounding, Rows, Table, WRENCH, displacement_table, heads,
-    inner_displacements, list, matrix_table, numbers, redundancies, rows, section, stiffness_table,
+    DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
+    displacement_table, heads, inner_displacements, list, matrix_table, numbers, redundancies,
+    rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -50,6 +51,8 @@ pub(crate) struct SolveReport {
     bodies: Entries<BodyReport>,
     #[serde(flatten)]
     why: Option<Why>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    frequency_sensitivities: Vec<FrequencyReport>,
     #[serde(skip_serializing_if = "Entries::is_empty")]
     cases: Entries<CaseReport>,
     /// The loads in words and tables, for the text only.
@@ -98,9 +101,9 @@ struct StressReport {
     von_mises: f64,
 }
 
-/// What sensitivities leave out where gravity acts.
-const KEPT_WEIGHT: &str = "sensitivities: the weight is kept as it is; what a thicker part weighs \
-                           more is not in them";
+/// What is said of derivatives of frequencies that could not be counted.
+const UNCOUNTED: &str = "sensitivities of frequencies: not all frequencies could be counted; where one \
+                         of several equal ones is missing, their derivatives are not right";
 
 impl SolveReport {
     /// Collects what is to be reported of a solution.
@@ -151,16 +154,23 @@ impl SolveReport {
             modes: None,
             bodies: bodies(model, solution),
             why: None,
+            frequency_sensitivities: Vec::new(),
             cases: cases(model, solution),
             loads: loads(model),
         }
     }
 
     /// Adds what is soft and why.
-    pub(crate) fn add_why(&mut self, why: Why, model: &Model) {
+    pub(crate) fn add_why(&mut self, why: Why) {
+        self.warnings.extend(why.remarks());
         self.why = Some(why);
-        if model.gravity().iter().any(|component| *component != 0.0) {
-            self.warnings.push(KEPT_WEIGHT.into());
+    }
+
+    /// Adds what changes natural frequencies; `complete`: all of them were counted.
+    pub(crate) fn add_frequencies(&mut self, frequencies: Vec<FrequencyReport>, complete: bool) {
+        self.frequency_sensitivities = frequencies;
+        if !complete {
+            self.warnings.push(UNCOUNTED.into());
         }
     }
 
@@ -221,6 +231,9 @@ impl SolveReport {
         }
         if let Some(why) = &self.why {
             why.write(&mut text);
+        }
+        for frequencies in &self.frequency_sensitivities {
+            frequencies.write(&mut text);
         }
         self.write_verification(&mut text);
         text

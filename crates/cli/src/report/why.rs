@@ -11,10 +11,11 @@ use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
-use super::{Rows, Table, number, numbers, parameters, rows, section};
+use super::sensitivities::SensitivityReport;
+use super::{Table, number, numbers, section};
 use crate::case::Case;
 
-/// Parts and parameters that the text tells; JSON has all.
+/// Parts that the text tells; JSON has all.
 const TOLD: usize = 15;
 /// Width of a bar of 100 %.
 const WIDTH: f64 = 40.0;
@@ -94,17 +95,6 @@ struct ScrewReport {
 struct VirtualWork {
     force: f64,
     moment: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct SensitivityReport {
-    parameter: String,
-    value: f64,
-    /// Relative change of the budget's total per relative change of the parameter.
-    relative: Option<f64>,
-    displacement: [f64; 6],
-    compliance: Rows,
-    stiffness: Option<Rows>,
 }
 
 /// The budget of the output of a solved mechanism along a direction; `None` where it moves freely.
@@ -193,23 +183,21 @@ impl Why {
             });
         };
         let influence = Influence::new(&case.model)?;
-        let mut sensitivities: Vec<_> = (influence.sensitivities(solution)?.iter())
-            .map(|s| SensitivityReport {
-                parameter: parameters::name(case, &s.parameter),
-                value: s.value,
-                relative: question.relative(s),
-                displacement: numbers(&s.displacement),
-                compliance: rows(&s.compliance),
-                stiffness: s.stiffness.as_ref().map(rows),
-            })
-            .collect();
-        let size = |s: &SensitivityReport| s.relative.unwrap_or(0.0).abs();
-        sensitivities.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        let relative = |s: &Sensitivity| question.relative(s);
+        let sensitivities = SensitivityReport::all(case, &influence, solution, relative)?;
         Ok(Self {
             budget: Some(question.budget(&influence)),
             measures: question.measures.as_ref().map(MeasuresReport::new),
             sensitivities: Some(sensitivities),
         })
+    }
+
+    /// What the user should know about it.
+    pub(super) fn remarks(&self) -> Vec<String> {
+        let sensitivities = self.sensitivities.iter().flatten();
+        sensitivities
+            .filter_map(SensitivityReport::remark)
+            .collect()
     }
 
     /// Writes it as tables, the largest first.
@@ -224,7 +212,8 @@ impl Why {
         };
         budget.write(text);
         if let Some(sensitivities) = &self.sensitivities {
-            write_sensitivities(sensitivities, budget, text);
+            let (what, _) = budget.quantity();
+            SensitivityReport::write(sensitivities, what, text);
         }
         if let Some(measures) = &self.measures {
             measures.write(text);
@@ -338,32 +327,6 @@ fn bars(text: &mut String, sums: &[Sum], unit: &str) {
         let count = sums.len() - told.len();
         let _ = writeln!(text, "    and {count} more, {:.1} % together", 100.0 * rest);
     }
-}
-
-fn write_sensitivities(found: &[SensitivityReport], budget: &BudgetReport, text: &mut String) {
-    let (what, _) = budget.quantity();
-    let effective = found
-        .iter()
-        .filter(|s| s.relative.is_some_and(|r| r != 0.0));
-    let told: Vec<_> = effective.take(TOLD).collect();
-    let width = told.iter().map(|s| s.parameter.chars().count()).max();
-    let width = width.unwrap_or(0);
-    let mut body = String::new();
-    for sensitivity in &told {
-        let relative = sensitivity.relative.unwrap_or(0.0);
-        // What is rounded to zero has no sign.
-        let relative = match relative.abs() < 5e-4 {
-            true => "0.000".into(),
-            false => format!("{relative:+.3}"),
-        };
-        let _ = writeln!(
-            body,
-            "  {:<width$}  {:>12}   {relative:>8} % {what}",
-            sensitivity.parameter,
-            number(sensitivity.value),
-        );
-    }
-    section(text, "What 1 % more of each value changes", body);
 }
 
 impl MeasuresReport {

@@ -111,14 +111,3 @@ fn cases_are_columns_after_the_stiffness() {
     assert_near(value("rest.dz"), -weight, 1e-11, weight);
     assert_near(value("push.dz"), -(weight + push), 1e-11, weight + push);
 }
-
-#[test]
-fn sensitivities_under_weight_say_what_they_leave_out() {
-    let bench = Bench::new("cases-why");
-    for (gravity, told) in [(GRAVITY, true), ("", false)] {
-        bench.file("bar.ron", &bar(gravity));
-        let report = bench.hyperstat(&["solve", "bar.ron", "--why"]);
-        let report = report.ends_with(0);
-        assert_eq!(report.out().contains("the weight is kept"), told);
-    }
-}

@@ -139,10 +139,15 @@ fn why_a_delta_gives() {
         numbers(&report["budget"]["along"]),
         [0.0, 0.0, -1.0, 0.0, 0.0, 0.0]
     );
+    // Named as `vary` takes them.
+    let sensitivities = report["sensitivities"].as_array().unwrap();
+    let named = |name: &str| sensitivities.iter().any(|s| s["parameter"] == name);
+    assert!(named("arm.section.diameter") && named("rod.material.young"));
     let text = bench
         .hyperstat(&["solve", "delta.ron", "--why"])
         .ends_with(0);
     for part in [
+        "  arm.section.diameter  ",
         "What is soft, and why",
         "bending",
         "What 1 % more",
@@ -155,6 +160,132 @@ fn why_a_delta_gives() {
         .hyperstat(&["solve", "delta.ron", "--why", "--along", "up"])
         .ends_with(2);
     assert!(wrong.err().contains("three numbers"), "{}", wrong.err());
+}
+
+/// The bar of the help under its own weight and a mass at its tip: the weight's part grows with d²,
+/// the rest not at all; both bend it by 1/(E d⁴).
+#[test]
+fn weight_has_its_part_in_sensitivities() {
+    let bench = Bench::new("why-weight");
+    let heavy = CANTILEVER
+        .replace("poisson: 0.3", "poisson: 0.3, density: 7850.0")
+        .replace(
+            "loads: [",
+            "gravity: (0.0, 0.0, -9.81), masses: [(on: (\"bar\", \"B\"), mass: 1.0)], loads: [",
+        );
+    bench.file("bar.ron", &heavy);
+    let solve = |more: &[&str]| {
+        let arguments = [&["solve", "bar.ron", "--why"], more].concat();
+        bench.hyperstat(&arguments).ends_with(0)
+    };
+    let report = solve(&["--along", "z", "--format", "json"]).json();
+    assert_eq!(report["warnings"].as_array().unwrap().len(), 0);
+    let (inertia, area) = (PI * 0.02_f64.powi(4) / 64.0, PI * 1e-4);
+    let weight = 7850.0 * 9.81 * area * 0.5_f64.powi(4) / (8.0 * 2.1e11 * inertia);
+    let tip = |force: f64| force * 0.5_f64.powi(3) / (3.0 * 2.1e11 * inertia);
+    let whole = weight + tip(9.81) + tip(100.0);
+    let relative = |parameter: &str| {
+        let all = report["sensitivities"].as_array().unwrap();
+        let found = all.iter().find(|s| s["parameter"] == parameter);
+        number(&found.unwrap_or_else(|| panic!("no {parameter}"))["relative"])
+    };
+    near(relative("materials.steel.density"), weight / whole);
+    near(relative("masses.0.mass"), tip(9.81) / whole);
+    near(
+        relative("sections.rod.diameter"),
+        -4.0 + 2.0 * weight / whole,
+    );
+    let text = solve(&["--along", "z"]);
+    assert!(text.out().contains("masses.0.mass"), "{}", text.out());
+}
+
+/// Bending of a round bar goes with d √(E/ρ), in both planes at once.
+#[test]
+fn what_changes_frequencies() {
+    let bench = Bench::new("why-frequencies");
+    let heavy = CANTILEVER.replace("poisson: 0.3", "poisson: 0.3, density: 7850.0");
+    bench.file("bar.ron", &heavy);
+    let arguments = ["solve", "bar.ron", "--why", "--modes", "1"];
+    let report = bench.hyperstat(&[&arguments[..], &["--format", "json"]].concat());
+    let report = report.ends_with(0).json();
+    let groups = report["frequency_sensitivities"].as_array().unwrap();
+    assert_eq!(groups.len(), 1);
+    assert_eq!(groups[0]["modes"], serde_json::json!([1, 2]));
+    assert_eq!(report["modes"].as_array().unwrap().len(), 1);
+    let frequency = number(&groups[0]["frequency"]);
+    near(number(&report["modes"][0]["frequency"]), frequency);
+    let found = groups[0]["sensitivities"].as_array().unwrap();
+    assert_eq!(found[0]["parameter"], "sections.rod.diameter");
+    for (parameter, expected, value) in [
+        ("sections.rod.diameter", 1.0, 0.02),
+        ("materials.steel.young", 0.5, 2.1e11),
+        ("materials.steel.density", -0.5, 7850.0),
+    ] {
+        let own = found.iter().find(|s| s["parameter"] == parameter).unwrap();
+        for k in [0, 1] {
+            near(numbers(&own["relative"])[k], expected);
+            near(numbers(&own["derivative"])[k], expected * frequency / value);
+        }
+    }
+    let text = bench.hyperstat(&arguments).ends_with(0);
+    let told = "What 1 % more of each value changes in frequencies 1 and 2 (";
+    assert!(text.out().contains(told), "{}", text.out());
+    let row = text
+        .out()
+        .lines()
+        .find(|line| line.ends_with("+1.000 % frequency"));
+    assert!(
+        row.is_some_and(|row| row.contains("sections.rod.diameter")),
+        "{}",
+        text.out()
+    );
+    // Frequencies without `--why`, and `--why` without frequencies, have none of it.
+    for without in ["--why", "--modes"] {
+        let arguments: Vec<_> = match without {
+            "--why" => vec!["solve", "bar.ron", "--modes", "1"],
+            _ => vec!["solve", "bar.ron", "--why"],
+        };
+        let text = bench.hyperstat(&arguments).ends_with(0);
+        assert!(!text.out().contains("changes in freq"), "{}", text.out());
+    }
+}
+
+/// What would leave an idle motion out of balance has no derivative, and the report says so.
+#[test]
+fn what_would_unbalance_is_told() {
+    let bench = Bench::new("why-balance");
+    let text = CANTILEVER
+        .replace("poisson: 0.3", "poisson: 0.3, density: 0.0")
+        .replace(
+            "points: {",
+            "points: { \"L\": (0.5, 0.1, 0.0), \"R\": (0.5, -0.1, 0.0),",
+        )
+        .replace(
+            "bodies: {",
+            "bodies: { \"balance\": Rigid(points: [\"L\", \"B\", \"R\"]),",
+        )
+        .replace(
+            "joints: {",
+            "joints: { \"hinge\": (at: \"B\", between: (\"bar\", \"balance\"), \
+             kind: Revolute(axis: (1.0, 0.0, 0.0))),",
+        )
+        .replace(
+            "loads: [",
+            "gravity: (0.0, 0.0, -9.81), masses: [(on: (\"balance\", \"L\"), mass: 1.0), \
+             (on: (\"balance\", \"R\"), mass: 1.0)], loads: [",
+        );
+    bench.file("balance.ron", &text);
+    let arguments = ["solve", "balance.ron", "--why", "--format", "json"];
+    let report = bench.hyperstat(&arguments).ends_with(0).json();
+    let warnings = report["warnings"].as_array().unwrap();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert!(warnings[0].as_str().unwrap().contains("`masses.0.mass`"));
+    let all = report["sensitivities"].as_array().unwrap();
+    let mass = all
+        .iter()
+        .find(|s| s["parameter"] == "masses.1.mass")
+        .unwrap();
+    assert!(mass["relative"].is_null() && mass["displacement"].is_null());
 }
 
 /// The summary of a grid against the numbers of its table.

@@ -6,6 +6,7 @@ mod flexible;
 mod frequencies;
 mod loads;
 mod mass;
+mod mass_derivatives;
 mod stress;
 mod subassembly;
 mod support;
