@@ -25,6 +25,7 @@ mod kinematics;
 mod lanes;
 mod loads;
 pub mod measures;
+mod misfit;
 mod modal;
 mod model;
 mod numeric;
@@ -42,7 +43,7 @@ mod sparse_elimination;
 mod topology;
 mod worst;
 
-pub use budget::{Budget, Deformation, Part, PartSource};
+pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource};
 pub use error::{ModelError, SolveError};
 pub use influence::Influence;
 pub use kinematics::{Kinematics, analyse, describe_motions};
@@ -50,8 +51,8 @@ pub use lanes::{LANES, Lanes};
 pub use modal::{BeamMass, ModalOptions, ModalPlan, Mode, Modes, modes};
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
-    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
-    Segment, SegmentId,
+    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
+    NodeMass, Segment, SegmentId,
 };
 pub use plan::{Plan, Workspace};
 pub use recover::segment_displacement;

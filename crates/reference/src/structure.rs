@@ -1,6 +1,6 @@
 //! A model as nodes, elements and rows: every body's every node with six coordinates of its own.
 
-use hyperstat_assembly::{BodyKind, Geometry, Model, NodeId};
+use hyperstat_assembly::{BodyKind, Geometry, JointId, Model, NodeId};
 use nalgebra::{DVector, Point3, Vector3, Vector6};
 
 use crate::beam::{Element, join, segment_frame};
@@ -27,7 +27,7 @@ pub(crate) struct Structure {
     pub joints: Vec<JointConditions>,
     /// Output node.
     pub output: usize,
-    /// Wrenches on all nodes under the model's loads.
+    /// Wrenches on all nodes under the model's loads and preloads.
     pub loads: DVector<f64>,
     /// Diagonal of the box around all nodes [m]; 1 where they coincide.
     pub size: f64,
@@ -45,8 +45,8 @@ impl Structure {
         let geometry = model.geometry();
         let (positions, elements) = elements(model, geometry)?;
         let mut joints = Vec::with_capacity(model.joints().len());
-        for (connection, frame) in model.joints().iter().zip(&geometry.frames) {
-            let joint = JointConditions::new(connection, frame);
+        for (k, (connection, frame)) in model.joints().iter().zip(&geometry.frames).enumerate() {
+            let joint = JointConditions::new(connection, frame, model.misfit(JointId(k)));
             joints.push(joint.ok_or_else(|| ReferenceError::JointBasis {
                 joint: connection.name.clone(),
             })?);
@@ -58,6 +58,10 @@ impl Structure {
         for load in model.loads() {
             let mut block = loads.fixed_rows_mut::<6>(6 * load.node.0);
             block += load.wrench;
+        }
+        for (node, wrench) in joints.iter().flat_map(JointConditions::preloads) {
+            let mut block = loads.fixed_rows_mut::<6>(6 * node);
+            block += wrench;
         }
         Ok(Self {
             size: size(&positions),
