@@ -125,7 +125,7 @@ impl TreeBlocks {
     ) -> DMatrix<f64> {
         let first = component.coordinates.start;
         let count = component.coordinates.len();
-        let mut rows = Vec::new();
+        let (mut rows, mut height) = (Vec::new(), 0);
         for joint in &component.closings {
             let entry = &model.joints()[joint.0];
             let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
@@ -147,9 +147,9 @@ impl TreeBlocks {
                     }
                 }
                 rows.extend(row);
+                height += 1;
             }
         }
-        let height = rows.len() / count.max(1);
         DMatrix::from_row_slice(height, count, &rows)
     }
 }

@@ -92,9 +92,7 @@ pub enum ModelError {
         direction: Dof,
     },
     /// A preload along a direction in which the joint does not give.
-    #[error(
-        "joint `{joint}` is rigid along {direction}: a preload does nothing there"
-    )]
+    #[error("joint `{joint}` is rigid along {direction}: a preload does nothing there")]
     RigidPreload {
         /// Name of the joint.
         joint: String,
@@ -169,8 +167,7 @@ pub enum SolveError {
     /// Misfits that the rigid bodies and joints of a loop cannot take up.
     #[error(
         "the misfit of {} does not fit: loops of rigid bodies and joints leave it no room, and the \
-         force would be infinite; give a `stiffness` to a joint of the loop in that direction, or \
-         change the misfit",
+         force would be infinite",
         joint_names(joints)
     )]
     Misfit {

@@ -143,16 +143,24 @@ fn unmet(
     let largest = (0..displacement.len()).fold(0.0_f64, |largest, k| largest.max(scaled(k).abs()));
     let joints = structure.joints.iter().zip(&redundancy.dropped);
     let open = |(joint, dropped): (&crate::joint::JointConditions, &Vec<bool>)| {
-        let left_out = joint.holds.iter().zip(dropped).filter(|(_, dropped)| **dropped);
+        let left_out = joint
+            .holds
+            .iter()
+            .zip(dropped)
+            .filter(|(_, dropped)| **dropped);
         left_out.fold(0.0_f64, |open, (hold, _)| {
             let row = joint.row(&hold.combination, 0.0);
             let gap = row.apply(&displacement.as_view()) - joint.at_rest(&hold.combination);
             let terms = row.terms.iter().flat_map(|(_, a)| a.iter().enumerate());
-            let length = terms.map(|(k, a)| (a * lengths[k / 3]).powi(2)).sum::<f64>();
+            let length = terms
+                .map(|(k, a)| (a * lengths[k / 3]).powi(2))
+                .sum::<f64>();
             open.max(gap.abs() / length.sqrt())
         })
     };
-    joints.map(open).position(|open| open > RANK_TOLERANCE * largest)
+    joints
+        .map(open)
+        .position(|open| open > RANK_TOLERANCE * largest)
 }
 
 fn node_displacement(found: &Equilibrium, node: usize) -> Vector6<f64> {
@@ -237,7 +245,12 @@ impl Rows {
         let mut at_rest = DVector::zeros(count);
         let mut next = self.before_joints;
         for (joint, dropped) in structure.joints.iter().zip(&redundancy.dropped) {
-            for (hold, _) in joint.holds.iter().zip(dropped).filter(|(_, dropped)| !**dropped) {
+            for (hold, _) in joint
+                .holds
+                .iter()
+                .zip(dropped)
+                .filter(|(_, dropped)| !**dropped)
+            {
                 at_rest[next] = joint.at_rest(&hold.combination);
                 next += 1;
             }

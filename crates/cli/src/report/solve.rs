@@ -3,10 +3,12 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{
-    Model, Segment, SegmentForces, SegmentId, Solution, SolveError, describe_motions,
+    JointId, Misfit, Model, Segment, SegmentForces, SegmentId, Solution, SolveError,
+    describe_motions,
 };
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
+use hyperstat_joints::Dof;
 use nalgebra::Vector6;
 use serde::Serialize;
 
@@ -70,6 +72,12 @@ pub(super) struct JointReport {
     wrench: Option<[f64; 6]>,
     /// The same on the first body.
     first: Option<[f64; 6]>,
+    /// What the second body stands off from the first, where it does, in the joint frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    misfit: Option<[f64; 6]>,
+    /// What presses on the second body, where anything does, in the joint frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    preload: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -127,7 +135,11 @@ impl SolveReport {
                 .map(|(name, displacement)| (name, numbers(displacement)))
                 .collect(),
             joints: joints
-                .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
+                .enumerate()
+                .map(|(k, (joint, wrench))| {
+                    let report = JointReport::new(wrench.as_ref());
+                    (joint.name.clone(), report.with(model.misfit(JointId(k))))
+                })
                 .collect(),
             undetermined: solution
                 .undetermined()
@@ -238,6 +250,7 @@ impl SolveReport {
         if self.joints.0.is_empty() {
             return;
         }
+        self.write_misfits(text);
         let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
         section(
             text,
@@ -248,6 +261,34 @@ impl SolveReport {
             *text += "  Redundant rigid constraints leave the wrenches that are not determined \
                       open:\n  any of many solutions balances the loads. Make a body or a joint \
                       elastic to find them.\n";
+        }
+    }
+
+    fn write_misfits(&self, text: &mut String) {
+        type Of = fn(&JointReport) -> Option<[f64; 6]>;
+        let kinds: [(&str, Of); 2] = [
+            (
+                "Misfits that act, second body from the first, in the joint frame [m, rad]",
+                |joint| joint.misfit,
+            ),
+            (
+                "Preloads that act, on the second body, in the joint frame [N, N·m]",
+                |joint| joint.preload,
+            ),
+        ];
+        for (title, of) in kinds {
+            let given = self.joints.0.iter();
+            let mut given = given
+                .filter_map(|(name, joint)| Some((name, of(joint)?)))
+                .peekable();
+            if given.peek().is_none() {
+                continue;
+            }
+            let mut table = Table::new(1, &heads(&["joint"], Dof::ALL.map(Dof::name)));
+            for (name, values) in given {
+                table.row(&[name], values);
+            }
+            section(text, title, table);
         }
     }
 
@@ -303,6 +344,18 @@ impl JointReport {
         Self {
             wrench: wrench.map(numbers),
             first: wrench.map(|wrench| numbers(&-wrench)),
+            misfit: None,
+            preload: None,
+        }
+    }
+
+    /// With the misfit and preload of the joint, where it has any.
+    fn with(self, entry: Option<&Misfit>) -> Self {
+        let given = |values: &Vector6<f64>| (*values != Vector6::zeros()).then(|| numbers(values));
+        Self {
+            misfit: entry.and_then(|entry| given(&entry.misfit)),
+            preload: entry.and_then(|entry| given(&entry.preload)),
+            ..self
         }
     }
 }
