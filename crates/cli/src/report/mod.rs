@@ -4,6 +4,7 @@ mod cases;
 mod check;
 mod forces;
 mod inner;
+mod misfits;
 mod modes;
 mod parameters;
 mod solve;

@@ -8,12 +8,12 @@ use hyperstat_assembly::{
 };
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
-use hyperstat_joints::Dof;
 use nalgebra::Vector6;
 use serde::Serialize;
 
 use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::misfits::write_misfits;
 use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, ModesReport, Rows, Table, WRENCH, heads, inner_displacements, list,
@@ -74,10 +74,10 @@ pub(super) struct JointReport {
     first: Option<[f64; 6]>,
     /// What the second body stands off from the first, where it does, in the joint frame.
     #[serde(skip_serializing_if = "Option::is_none")]
-    misfit: Option<[f64; 6]>,
+    pub(super) misfit: Option<[f64; 6]>,
     /// What presses on the second body, where anything does, in the joint frame.
     #[serde(skip_serializing_if = "Option::is_none")]
-    preload: Option<[f64; 6]>,
+    pub(super) preload: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -250,7 +250,7 @@ impl SolveReport {
         if self.joints.0.is_empty() {
             return;
         }
-        self.write_misfits(text);
+        write_misfits(&self.joints, text);
         let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
         section(
             text,
@@ -261,34 +261,6 @@ impl SolveReport {
             *text += "  Redundant rigid constraints leave the wrenches that are not determined \
                       open:\n  any of many solutions balances the loads. Make a body or a joint \
                       elastic to find them.\n";
-        }
-    }
-
-    fn write_misfits(&self, text: &mut String) {
-        type Of = fn(&JointReport) -> Option<[f64; 6]>;
-        let kinds: [(&str, Of); 2] = [
-            (
-                "Misfits that act, second body from the first, in the joint frame [m, rad]",
-                |joint| joint.misfit,
-            ),
-            (
-                "Preloads that act, on the second body, in the joint frame [N, N·m]",
-                |joint| joint.preload,
-            ),
-        ];
-        for (title, of) in kinds {
-            let given = self.joints.0.iter();
-            let mut given = given
-                .filter_map(|(name, joint)| Some((name, of(joint)?)))
-                .peekable();
-            if given.peek().is_none() {
-                continue;
-            }
-            let mut table = Table::new(1, &heads(&["joint"], Dof::ALL.map(Dof::name)));
-            for (name, values) in given {
-                table.row(&[name], values);
-            }
-            section(text, title, table);
         }
     }
 

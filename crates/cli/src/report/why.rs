@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    Budget, Deformation, Influence, MisfitEffect, Part, PartSource, Sensitivity, Solution,
-    SolveError,
+    Budget, Deformation, Influence, Part, PartSource, Sensitivity, Solution, SolveError,
 };
 use nalgebra::Vector6;
 use serde::Serialize;
 
+use super::misfits::{MisfitEffectReport, misfit_effects, write_misfit_effects};
 use super::{Rows, Table, number, numbers, parameters, rows, section};
 use crate::args::Along;
 use crate::case::Case;
@@ -26,17 +26,7 @@ pub(crate) struct Why {
     budget: Option<BudgetReport>,
     measures: Option<MeasuresReport>,
     sensitivities: Option<Vec<SensitivityReport>>,
-    misfits: Option<Vec<MisfitReport>>,
-}
-
-/// What a misfit along one direction of a joint does.
-#[derive(Debug, Serialize)]
-struct MisfitReport {
-    joint: String,
-    direction: &'static str,
-    /// Displacement of the output along the budget's wrench per unit of the misfit; `null` where
-    /// it is not determined.
-    per_unit: Option<f64>,
+    misfits: Option<Vec<MisfitEffectReport>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -175,7 +165,7 @@ impl Why {
             budget: Some(BudgetReport::new(case, of, &budget)),
             measures: measures.as_ref().map(MeasuresReport::new),
             sensitivities: Some(sensitivities),
-            misfits: Some(misfits(case, &influence, &direction)),
+            misfits: Some(misfit_effects(case, &influence, &direction)),
         })
     }
 
@@ -194,54 +184,12 @@ impl Why {
             write_sensitivities(sensitivities, budget, text);
         }
         if let Some(misfits) = &self.misfits {
-            write_misfits(misfits, budget, text);
+            write_misfit_effects(misfits, budget.turns(), text);
         }
         if let Some(measures) = &self.measures {
             measures.write(text);
         }
     }
-}
-
-/// What a unit misfit along each direction of each joint does, lengths first, the largest of each
-/// first.
-fn misfits(case: &Case, influence: &Influence<'_>, along: &Vector6<f64>) -> Vec<MisfitReport> {
-    let mut effects = influence.misfit_effects(along);
-    let key = |e: &MisfitEffect| (e.direction.is_rotation(), e.per_unit.unwrap_or(0.0).abs());
-    effects.sort_by(|a, b| {
-        let ((a_turns, a_size), (b_turns, b_size)) = (key(a), key(b));
-        a_turns.cmp(&b_turns).then(b_size.total_cmp(&a_size))
-    });
-    let report = |effect: MisfitEffect| MisfitReport {
-        joint: case.model.joints()[effect.joint.0].name.clone(),
-        direction: effect.direction.name(),
-        per_unit: effect.per_unit,
-    };
-    effects.into_iter().map(report).collect()
-}
-
-/// Writes the effects that are not rounding beside the largest.
-fn write_misfits(found: &[MisfitReport], budget: &BudgetReport, text: &mut String) {
-    let mut body = String::new();
-    let is_turn = |m: &MisfitReport| matches!(m.direction, "u" | "v" | "w");
-    for (turns, of) in [(false, "m"), (true, "rad")] {
-        let kind = found.iter().filter(|m| is_turn(m) == turns);
-        let told: Vec<_> = (kind.filter_map(|m| Some((m, m.per_unit?))))
-            .take(TOLD)
-            .collect();
-        let largest = told.first().map_or(0.0, |(_, effect)| effect.abs());
-        let result = if budget.turns() { "rad" } else { "m" };
-        for (misfit, effect) in told {
-            if effect.abs() > 1e-9 * largest {
-                let name = format!("{}.{}", misfit.joint, misfit.direction);
-                let effect = number(effect);
-                let _ = writeln!(body, "  {name:<16}  {effect:>12} {result}/{of}");
-            }
-        }
-    }
-    if found.iter().any(|m| m.per_unit.is_none()) {
-        body += "  Redundant rigid constraints leave that of the other joints open.\n";
-    }
-    section(text, "What a misfit of a joint does, along the same", body);
 }
 
 impl BudgetReport {
