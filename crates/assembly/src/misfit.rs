@@ -234,20 +234,23 @@ impl Pass<'_> {
         }
     }
 
-    /// Names of the joints whose misfits alone do not fit a component.
+    /// Names of the joints whose misfits alone do not fit a component; all, where each of them fits by
+    /// a little.
     fn misfitting(
         &self,
         closed: &Closed,
         misfits: &[(JointId, Vector6<f64>)],
     ) -> Result<Vec<String>, JointError> {
-        let mut names = Vec::new();
+        let mut alone = Vec::new();
         for own in misfits.chunks(1) {
             let offsets = self.along_trees(own)?;
             if self.close(closed, own, &offsets).open > FITS {
-                names.push(self.model.joints()[own[0].0.0].name.clone());
+                alone.extend_from_slice(own);
             }
         }
-        Ok(names)
+        let named = if alone.is_empty() { misfits } else { &alone };
+        let name = |(joint, _): &(JointId, _)| self.model.joints()[joint.0].name.clone();
+        Ok(named.iter().map(name).collect())
     }
 
     /// Misfit of a joint.

@@ -128,6 +128,7 @@ fn compare(name: &str, model: &Model) -> Solution {
         worst < AGREEMENT,
         "{name}: displacements {linear:e} {angular:e}, wrenches {forces:e} {moments:e}"
     );
+    assert!(found.warnings.is_empty(), "{name}: {:?}", found.warnings);
     let output = expected.displacement.unwrap_or(found.output.displacement);
     let [linear, angular] =
         vector_differences([(&found.output.displacement, &output)], [FLOORS[0]; 2]);

@@ -38,7 +38,7 @@ fn wrench(report: &Value, joint: &str) -> Vec<f64> {
     numbers(&report["joints"][joint]["wrench"])
 }
 
-/// Where the file says z: 12 EI δ/L³ and 6 EI δ/L²; the spring of the preload takes F of it.
+/// 12 EI δ/L³ and 6 EI δ/L²; a preload F on a spring k is a misfit F/k.
 #[test]
 fn a_support_settles() {
     let bench = Bench::new("misfits-settles");
@@ -59,11 +59,13 @@ fn a_support_settles() {
         assert!(difference < 1e-11, "{of}: {difference:e}");
     }
     let text = bench.hyperstat(&["solve", "bar.ron", "--why"]).ends_with(0);
-    text.says(&[
+    for part in [
         "Misfits that act, second body from the first, in the joint frame [m, rad]",
         "What a misfit of a joint does, along the same",
-        "misfit    100.0 %",
-    ]);
+        "100.0 %",
+    ] {
+        assert!(text.out().contains(part), "no `{part}` in\n{}", text.out());
+    }
     // The same force without a misfit: a preload on a spring of any stiffness is a misfit F/k.
     let spring = "stiffness: (z: 1e6), preload: (z: -200.0)";
     bench.file("preloaded.ron", &bar(spring));
@@ -82,10 +84,9 @@ fn a_support_settles() {
     {
         assert_near(*a, b, 1e-11, 200.0);
     }
-    bench
-        .hyperstat(&["solve", "preloaded.ron"])
-        .ends_with(0)
-        .says(&["Preloads that act, on the second body, in the joint frame [N, N·m]"]);
+    let text = bench.hyperstat(&["solve", "preloaded.ron"]).ends_with(0);
+    let title = "Preloads that act, on the second body, in the joint frame [N, N·m]";
+    assert!(text.out().contains(title), "{}", text.out());
 }
 
 #[test]
@@ -178,5 +179,28 @@ fn a_delta_with_a_long_rod() {
             .find(|m| m["joint"] == "Ba1" && m["direction"] == "x");
         let effect = own.expect("its effect")["per_unit"].as_f64();
         assert_near(effect.expect("a number") * 1e-4, moved[axis], 1e-10, 1e-4);
+    }
+    // The book quotes the report: what is rounding in it apart.
+    let text = bench
+        .hyperstat(&["solve", example, "--why", "--along", "z"])
+        .ends_with(0);
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/theory/states.md");
+    let page = std::fs::read_to_string(page).expect("the page");
+    let (_, from) = page
+        .split_once("```text\nOutput platform.P")
+        .expect("the report");
+    let (quoted, _) = from.split_once("```").expect("its end");
+    let words = |line: &str| -> Vec<String> {
+        let words = line.split_whitespace();
+        let words = words.filter(|word| !(word.contains("e-1") || *word == "0"));
+        words.map(str::to_owned).collect()
+    };
+    let printed: Vec<_> = text.out().lines().map(words).collect();
+    for line in quoted.lines().skip(1).filter(|line| line.trim() != "…") {
+        assert!(
+            printed.contains(&words(line)),
+            "`{line}` in\n{}",
+            text.out()
+        );
     }
 }
