@@ -138,6 +138,12 @@ pub fn rebuilt_with(
     for load in model.loads() {
         new.add_load(load.node, load.wrench).expect("a load");
     }
+    for entry in model.misfits() {
+        new.set_misfit(entry.joint, &entry.misfit)
+            .expect("a misfit");
+        new.set_preload(entry.joint, &entry.preload)
+            .expect("a preload");
+    }
     if let Some(output) = model.output() {
         new.set_output(output);
     }

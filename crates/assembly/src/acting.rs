@@ -12,6 +12,7 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 
 use crate::error::SolveError;
 use crate::loads::LoadSet;
+use crate::misfit::preloads;
 use crate::model::{Geometry, Model, NodeId, SegmentId};
 
 /// What acts in one state.
@@ -21,6 +22,9 @@ pub(crate) struct Acting {
     pub nodes: Vec<(NodeId, Vector6<f64>)>,
     /// Loads along segments that have any, element frames, in the segments' order.
     segments: Vec<(SegmentId, BeamLoad)>,
+    /// Whether the misfits of the model's joints act. The states that are solved together have
+    /// them all or none.
+    pub misfits: bool,
 }
 
 impl Acting {
@@ -39,6 +43,7 @@ impl Acting {
         let mut acting = Self {
             nodes: Vec::with_capacity(set.nodes.len()),
             segments: Vec::new(),
+            misfits: false,
         };
         for load in &set.nodes {
             let rotation = load.axes.rotation(model, geometry)?;
@@ -56,11 +61,12 @@ impl Acting {
         Ok(acting)
     }
 
-    /// What acts in every state: weight and temperatures.
+    /// What acts in every state: misfits and preloads, weight and temperatures.
     fn always(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
         let mut acting = Self {
-            nodes: Vec::new(),
+            nodes: preloads(model, geometry),
             segments: Vec::new(),
+            misfits: !model.misfits().is_empty(),
         };
         let gravity = model.gravity();
         let heavy = *gravity != Vector3::zeros();
@@ -135,6 +141,7 @@ impl Acting {
     /// Both together.
     fn with(mut self, other: &Self) -> Self {
         self.nodes.extend(&other.nodes);
+        self.misfits |= other.misfits;
         let mut own = std::mem::take(&mut self.segments);
         own.extend(&other.segments);
         own.sort_by_key(|(segment, _)| *segment);

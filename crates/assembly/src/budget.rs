@@ -12,8 +12,8 @@ use crate::solution::Solution;
 ///
 /// By the principle of virtual work the displacement along a unit wrench e is the work of the
 /// forces that e alone would cause on the deformations under the loads,
-/// `eᵀu = Σ_segments ∫ W_eᵀ C W dx + Σ_joints f_eᵀ C f + Σ_flexible bodies f_eᵀ δ`; each part has
-/// its share, and the shares add to 1. A negative share is that of a part whose give moves the
+/// `eᵀu = Σ_segments ∫ W_eᵀ C W dx + Σ_joints f_eᵀ (C f − m) + Σ_flexible bodies f_eᵀ δ`, with the
+/// misfits m of joints; each part has its share, and the shares add to 1. A negative share is that of a part whose give moves the
 /// output the other way.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Budget {
@@ -23,8 +23,8 @@ pub struct Budget {
     pub total: f64,
     /// The parts, largest size first; parts that are rigid or carry nothing are left out.
     pub parts: Vec<Part>,
-    /// What is left of `total` \[m or rad\]: what no elastic part gives, such as an imposed
-    /// displacement, and rounding.
+    /// What is left of `total` \[m or rad\]: the misfits of rigid directions
+    /// whose forces are not determined, and rounding.
     pub rest: f64,
 }
 
@@ -70,6 +70,8 @@ pub enum Deformation {
     Bearing,
     /// The give of a joint along directions that are free by its kind: a drive, or a spring.
     Drive,
+    /// The misfit of a joint, along all its directions.
+    Misfit,
 }
 
 impl Influence<'_> {
@@ -77,19 +79,30 @@ impl Influence<'_> {
     /// output). `along` is taken as it is: with length 1, `total` is a displacement.
     pub fn budget(&self, solution: &Solution, along: &Vector6<f64>) -> Budget {
         let total = solution.output.displacement.dot(along);
-        self.budget_of(&self.state(solution), total, along)
+        let misfits = self.misfit_parts(along);
+        self.budget_of(&self.state(solution), total, along, misfits)
     }
 
     /// The budget of the compliance along a unit wrench: of the displacement along it that it
     /// causes itself \[m/N, or rad/(N·m) for a moment\].
     pub fn compliance_budget(&self, compliance: &Matrix6<f64>, along: &Vector6<f64>) -> Budget {
         let total = compliance_along(compliance, along);
-        self.budget_of(&State::combined(&self.units, along), total, along)
+        self.budget_of(
+            &State::combined(&self.units, along),
+            total,
+            along,
+            Vec::new(),
+        )
     }
 
-    fn budget_of(&self, loaded: &State, total: f64, along: &Vector6<f64>) -> Budget {
+    fn budget_of(
+        &self,
+        loaded: &State,
+        total: f64,
+        along: &Vector6<f64>,
+        mut found: Vec<(PartSource, Deformation, f64)>,
+    ) -> Budget {
         let virtual_state = State::combined(&self.units, along);
-        let mut found: Vec<(PartSource, Deformation, f64)> = Vec::new();
         let model = self.model;
         for (k, body) in model.bodies().iter().enumerate() {
             let source = PartSource::Body(BodyId(k));
@@ -143,6 +156,69 @@ impl Influence<'_> {
             rest: total - accounted,
         }
     }
+}
+
+impl Influence<'_> {
+    /// What the model's misfits give along a unit wrench.
+    fn misfit_parts(&self, along: &Vector6<f64>) -> Vec<(PartSource, Deformation, f64)> {
+        if self.model.misfits().is_empty() {
+            return Vec::new();
+        }
+        let mut parts: Vec<(PartSource, Deformation, f64)> = Vec::new();
+        for effect in self.misfit_effects(along) {
+            let source = PartSource::Joint(effect.joint);
+            let misfit = self.model.misfit(effect.joint).map(|entry| entry.misfit);
+            if let (Some(misfit), Some(per_unit)) = (misfit, effect.per_unit) {
+                let given = misfit[effect.direction.index()] * per_unit;
+                match parts.last_mut() {
+                    Some((last, _, sum)) if *last == source => *sum += given,
+                    _ => parts.push((source, Deformation::Misfit, given)),
+                }
+            }
+        }
+        parts
+    }
+
+    /// What a unit misfit of each direction of each joint would do to the output along a unit
+    /// wrench, in the joints' order; free directions are left out, they have no misfit.
+    ///
+    /// By reciprocity it is the force along that direction that the unit wrench on the output
+    /// causes, reversed: `−f_e` on the second body. So it says which tolerance of a joint, of a
+    /// bearing's place or a link's length, matters.
+    pub fn misfit_effects(&self, along: &Vector6<f64>) -> Vec<MisfitEffect> {
+        let state = State::combined(&self.units, along);
+        let mut effects = Vec::new();
+        for (k, joint) in self.joints.iter().enumerate() {
+            let reaction = &state.reactions[k];
+            let [elastic_force, _] = &state.joints[k];
+            let elastic = joint.elastic();
+            for direction in joint.held().iter() {
+                let force = match reaction {
+                    Some(reaction) => Some(reaction[direction.index()]),
+                    None if elastic.contains(direction) => Some(elastic_force[direction.index()]),
+                    None => None,
+                };
+                effects.push(MisfitEffect {
+                    joint: JointId(k),
+                    direction,
+                    per_unit: force.map(|force| if force == 0.0 { 0.0 } else { -force }),
+                });
+            }
+        }
+        effects
+    }
+}
+
+/// What a misfit along a direction of a joint does to the output.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MisfitEffect {
+    /// The joint.
+    pub joint: JointId,
+    /// A rigid, locked or elastic direction of it.
+    pub direction: Dof,
+    /// Displacement of the output along the wrench asked for, per unit of the misfit (m or rad per
+    /// m or rad); `None` where redundant rigid constraints leave it undetermined.
+    pub per_unit: Option<f64>,
 }
 
 impl Budget {

@@ -12,7 +12,9 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use crate::acting::Acting;
 use crate::coordinates::{read, shift};
 use crate::error::SolveError;
-use crate::model::{Geometry, JointId, Model, SegmentId};
+use crate::misfit::{along, spring_misfit, standing};
+use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
+use crate::numeric::offset;
 use crate::plan::{ElementPlan, Plan, Workspace};
 use crate::topology::{Cluster, LONGEST_CLUSTER};
 
@@ -161,7 +163,7 @@ fn place_cluster(
 }
 
 /// Forms the deformations that a cluster's element starts from in each state: those that loads
-/// inside absorbed joints make, and the free ends of loaded segments.
+/// inside absorbed joints make, the free ends of loaded segments, and misfits.
 pub(crate) fn cluster_initial(
     plan: &Plan,
     element: &ElementPlan,
@@ -172,6 +174,11 @@ pub(crate) fn cluster_initial(
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
     let to_local = place_cluster(cluster, geometry, workspace)?;
+    if !workspace.offsets.is_empty() {
+        add_misfits(
+            plan, element, cluster, model, geometry, &to_local, workspace,
+        );
+    }
     for (set, acting) in acting.iter().enumerate() {
         let start = set * plan.deformations + element.initial_start;
         let initial = &mut workspace.initial[start..start + element.rows];
@@ -201,6 +208,50 @@ pub(crate) fn cluster_initial(
         }
     }
     Ok(())
+}
+
+/// Adds the deformations that misfits make with all IDCs zero, in every state.
+fn add_misfits(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    to_local: &Rotation3<f64>,
+    workspace: &mut Workspace,
+) {
+    for (r, (node, joint)) in cluster.nodes.iter().zip(&cluster.joints).enumerate() {
+        let mut moved = offset(plan, geometry, workspace, *node);
+        if let Some(joint) = joint {
+            moved += misfit_inside(plan, model, geometry, *joint, *node);
+        }
+        for state in workspace.initial.chunks_exact_mut(plan.deformations) {
+            let start = &mut state[element.initial_start..element.initial_start + element.rows];
+            add_deformation(start, r, &moved, &workspace.arms, to_local);
+        }
+    }
+}
+
+/// What the misfit of an absorbed joint displaces the body's own node by, global axes.
+pub(crate) fn misfit_inside(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    joint: JointId,
+    node: NodeId,
+) -> Vector6<f64> {
+    let Some(entry) = model.misfit(joint) else {
+        return Vector6::zeros();
+    };
+    let role = &plan.topology.joints[joint.0];
+    let inside = role.directions.elastic.difference(role.springs);
+    let misfit = along(&spring_misfit(&role.directions, entry), inside);
+    let apart = standing(model, geometry, joint, &misfit);
+    if model.joints()[joint.0].between[1] == Some(node) {
+        apart
+    } else {
+        -apart
+    }
 }
 
 /// Forms the operator and the stiffness of a cluster's element.

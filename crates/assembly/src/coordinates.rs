@@ -93,16 +93,39 @@ impl TreeBlocks {
         size: f64,
         spared: usize,
     ) -> Elimination {
+        let conditions = self.closing_conditions(component, topology, model, geometry, size);
+        let first = component.coordinates.start;
+        let scale = |coordinate| self.scale(coordinate, size);
+        let mut solved = Elimination::new(conditions, spared);
+        let count = component.coordinates.len();
+        for (c, k) in (0..count).flat_map(|c| (0..solved.independent.len()).map(move |k| (c, k))) {
+            solved.map[(c, k)] *= scale(first + c) / scale(first + solved.independent[k]);
+        }
+        solved
+    }
+
+    /// The length that a tree coordinate is divided by in conditions: `size` for a translation.
+    pub fn scale(&self, coordinate: usize, size: f64) -> f64 {
+        if self.identities[coordinate].1.index() < 3 {
+            size
+        } else {
+            1.0
+        }
+    }
+
+    /// The conditions that a component's closing joints put on its scaled coordinates, a row a
+    /// rigid or absorbed direction.
+    pub fn closing_conditions(
+        &self,
+        component: &Component,
+        topology: &Topology,
+        model: &Model,
+        geometry: &Geometry,
+        size: f64,
+    ) -> DMatrix<f64> {
         let first = component.coordinates.start;
         let count = component.coordinates.len();
-        let scale = |coordinate: usize| {
-            if self.identities[coordinate].1.index() < 3 {
-                size
-            } else {
-                1.0
-            }
-        };
-        let mut rows = Vec::new();
+        let (mut rows, mut height) = (Vec::new(), 0);
         for joint in &component.closings {
             let entry = &model.joints()[joint.0];
             let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
@@ -119,19 +142,15 @@ impl TreeBlocks {
                         for t in 0..3 {
                             u[t] /= size;
                         }
-                        row[coordinate - first] += sign * (condition * u)[0] * scale(coordinate);
+                        row[coordinate - first] +=
+                            sign * (condition * u)[0] * self.scale(coordinate, size);
                     }
                 }
                 rows.extend(row);
+                height += 1;
             }
         }
-        let height = rows.len() / count.max(1);
-        let conditions = DMatrix::from_row_slice(height, count, &rows);
-        let mut solved = Elimination::new(conditions, spared);
-        for (c, k) in (0..count).flat_map(|c| (0..solved.independent.len()).map(move |k| (c, k))) {
-            solved.map[(c, k)] *= scale(first + c) / scale(first + solved.independent[k]);
-        }
-        solved
+        DMatrix::from_row_slice(height, count, &rows)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What can be wrong with a model.
 
+use hyperstat_joints::Dof;
 use thiserror::Error;
 
 use crate::parts::BodyId;
@@ -82,6 +83,22 @@ pub enum ModelError {
         /// What is wrong with the stiffness.
         what: &'static str,
     },
+    /// A misfit along a direction in which nothing holds the joint's bodies to each other.
+    #[error("joint `{joint}` is free along {direction}: a misfit means nothing there")]
+    FreeMisfit {
+        /// Name of the joint.
+        joint: String,
+        /// The direction.
+        direction: Dof,
+    },
+    /// A preload along a direction in which the joint does not give.
+    #[error("joint `{joint}` is rigid along {direction}: a preload does nothing there")]
+    RigidPreload {
+        /// Name of the joint.
+        joint: String,
+        /// The direction.
+        direction: Dof,
+    },
     /// Gravity on a body whose material has no density.
     #[error("body `{body}` has no weight: its material has no `density`")]
     NoDensity {
@@ -147,6 +164,16 @@ pub enum SolveError {
         /// Name of the joint.
         joint: String,
     },
+    /// Misfits that the rigid bodies and joints of a loop cannot take up.
+    #[error(
+        "the misfit of {} does not fit: loops of rigid bodies and joints leave it no room, and the \
+         force would be infinite",
+        joint_names(joints)
+    )]
+    Misfit {
+        /// Names of the joints whose misfits do not fit.
+        joints: Vec<String>,
+    },
     /// Loads or stiffnesses so large or small that results overflow.
     #[error("the results overflow: loads or stiffnesses are out of all proportion")]
     Overflow,
@@ -189,6 +216,13 @@ pub enum SolveError {
     /// A joint that cannot be formed.
     #[error(transparent)]
     Joint(#[from] hyperstat_joints::JointError),
+}
+
+fn joint_names(joints: &[String]) -> String {
+    match joints {
+        [joint] => format!("joint {}", names(std::slice::from_ref(joint))),
+        _ => format!("joints {}", names(joints)),
+    }
 }
 
 fn names(bodies: &[String]) -> String {

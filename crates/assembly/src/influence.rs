@@ -2,13 +2,14 @@
 //! deformations: what budgets and sensitivities are made of.
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
-use hyperstat_joints::Dof;
+use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DVector, Matrix6, Rotation3, Vector6};
 
 use crate::cluster::{SegmentBeam, segment_beam};
 use crate::directions::{Directions, to_directions};
 use crate::error::SolveError;
 use crate::loads::LoadSet;
+use crate::misfit::along;
 use crate::model::{JointId, Model, SegmentId};
 use crate::plan::Plan;
 use crate::solution::{SegmentForces, Solution};
@@ -39,6 +40,8 @@ pub(crate) struct State {
     pub loads: Vec<BeamLoad>,
     /// Force and deflection along every joint's directions, zero along those that are not elastic.
     pub joints: Vec<[Vector6<f64>; 2]>,
+    /// Force on the second body along every joint's directions; `None` where it is not determined.
+    pub reactions: Vec<Option<Vector6<f64>>>,
     /// Forces on the nodes after the first of every flexible body, its own axes, and their
     /// displacements relative to it.
     pub flexibles: Vec<[DVector<f64>; 2]>,
@@ -95,13 +98,34 @@ impl<'m> Influence<'m> {
         Ok(influence)
     }
 
-    /// The state of a solution of this model, under any loads.
+    /// The state of a solution of this model, under any loads: what the springs of its joints
+    /// themselves take and give, apart from preloads and misfits.
     pub(crate) fn state(&self, solution: &Solution) -> State {
-        self.state_of(
+        let mut state = self.state_of(
             &solution.displacements,
             &solution.joint_wrenches,
             &solution.segments,
-        )
+        );
+        for entry in self.model.misfits() {
+            let JointId(k) = entry.joint;
+            let directions = &self.joints[k].directions;
+            let elastic = directions.elastic;
+            let [force, deflection] = &mut state.joints[k];
+            match (&state.reactions[k], &directions.compliance) {
+                (Some(_), Some(compliance)) => {
+                    *force -= along(&entry.preload, elastic);
+                    *deflection = compliance * *force;
+                }
+                (known, _) => {
+                    *deflection += along(&entry.misfit, elastic);
+                    *force = match known {
+                        Some(_) => *force - along(&entry.preload, elastic),
+                        None => directions.stiffness * *deflection,
+                    };
+                }
+            }
+        }
+        state
     }
 
     fn state_of(
@@ -132,10 +156,15 @@ impl<'m> Influence<'m> {
                 [flexible.element.held_stiffness() * &relative, relative]
             })
             .collect();
+        let reactions = wrenches.iter().zip(&self.joints);
+        let reactions = reactions
+            .map(|(wrench, own)| wrench.map(|wrench| own.basis.transpose() * wrench))
+            .collect();
         State {
             ends,
             loads,
             joints,
+            reactions,
             flexibles,
         }
     }
@@ -153,13 +182,7 @@ impl<'m> Influence<'m> {
         if elastic.is_empty() {
             return [Vector6::zeros(); 2];
         }
-        let only = |v: Vector6<f64>| {
-            let mut out = Vector6::zeros();
-            for dof in elastic.iter() {
-                out[dof.index()] = v[dof.index()];
-            }
-            out
-        };
+        let only = |v: Vector6<f64>| along(&v, elastic);
         let deflection = || {
             let [first, second] = self.model.joints()[joint.0]
                 .between
@@ -216,6 +239,16 @@ impl ElasticDirections {
     pub fn is_drive(&self, joint: &dyn hyperstat_joints::Joint, dof: Dof) -> bool {
         joint.free().contains(dof)
     }
+
+    /// The rigid and elastic directions.
+    pub fn held(&self) -> DofSet {
+        self.directions.free.complement()
+    }
+
+    /// The elastic directions.
+    pub fn elastic(&self) -> DofSet {
+        self.directions.elastic
+    }
 }
 
 impl State {
@@ -224,6 +257,7 @@ impl State {
             ends: Vec::new(),
             loads: Vec::new(),
             joints: Vec::new(),
+            reactions: Vec::new(),
             flexibles: Vec::new(),
         }
     }
@@ -248,6 +282,12 @@ impl State {
         let joints = (0..units[0].joints.len())
             .map(|k| [0, 1].map(|part| sum(&|unit| unit.joints[k][part])))
             .collect();
+        let reactions = (0..units[0].reactions.len())
+            .map(|k| {
+                let parts = units.iter().zip(wrench.iter());
+                parts.map(|(unit, w)| Some(unit.reactions[k]? * *w)).sum()
+            })
+            .collect();
         let flexibles = (0..units[0].flexibles.len())
             .map(|k| {
                 [0, 1].map(|part| {
@@ -263,6 +303,7 @@ impl State {
             ends,
             loads: Vec::new(),
             joints,
+            reactions,
             flexibles,
         }
     }

@@ -26,6 +26,7 @@ mod lanes;
 mod load_change;
 mod loads;
 pub mod measures;
+mod misfit;
 mod modal;
 mod model;
 mod numeric;
@@ -44,7 +45,7 @@ mod sparse_elimination;
 mod topology;
 mod worst;
 
-pub use budget::{Budget, Deformation, Part, PartSource};
+pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource};
 pub use error::{ModelError, SolveError};
 pub use influence::Influence;
 pub use kinematics::{Kinematics, analyse, describe_motions};
@@ -54,8 +55,8 @@ pub use modal::{
 };
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
-    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Model, Node, NodeId, NodeMass,
-    Segment, SegmentId, ValuePlace,
+    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
+    NodeMass, Segment, SegmentId, ValuePlace,
 };
 pub use parameters::Parameter;
 pub use plan::{Plan, Workspace};

@@ -1,6 +1,7 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
 mod divided;
+mod misfits;
 mod turn;
 mod values;
 
@@ -14,7 +15,7 @@ pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
 use crate::parts::change_of_section;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Member, Node, NodeId, NodeMass, Segment, SegmentId,
+    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId,
 };
 pub use values::ValuePlace;
 
@@ -31,6 +32,8 @@ pub struct Model {
     loads: LoadSet,
     cases: Vec<LoadCase>,
     masses: Vec<NodeMass>,
+    /// In the joints' order.
+    misfits: Vec<Misfit>,
     gravity: Vector3<f64>,
     output: Option<NodeId>,
     geometry: Geometry,
@@ -54,6 +57,7 @@ impl Model {
             loads: LoadSet::default(),
             cases: Vec::new(),
             masses: Vec::new(),
+            misfits: Vec::new(),
             gravity: Vector3::zeros(),
             output: None,
             geometry: Geometry {
@@ -426,7 +430,7 @@ impl Model {
     pub fn gravity(&self) -> &Vector3<f64> {
         &self.gravity
     }
-    /// Whether nothing acts but loads on nodes in global axes, cases apart.
+    /// Whether nothing acts but loads on nodes in global axes, cases and misfits apart.
     pub fn has_plain_loads(&self) -> bool {
         let global = |load: &Load| load.axes == Axes::Global;
         self.loads.lines.is_empty()

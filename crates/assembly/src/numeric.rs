@@ -9,6 +9,7 @@ use crate::coordinates::{read, shift, write};
 use crate::directions::to_directions;
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
+use crate::misfit::{offsets, spring_misfit};
 use crate::model::{Geometry, JointId, Model, NodeId};
 use crate::plan::{ElementPlan, Plan, Source, Workspace};
 
@@ -45,6 +46,11 @@ pub(crate) fn evaluate(
         }
     }
     close_loops(plan, model, geometry, workspace)?;
+    workspace.offsets = if acting.iter().any(|a| a.misfits) {
+        offsets(plan, model, geometry, &workspace.tree)?
+    } else {
+        Vec::new()
+    };
     workspace.initial.fill(0.0);
     for element in &plan.elements {
         match element.source {
@@ -54,7 +60,10 @@ pub(crate) fn evaluate(
                 cluster_element(plan, element, cluster, model, geometry, workspace)?;
             }
             Source::Spring(joint) => {
-                spring_element(plan, element, joint, model, geometry, workspace)
+                spring_element(plan, element, joint, model, geometry, workspace);
+                if !workspace.offsets.is_empty() {
+                    spring_initial(plan, element, joint, model, geometry, workspace);
+                }
             }
         }
     }
@@ -167,6 +176,47 @@ fn spring_element(
     }
 }
 
+/// Forms the deformations that a spring starts from in each state: its misfit, and what its bodies
+/// are displaced by with all IDCs zero.
+fn spring_initial(
+    plan: &Plan,
+    element: &ElementPlan,
+    joint: JointId,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) {
+    let entry = &model.joints()[joint.0];
+    let role = &plan.topology.joints[joint.0];
+    let own = model.misfit(joint);
+    let mut start = own.map_or(Vector6::zeros(), |own| spring_misfit(&role.directions, own));
+    let mut relative = Vector6::zeros();
+    for (node, sign) in entry.between.iter().zip([1.0, -1.0]) {
+        let Some(node) = node else { continue };
+        relative += offset(plan, geometry, workspace, *node) * sign;
+    }
+    let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
+    start += local * relative;
+    for state in workspace.initial.chunks_exact_mut(plan.deformations) {
+        let rows = &mut state[element.initial_start..element.initial_start + element.rows];
+        for (row, dof) in rows.iter_mut().zip(role.springs.iter()) {
+            *row = start[dof.index()];
+        }
+    }
+}
+
+/// What misfits displace a node by with all IDCs zero; some misfit acts.
+pub(crate) fn offset(
+    plan: &Plan,
+    geometry: &Geometry,
+    workspace: &Workspace,
+    node: NodeId,
+) -> Vector6<f64> {
+    let carrier = plan.topology.carrier_of[node.0];
+    let reference = plan.topology.carriers[carrier].reference;
+    shift(geometry, reference, node) * workspace.offsets[carrier]
+}
+
 /// `K = Σ Dᵀ k D` (Eqs. 41–42) over the inner IDCs.
 fn assemble(plan: &Plan, workspace: &mut Workspace) {
     let Workspace {
@@ -257,6 +307,9 @@ pub(crate) fn node_displacement(
     let mut at_reference = Vector6::zeros();
     for (k, &idc) in plan.columns[carrier].iter().enumerate() {
         at_reference += read(block, 6 * k) * workspace.solutions[column * plan.unknowns + idc];
+    }
+    if column >= LOADS && !workspace.offsets.is_empty() {
+        at_reference += workspace.offsets[carrier];
     }
     shift(geometry, plan.topology.carriers[carrier].reference, node) * at_reference
 }

@@ -5,7 +5,7 @@
 
 use hyperstat_elements::{ElementError, FlexibleBody, Material, RigidMass, Section, Taper};
 use hyperstat_joints::{DofSet, Joint};
-use nalgebra::{Matrix6, Point3, Rotation3, Vector3};
+use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 macro_rules! index {
     ($(#[$doc:meta])* $name:ident) => {
@@ -157,6 +157,19 @@ pub struct Connection {
     pub locked: DofSet,
     /// Elasticity from the file; where it is given it replaces the joint's own.
     pub stiffness: JointStiffness,
+}
+
+/// How a joint's two bodies stand to each other when no force acts, and what presses them on each
+/// other, by directions of the joint: x y z (m; N), u v w (rad; N·m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Misfit {
+    /// The joint.
+    pub joint: JointId,
+    /// What the second body stands off from the first: their difference `Δ_second − Δ_first` along
+    /// rigid and locked directions, and that at which the springs of elastic ones are at rest.
+    pub misfit: Vector6<f64>,
+    /// Wrench on the second body, its opposite on the first, along elastic and free directions.
+    pub preload: Vector6<f64>,
 }
 
 /// Mass and inertia at a node, in global axes at the model's configuration.

@@ -7,7 +7,7 @@ use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::{Dof, DofSet};
 
 use crate::directions::Directions;
-use nalgebra::{Matrix6, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::condense::LOADS;
 use crate::coordinates::TreeBlocks;
@@ -98,6 +98,9 @@ pub struct Workspace {
     /// By sets of loads: deformations that the elements start from, made by loads inside absorbed
     /// joints and between nodes, and by misfits.
     pub(crate) initial: Vec<f64>,
+    /// By carriers: what misfits of rigid directions displace them by with all IDCs zero; empty
+    /// where no misfit acts.
+    pub(crate) offsets: Vec<Vector6<f64>>,
     /// Stiffness of the inner IDCs: the pattern's lower triangle.
     pub(crate) values: Vec<f64>,
     pub(crate) factor: Factor,
@@ -345,6 +348,7 @@ impl Plan {
             operators: vec![0.0; last.map_or(0, |e| e.operator_start + e.rows * e.columns.len())],
             stiffnesses: vec![0.0; last.map_or(0, |e| e.stiffness_start + triangle(e))],
             initial: Vec::new(),
+            offsets: Vec::new(),
             values: vec![0.0; self.pattern.len()],
             factor: self.pattern.factor_buffers(0),
             loads: Vec::new(),

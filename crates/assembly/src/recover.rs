@@ -2,16 +2,17 @@
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
 use crate::acting::Acting;
-use crate::cluster::{absorbed_joint, cluster_frame, segment_beam};
+use crate::cluster::{absorbed_joint, cluster_frame, misfit_inside, segment_beam};
 use crate::condense::LOADS;
 use crate::coordinates::shift;
 use crate::directions::{rotation6, to_directions};
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
+use crate::misfit::loose_preload;
 use crate::model::{Geometry, Model, NodeId, SegmentId};
 use crate::numeric::{multiply, node_displacement};
 use crate::plan::{Plan, Source, Workspace};
@@ -97,13 +98,27 @@ pub(crate) fn recover(
                 let wrench = demand[node.0] - loads[node.0];
                 let elastic = absorbed_joint(plan, model, geometry, *joint);
                 displacements[node.0] -= elastic.turned_compliance() * wrench;
+                if acting.misfits {
+                    displacements[node.0] += misfit_inside(plan, model, geometry, *joint, *node);
+                }
             }
         }
     }
     for (wrench, load) in demand.iter_mut().zip(&loads) {
         *wrench -= load;
     }
-    let (joint_wrenches, doubtful) = joint_wrenches(plan, model, geometry, &all_forces, &demand);
+    let (mut joint_wrenches, doubtful) =
+        joint_wrenches(plan, model, geometry, &all_forces, &demand);
+    if acting.misfits {
+        for entry in model.misfits() {
+            if let Some(wrench) = &mut joint_wrenches[entry.joint.0] {
+                let directions = &plan.topology.joints[entry.joint.0].directions;
+                let basis = model.joints()[entry.joint.0].joint.basis();
+                *wrench += to_directions(&basis, &Rotation3::identity()).transpose()
+                    * loose_preload(directions, entry);
+            }
+        }
+    }
     Ok(Recovered {
         state: State {
             output,

@@ -1,7 +1,8 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
 use hyperstat_assembly::{
-    BeamMass, BodyId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution, SolveError,
+    BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
+    SolveError,
 };
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Along, Design, Input, Job, Location, Mechanism, PoseError, Registry};
@@ -339,6 +340,7 @@ impl Source<'_> {
                 let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
+            SolveError::Misfit { joints } => self.misfit(model, joints),
             SolveError::LoadOnFreeMotion {
                 load: Some(load), ..
             } => self.load(*load),
@@ -358,6 +360,15 @@ impl Source<'_> {
 
     fn body(&self, body: BodyId) -> Location {
         self.at(|mechanism| mechanism.locate_body(body))
+    }
+
+    /// Place of the first of the joints whose misfits do not fit.
+    fn misfit(&self, model: &Model, joints: &[String]) -> Location {
+        let named = |joint: &Connection| joints.first() == Some(&joint.name);
+        match model.joints().iter().position(named) {
+            Some(place) => self.at(|mechanism| mechanism.locate_joint(JointId(place))),
+            None => self.output(),
+        }
     }
 
     fn output(&self) -> Location {

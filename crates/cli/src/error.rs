@@ -167,6 +167,14 @@ impl CliError {
                     .into(),
             ),
             Self::Unsolvable {
+                source: SolveError::Misfit { .. },
+                ..
+            } => Some(
+                "give a `stiffness` in that direction to a joint of the loop, make one of its \
+                 bodies elastic, or change the misfit"
+                    .into(),
+            ),
+            Self::Unsolvable {
                 source: SolveError::NoDensity { .. },
                 ..
             } => Some("give its material a `density` in kg/m³; 0.0 is one without mass".into()),

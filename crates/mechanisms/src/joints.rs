@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use hyperstat_assembly::{Connection, JointId, JointStiffness, Model, ModelError, NodeId};
 use hyperstat_joints::{Dof, DofSet, Joint, frame_from_axes, frame_from_axis};
-use nalgebra::{Matrix6, Rotation3};
+use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::bodies::{GROUND, check_name};
 use crate::error::LoadError;
@@ -26,8 +26,17 @@ pub(crate) fn read(
 ) -> Result<JointId, LoadError> {
     check_name(entry, "joint")?;
     let owner = format!("joint `{}`", entry.name);
-    let known = ["at", "between", "kind", "x_axis", "locked", "stiffness"];
-    let fields = Fields::read(entry.value, owner, &known, &["misfit"])?;
+    let known = [
+        "at",
+        "between",
+        "kind",
+        "x_axis",
+        "locked",
+        "stiffness",
+        "misfit",
+        "preload",
+    ];
+    let fields = Fields::read(entry.value, owner, &known, &[])?;
 
     let point = fields.required("at")?;
     let point_name = at(point)?;
@@ -61,9 +70,53 @@ pub(crate) fn read(
         locked,
         stiffness,
     };
-    model
+    let joint = model
         .add_joint(connection, frame)
-        .map_err(|error| refused(&error, &fields))
+        .map_err(|error| refused(&error, &fields))?;
+    if let Some(value) = fields.get("misfit") {
+        set(value, "the misfit", |misfit| {
+            model.set_misfit(joint, misfit)
+        })?;
+    }
+    if let Some(value) = fields.get("preload") {
+        set(value, "the preload", |preload| {
+            model.set_preload(joint, preload)
+        })?;
+    }
+    Ok(joint)
+}
+
+/// Reads numbers by direction and gives them to the model; what it refuses of them, it refuses for
+/// one direction.
+fn set(
+    fragment: Fragment<'_>,
+    owner: &str,
+    set: impl FnOnce(&Vector6<f64>) -> Result<(), ModelError>,
+) -> Result<(), LoadError> {
+    let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name), &[])?;
+    let mut values = Vector6::zeros();
+    for dof in Dof::ALL {
+        if let Some(value) = fields.get(dof.name()) {
+            values[dof.index()] = value.number()?;
+        }
+    }
+    set(&values).map_err(|error| {
+        let at = |dof: &Dof| fields.get(dof.name()).unwrap_or(fragment);
+        match &error {
+            ModelError::FreeMisfit { direction, .. } => {
+                at(direction).error(error.to_string()).with_help(format!(
+                    "leave it out, or hold the joint there: `locked`, or a `stiffness` along \
+                     {direction}"
+                ))
+            }
+            ModelError::RigidPreload { direction, .. } => {
+                at(direction).error(error.to_string()).with_help(format!(
+                    "give a `misfit` instead, or a `stiffness` along {direction} for it to press on"
+                ))
+            }
+            _ => fragment.error(error.to_string()),
+        }
+    })
 }
 
 /// The model's refusal of a joint, which after all checks is one of its stiffness.

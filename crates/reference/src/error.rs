@@ -59,6 +59,12 @@ pub enum ReferenceError {
         /// Name of the joint.
         joint: String,
     },
+    /// A misfit that rigid conditions leave no room for.
+    #[error("the conditions of joint `{joint}` do not fit the others: misfits of rigid directions")]
+    Misfit {
+        /// Name of a joint whose conditions are not met.
+        joint: String,
+    },
     /// The loads work on a motion that nothing resists.
     #[error("the loads move body `{body}`, and nothing resists the motion")]
     Unrestrained {

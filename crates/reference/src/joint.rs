@@ -1,6 +1,7 @@
-//! A joint as conditions and springs on its relative coordinates `q = basis⁻¹ Tᵀ (u_i − u_j)`.
+//! A joint as conditions and springs on its relative coordinates `q = basis⁻¹ Tᵀ (u_i − u_j)`, or
+//! with a misfit m on `q + m`.
 
-use hyperstat_assembly::{Connection, JointStiffness};
+use hyperstat_assembly::{Connection, JointStiffness, Misfit};
 use hyperstat_joints::Dof;
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
@@ -41,12 +42,20 @@ pub(crate) struct JointConditions {
     to_wrench: Matrix6<f64>,
     /// All that is rigid or elastic; what is free has no entry.
     pub holds: Vec<Hold>,
+    /// What `u_j − u_i` is at rest, along the coordinates.
+    misfit: Vector6<f64>,
+    /// Forces on the second body along the coordinates, beside those of the holds.
+    preload: Vector6<f64>,
 }
 
 impl JointConditions {
-    /// The conditions of a connection whose joint frame is `frame`; `None` where the joint's
-    /// directions are not independent.
-    pub fn new(connection: &Connection, frame: &Rotation3<f64>) -> Option<Self> {
+    /// The conditions of a connection whose joint frame is `frame`, with its misfit and preload;
+    /// `None` where the joint's directions are not independent.
+    pub fn new(
+        connection: &Connection,
+        frame: &Rotation3<f64>,
+        misfit: Option<&Misfit>,
+    ) -> Option<Self> {
         let inverse = connection.joint.basis().try_inverse()?;
         let mut to_frame = Matrix6::zeros();
         for block in [0, 3] {
@@ -59,6 +68,8 @@ impl JointConditions {
             to_coordinates: inverse * to_frame,
             to_wrench: inverse.transpose(),
             holds: holds(connection),
+            misfit: misfit.map_or(Vector6::zeros(), |own| own.misfit),
+            preload: misfit.map_or(Vector6::zeros(), |own| own.preload),
         })
     }
 
@@ -73,13 +84,24 @@ impl JointConditions {
         }
     }
 
-    /// Wrench on the second body, in the joint frame, from the force along each hold.
+    /// What the row of a combination is when its hold bears nothing.
+    pub fn at_rest(&self, combination: &Vector6<f64>) -> f64 {
+        -combination.dot(&self.misfit)
+    }
+
+    /// The wrenches of its preload on its nodes, global axes.
+    pub fn preloads(&self) -> impl Iterator<Item = (usize, Vector6<f64>)> {
+        let on_second = self.to_coordinates.tr_mul(&self.preload);
+        let sides = self.between.into_iter().zip([-on_second, on_second]);
+        sides.filter_map(|(node, wrench)| node.map(|node| (node, wrench)))
+    }
+
+    /// Wrench on the second body, in the joint frame, from the force along each hold: its springs
+    /// and conditions with its preload.
     pub fn wrench(&self, forces: impl IntoIterator<Item = f64>) -> Vector6<f64> {
         let pairs = self.holds.iter().zip(forces);
-        self.to_wrench
-            * pairs
-                .map(|(hold, force)| hold.combination * force)
-                .sum::<Vector6<f64>>()
+        let held: Vector6<f64> = pairs.map(|(hold, force)| hold.combination * force).sum();
+        self.to_wrench * (held + self.preload)
     }
 
     /// The stiffness between the two nodes of `stiffness`, given over q, in global axes.

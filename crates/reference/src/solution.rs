@@ -4,6 +4,7 @@ use hyperstat_assembly::Model;
 use nalgebra::{DVector, Matrix6, Vector6};
 
 use crate::error::ReferenceError;
+use crate::independence::RANK_TOLERANCE;
 use crate::kinematics::{FreeMotions, Redundancy, mobility};
 use crate::row::Row;
 use crate::saddle::{Equilibrium, Saddle};
@@ -86,13 +87,20 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
     let system = Saddle::new(structure.positions.len(), &loaded, rows.elements);
     let at_rest = DVector::zeros(loaded.len());
     let no_load = DVector::zeros(6 * structure.positions.len());
+    let misfits = rows.misfits(&structure, &redundancy, loaded.len());
     let mut last_change = 0.0_f64;
     let mut found = Vec::with_capacity(states.len());
     for state in &states {
-        let mut deformations = at_rest.clone();
-        let own = state.deformations.len();
-        deformations.rows_mut(0, own).copy_from(&state.deformations);
-        let under_load = system.solve(&state.loads, &deformations)?;
+        let mut deformations = misfits.clone();
+        let mut own = deformations.rows_mut(0, state.deformations.len());
+        own += &state.deformations;
+        let under_load = system.solve(&(&state.loads + &structure.preloads), &deformations)?;
+        if !model.misfits().is_empty()
+            && let Some(joint) = unmet(&structure, &redundancy, &under_load.displacement)
+        {
+            let joint = model.joints()[joint].name.clone();
+            return Err(ReferenceError::Misfit { joint });
+        }
         last_change = last_change.max(under_load.change);
         let at = |node| node_displacement(&under_load, node);
         found.push(ReferenceState {
@@ -151,6 +159,38 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
         cases: found,
         last_change,
     })
+}
+
+/// A joint with a condition that was left out as one that follows from others, and is not met: by
+/// more of the largest displacement (lengths over the size) than tells such conditions.
+fn unmet(
+    structure: &Structure,
+    redundancy: &Redundancy,
+    displacement: &DVector<f64>,
+) -> Option<usize> {
+    let lengths = [structure.size, 1.0];
+    let scaled = |k: usize| displacement[k] / lengths[k % 6 / 3];
+    let largest = (0..displacement.len()).fold(0.0_f64, |largest, k| largest.max(scaled(k).abs()));
+    let joints = structure.joints.iter().zip(&redundancy.dropped);
+    let open = |(joint, dropped): (&crate::joint::JointConditions, &Vec<bool>)| {
+        let left_out = joint
+            .holds
+            .iter()
+            .zip(dropped)
+            .filter(|(_, dropped)| **dropped);
+        left_out.fold(0.0_f64, |open, (hold, _)| {
+            let row = joint.row(&hold.combination, 0.0);
+            let gap = row.apply(&displacement.as_view()) - joint.at_rest(&hold.combination);
+            let terms = row.terms.iter().flat_map(|(_, a)| a.iter().enumerate());
+            let length = terms
+                .map(|(k, a)| (a * lengths[k / 3]).powi(2))
+                .sum::<f64>();
+            open.max(gap.abs() / length.sqrt())
+        })
+    };
+    joints
+        .map(open)
+        .position(|open| open > RANK_TOLERANCE * largest)
 }
 
 fn node_displacement(found: &Equilibrium, node: usize) -> Vector6<f64> {
@@ -223,6 +263,29 @@ impl Rows {
 
     fn with(&self, more: Vec<Row>) -> Vec<Row> {
         self.rows.iter().cloned().chain(more).collect()
+    }
+
+    /// What all rows are when they bear nothing, the first of `count` being these.
+    fn misfits(
+        &self,
+        structure: &Structure,
+        redundancy: &Redundancy,
+        count: usize,
+    ) -> DVector<f64> {
+        let mut at_rest = DVector::zeros(count);
+        let mut next = self.before_joints;
+        for (joint, dropped) in structure.joints.iter().zip(&redundancy.dropped) {
+            for (hold, _) in joint
+                .holds
+                .iter()
+                .zip(dropped)
+                .filter(|(_, dropped)| !**dropped)
+            {
+                at_rest[next] = joint.at_rest(&hold.combination);
+                next += 1;
+            }
+        }
+        at_rest
     }
 
     fn joint_wrenches(

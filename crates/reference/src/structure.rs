@@ -1,7 +1,7 @@
 //! A model as nodes, elements and rows: every body's every node with six coordinates of its own.
 
-use hyperstat_assembly::{BodyKind, Geometry, Model, NodeId};
-use nalgebra::{Point3, Vector3, Vector6};
+use hyperstat_assembly::{BodyKind, Geometry, JointId, Model, NodeId};
+use nalgebra::{DVector, Point3, Vector3, Vector6};
 
 use crate::beam::{Element, join, segment_frame};
 use crate::error::ReferenceError;
@@ -27,6 +27,8 @@ pub(crate) struct Structure {
     pub joints: Vec<JointConditions>,
     /// Output node.
     pub output: usize,
+    /// Wrenches on all nodes under the joints' preloads.
+    pub preloads: DVector<f64>,
     /// Diagonal of the box around all nodes [m]; 1 where they coincide.
     pub size: f64,
 }
@@ -43,15 +45,21 @@ impl Structure {
         let geometry = model.geometry();
         let (positions, elements) = elements(model, geometry)?;
         let mut joints = Vec::with_capacity(model.joints().len());
-        for (connection, frame) in model.joints().iter().zip(&geometry.frames) {
-            let joint = JointConditions::new(connection, frame);
+        for (k, (connection, frame)) in model.joints().iter().zip(&geometry.frames).enumerate() {
+            let joint = JointConditions::new(connection, frame, model.misfit(JointId(k)));
             joints.push(joint.ok_or_else(|| ReferenceError::JointBasis {
                 joint: connection.name.clone(),
             })?);
         }
+        let mut preloads = DVector::zeros(6 * positions.len());
+        for (node, wrench) in joints.iter().flat_map(JointConditions::preloads) {
+            let mut block = preloads.fixed_rows_mut::<6>(6 * node);
+            block += wrench;
+        }
         Ok(Self {
             size: size(&positions),
             positions,
+            preloads,
             elements,
             flexibles: flexibles(model)?,
             rigid_bodies: rigid_bodies(model),

@@ -15,6 +15,7 @@ mod lattices;
 mod logan_gable_frame_p5_30;
 mod logan_space_frame_example_5_8;
 mod magnitudes;
+mod misfits;
 mod natural_frequencies;
 mod parallelogram_closed_form;
 mod prebuilt_a;

@@ -87,7 +87,8 @@ impl Plan {
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let taken = model.has_plain_loads() && model.cases().is_empty();
+        let taken =
+            model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
         let program = taken.then(|| Program::new(self, model, model.geometry()));
         let engine = program.flatten().map(|program| {
             let buffers = Buffers::new(&program, width);

@@ -1,5 +1,6 @@
 //! The tests of the assembly crate: one program, so that they are linked once.
 
+mod misfit;
 mod output;
 mod semidefinite;
 mod states;

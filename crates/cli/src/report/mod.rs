@@ -5,6 +5,7 @@ mod check;
 mod forces;
 mod inner;
 mod loads;
+mod misfits;
 mod modes;
 mod parameters;
 mod sensitivities;

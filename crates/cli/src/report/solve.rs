@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{
-    Model, Segment, SegmentForces, SegmentId, Solution, SolveError, describe_motions,
+    JointId, Misfit, Model, Segment, SegmentForces, SegmentId, Solution, SolveError,
+    describe_motions,
 };
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
@@ -13,6 +14,7 @@ use serde::Serialize;
 use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
 use super::loads::loads;
+use super::misfits::write_misfits;
 use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
@@ -77,6 +79,12 @@ pub(super) struct JointReport {
     wrench: Option<[f64; 6]>,
     /// The same on the first body.
     first: Option<[f64; 6]>,
+    /// What the second body stands off from the first, where it does, in the joint frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) misfit: Option<[f64; 6]>,
+    /// What presses on the second body, where anything does, in the joint frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) preload: Option<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -134,7 +142,11 @@ impl SolveReport {
                 .map(|(name, displacement)| (name, numbers(displacement)))
                 .collect(),
             joints: joints
-                .map(|(joint, wrench)| (joint.name.clone(), JointReport::new(wrench.as_ref())))
+                .enumerate()
+                .map(|(k, (joint, wrench))| {
+                    let report = JointReport::new(wrench.as_ref());
+                    (joint.name.clone(), report.with(model.misfit(JointId(k))))
+                })
                 .collect(),
             undetermined: solution
                 .undetermined()
@@ -254,6 +266,7 @@ impl SolveReport {
         if self.joints.0.is_empty() {
             return;
         }
+        write_misfits(&self.joints, text);
         let table = joint_table(&self.joints, heads(&["joint"], WRENCH));
         section(
             text,
@@ -326,6 +339,18 @@ impl JointReport {
         Self {
             wrench: wrench.map(numbers),
             first: wrench.map(|wrench| numbers(&-wrench)),
+            misfit: None,
+            preload: None,
+        }
+    }
+
+    /// With the misfit and preload of the joint, where it has any.
+    fn with(self, entry: Option<&Misfit>) -> Self {
+        let given = |values: &Vector6<f64>| (*values != Vector6::zeros()).then(|| numbers(values));
+        Self {
+            misfit: entry.and_then(|entry| given(&entry.misfit)),
+            preload: entry.and_then(|entry| given(&entry.preload)),
+            ..self
         }
     }
 }

@@ -11,6 +11,7 @@ use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
+use super::misfits::{MisfitEffectReport, misfit_effects, write_misfit_effects};
 use super::sensitivities::SensitivityReport;
 use super::{Table, number, numbers, section};
 use crate::case::Case;
@@ -26,6 +27,7 @@ pub(crate) struct Why {
     budget: Option<BudgetReport>,
     measures: Option<MeasuresReport>,
     sensitivities: Option<Vec<SensitivityReport>>,
+    misfits: Option<Vec<MisfitEffectReport>>,
 }
 
 /// Where the displacement of the output, or its compliance, comes from.
@@ -180,6 +182,7 @@ impl Why {
                 budget: None,
                 measures: None,
                 sensitivities: None,
+                misfits: None,
             });
         };
         let influence = Influence::new(&case.model)?;
@@ -189,6 +192,7 @@ impl Why {
             budget: Some(question.budget(&influence)),
             measures: question.measures.as_ref().map(MeasuresReport::new),
             sensitivities: Some(sensitivities),
+            misfits: Some(misfit_effects(case, &influence, &question.direction)),
         })
     }
 
@@ -214,6 +218,9 @@ impl Why {
         if let Some(sensitivities) = &self.sensitivities {
             let (what, _) = budget.quantity();
             SensitivityReport::write(sensitivities, what, text);
+        }
+        if let Some(misfits) = &self.misfits {
+            write_misfit_effects(misfits, budget.turns(), text);
         }
         if let Some(measures) = &self.measures {
             measures.write(text);
@@ -443,6 +450,7 @@ fn word(deformation: Deformation) -> &'static str {
         Deformation::Flexible => "flexible body",
         Deformation::Bearing => "joint bearing",
         Deformation::Drive => "drive",
+        Deformation::Misfit => "misfit",
         _ => "other",
     }
 }

@@ -7,6 +7,7 @@ mod diagnosis;
 mod export;
 mod help;
 mod messages;
+mod misfits;
 mod modes;
 mod plot;
 mod run;

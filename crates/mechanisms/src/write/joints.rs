@@ -2,25 +2,22 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, NodeId};
+use hyperstat_assembly::{Connection, JointId, JointStiffness, Model, NodeId};
 use hyperstat_joints::{Dof, DofSet};
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, Vector6};
 
 use super::error::WriteError;
 use super::numbers::{fields, number, vector};
 use crate::bodies::GROUND;
 use crate::registry::{Argument, Registry};
 
-/// Writes a joint whose frame is `frame`.
+/// Writes a joint.
 ///
 /// # Errors
 /// A joint between points of two names, or of a kind without a writer.
-pub(super) fn joint(
-    model: &Model,
-    joint: &Connection,
-    frame: &Rotation3<f64>,
-    registry: &Registry,
-) -> Result<String, WriteError> {
+pub(super) fn joint(model: &Model, id: JointId, registry: &Registry) -> Result<String, WriteError> {
+    let joint: &Connection = &model.joints()[id.0];
+    let frame: &Rotation3<f64> = &model.geometry().frames[id.0];
     let point = |node: Option<NodeId>| node.map(|node| &*model.nodes()[node.0].point);
     let at = match joint.between.map(point) {
         [Some(first), Some(second)] if first != second => {
@@ -65,7 +62,22 @@ pub(super) fn joint(
     if let Some(stiffness) = stiffness(&joint.stiffness) {
         let _ = write!(text, ", stiffness: {stiffness}");
     }
+    if let Some(entry) = model.misfit(id) {
+        for (name, values) in [("misfit", &entry.misfit), ("preload", &entry.preload)] {
+            if *values != Vector6::zeros() {
+                let _ = write!(text, ", {name}: {}", directions(values));
+            }
+        }
+    }
     Ok(text + ")")
+}
+
+/// Numbers by direction, without the zeros.
+fn directions(values: &Vector6<f64>) -> String {
+    let given = Dof::ALL.into_iter().zip(values.iter());
+    let given = given.filter(|(_, value)| **value != 0.0);
+    let given: Vec<_> = given.map(|(dof, value)| (dof.name(), *value)).collect();
+    fields(Vec::new(), given)
 }
 
 fn argument(argument: &Argument) -> String {

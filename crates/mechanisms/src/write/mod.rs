@@ -9,7 +9,7 @@ mod numbers;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, NodeId};
+use hyperstat_assembly::{JointId, Model, NodeId};
 use nalgebra::Point3;
 
 use crate::registry::Registry;
@@ -32,8 +32,8 @@ pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
         .map(|body| Ok((&*body.name, bodies::body(model, body, &mut parts)?)))
         .collect::<Result<_, WriteError>>()?;
     let written_joints: Vec<_> = (model.joints().iter())
-        .zip(&model.geometry().frames)
-        .map(|(joint, frame)| Ok((&*joint.name, joints::joint(model, joint, frame, registry)?)))
+        .enumerate()
+        .map(|(k, joint)| Ok((&*joint.name, joints::joint(model, JointId(k), registry)?)))
         .collect::<Result<_, WriteError>>()?;
     let output = model.output().ok_or(WriteError::NoOutput)?;
 

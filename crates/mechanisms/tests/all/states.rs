@@ -132,3 +132,25 @@ fn a_job_replaces_what_it_gives() {
         "{carried} {expected}"
     );
 }
+
+#[test]
+fn misfits_and_preloads_are_read_and_written() {
+    let wrist = r#""wrist": (at: "C", between: ("arm", "hook"), kind: Fixed"#;
+    let text = FILE.replace(
+        wrist,
+        &format!("{wrist}, stiffness: (z: 2e6), misfit: (x: 1e-4, w: -2e-3), preload: (z: 30.0)"),
+    );
+    let first = model(&text);
+    let [entry] = first.misfits() else {
+        panic!("one joint with a misfit")
+    };
+    assert_eq!(first.joints()[entry.joint.0].name, "wrist");
+    assert_eq!(entry.misfit, Vector6::new(1e-4, 0.0, 0.0, 0.0, 0.0, -2e-3));
+    assert_eq!(entry.preload, Vector6::new(0.0, 0.0, 30.0, 0.0, 0.0, 0.0));
+    let written = write(&first, &Registry::builtin()).expect("a file");
+    assert_eq!(model(&written).misfits(), first.misfits());
+    // Nothing is written of joints that have none.
+    assert_eq!(written.matches("misfit").count(), 1);
+    let none = write(&model(FILE), &Registry::builtin()).expect("a file");
+    assert!(!none.contains("misfit") && !none.contains("preload"));
+}
