@@ -13,7 +13,7 @@ use super::assemble::Assembly;
 use super::blocks::vector;
 use super::chain::Chain;
 use super::compliance::{Frame, Six, compliance};
-use super::lane::{Lane, Mat3, Vec3, add, cross, dot, scaled, six, sub, three};
+use super::lane::{Lane, Mat3, Vec3, add, cross, scaled, six, sub, three};
 use super::program::NodeMotion;
 
 /// Of a free motion, what the others leave of it must be above this share (squared).
@@ -170,7 +170,18 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
                 let at = &assembly.screws[6 * screw..6 * screw + 6];
                 let v: Vec3<S> = three!(k => Lane::new(simd, at[k]));
                 let w: Vec3<S> = three!(k => Lane::new(simd, at[3 + k]));
-                wrenches[next] = (dot(&v, &force) + dot(&w, &moment)).value;
+                let parts: Six<S> =
+                    six!(k => if k < 3 { v[k] * force[k] } else { w[k - 3] * moment[k - 3] });
+                let (mut work, mut terms) = (parts[0], parts[0] * parts[0]);
+                for k in 1..6 {
+                    work += parts[k];
+                    terms = parts[k].mul_add(parts[k], terms);
+                }
+                wrenches[next] = work.value;
+                // Where no work is done on it, what is left is the rounding of the terms.
+                let error = &mut assembly.errors[places[next / R]];
+                let terms = terms * stiffness[a];
+                *error = terms.mul_add(trust[a], Lane::new(simd, *error)).value;
                 next += R;
             }
         }
