@@ -378,7 +378,10 @@ fn misfits_act_in_every_state_but_not_in_unit_responses() {
     }
     assert_eq!(both.output.stiffness, loads_alone.output.stiffness);
     let plan = Plan::new(&model).expect("a plan");
-    let respond = |model: &Model| plan.respond(model, &[load.clone()]).expect("a response");
+    let respond = |model: &Model| {
+        plan.respond(model, std::slice::from_ref(&load))
+            .expect("a response")
+    };
     let without = between_drives(2e6).0;
     let (with, without) = (respond(&model), respond(&without));
     assert_eq!(with[0].displacements, without[0].displacements);
@@ -508,6 +511,38 @@ fn a_rigid_body_that_cannot_move_takes_no_misfit_but_one_that_fits() {
     assert!((solution.output.displacement - turned).amax() < 1e-15);
     let end = solution.displacements[b.expect("a node").0];
     assert!((end - raised).amax() < 1e-15);
+}
+
+/// A bar in a rigid frame, held nowhere: what a preload presses stays between them.
+#[test]
+fn a_mechanism_that_floats_bears_its_own_preloads() {
+    let preload = 40.0;
+    let k = 1e8;
+    let floating = {
+        let mut model = Model::new("floating");
+        let points = [("A", 0.0), ("B", LENGTH)].map(|(n, x)| (n, Point3::new(x, 0.0, 0.0)));
+        model
+            .add_beam("bar", &points, &steel(), &flat(), None, 1)
+            .expect("a body");
+        model.add_rigid("frame", &points).expect("a body");
+        let pair = |model: &Model, point| ["frame", "bar"].map(|body| model.node(body, point));
+        let a = pair(&model, "A");
+        weld(&mut model, "A", a);
+        let b = pair(&model, "B");
+        let stiffness = springs([k, 2e8, 3e8, 1e5, 2e5, 3e5]);
+        let soft = add(&mut model, "B", b, Fixed, stiffness, Rotation3::identity());
+        let force = only(Dof::X, preload);
+        model.set_preload(soft, &force).expect("a preload");
+        model.set_output(model.node("frame", "A").expect("a node"));
+        (model, soft)
+    };
+    let solution = solve(&floating.0).expect("a solution");
+    assert_eq!(solution.output.free_motions.len(), 6);
+    assert!(solution.warnings.is_empty(), "{:?}", solution.warnings);
+    // The bar gives by F/(EA/L), and the spring takes back as much of the preload.
+    let expected = preload / (1.0 + k / (YOUNG * AREA / LENGTH));
+    let wrench = solution.joint_wrenches[floating.1.0].expect("determined");
+    near(wrench[0], expected, "force");
 }
 
 #[test]
