@@ -296,7 +296,11 @@ impl Plan {
                 held += force * force.transpose() * level;
             }
         }
-        let compliance = inverse(&held, 0.0).ok_or(SolveError::Singular)?;
+        let compliance = match restraint.free_twists.len() {
+            // All its motions are free: its stiffness is rounding, and it stays where it is.
+            6 => Matrix6::zeros(),
+            _ => inverse(&held, 0.0).ok_or(SolveError::Singular)?,
+        };
         let mut last = 0.0_f64;
         let mut displacements = Vec::with_capacity(sets.len());
         for column in sets {

@@ -2,11 +2,13 @@
 //! independent solver; reciprocity; a statically determinate mechanism against its rigid
 //! kinematics.
 
+use std::path::Path;
+
 use hyperstat_assembly::{
     Influence, JointId, LANES, LoadSet, Model, NodeId, Plan, Solution, SolveError, solve,
 };
 use hyperstat_joints::Dof;
-use hyperstat_mechanisms::{Registry, load_mechanism};
+use hyperstat_mechanisms::{Registry, load_mechanism, mechanism_from_str};
 use hyperstat_reference::ReferenceError;
 use hyperstat_tests::agreement::agrees_with_reference;
 use hyperstat_tests::random::check_random_mechanisms;
@@ -337,6 +339,42 @@ fn a_delta_with_two_equally_long_rods_moves_by_its_kinematics_without_force() {
             assert!(wrench.amax() < 1e-9 * 5e3, "{wrench}");
         }
     }
+}
+
+/// A mechanism that nothing holds, its loop pressed by misfits and a preload.
+const FLOATING: &str = r#"(
+    name: "floating",
+    materials: { "steel": (young: 2.0e11, poisson: 0.3) },
+    sections: { "flat": Rectangle(width: 0.03, height: 0.05, shear_y: 0.0008) },
+    points: { "p4": (0.0, 0.0, -0.28625), "p1": (0.0, 0.0, 0.0), "p2": (0.0, 0.0, 0.33616), "p0": (0.0, 0.0, 0.0) },
+    bodies: {
+        "frame": Rigid(points: ["p4", "p1", "p0"]),
+        "bar": Beam(through: ["p4", "p1", "p2", "p0"], section: "flat", material: "steel"),
+    },
+    joints: {
+        "rigid": (at: "p0", between: ("frame", "bar"), kind: Fixed, misfit: (x: 1.1e-4, y: 3.7e-5, z: 1.4e-5, u: -8.3e-5, v: -2.9e-5, w: 6.1e-5)),
+        "soft": (at: "p4", between: ("frame", "bar"), kind: Fixed, stiffness: (x: 1e8, y: 1e8, z: 1e8, u: 1e5, v: 1e5, w: 1e5),
+            misfit: (x: 1e-4, y: 6.1e-5, z: 1.4e-5, u: -8.4e-5, v: -2.9e-5, w: 6.1e-5),
+            preload: (x: 1.2, y: -0.3, z: -4.5, u: -3.2, v: 1.25, w: -3.3)),
+    },
+    output: ("frame", "p4"),
+)
+"#;
+
+/// All six motions of the output are free and its stiffness is rounding: no displacement is found by
+/// it, and the forces inside keep their digits.
+#[test]
+fn a_floating_mechanism_keeps_the_digits_of_its_own_forces() {
+    let file = Path::new("floating.ron");
+    let mechanism = mechanism_from_str(FLOATING, file, &Registry::builtin()).expect("a file");
+    let found = solve(&mechanism.model).expect("a solution");
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
+    assert_eq!(found.output.free_motions.len(), 6);
+    let expected = hyperstat_reference::solve(&mechanism.model).expect("a solution");
+    let pairs = found.joint_wrenches.iter().flatten();
+    let pairs = pairs.zip(expected.joint_wrenches.iter().flatten());
+    let [forces, moments] = vector_differences(pairs, [FLOORS[1]; 2]);
+    assert!(forces.max(moments) < AGREEMENT, "{forces:e} {moments:e}");
 }
 
 /// Poses with misfits are the same side by side as one by one: none goes through the lanes.

@@ -378,7 +378,10 @@ fn misfits_act_in_every_state_but_not_in_unit_responses() {
     }
     assert_eq!(both.output.stiffness, loads_alone.output.stiffness);
     let plan = Plan::new(&model).expect("a plan");
-    let respond = |model: &Model| plan.respond(model, &[load.clone()]).expect("a response");
+    let respond = |model: &Model| {
+        plan.respond(model, std::slice::from_ref(&load))
+            .expect("a response")
+    };
     let without = between_drives(2e6).0;
     let (with, without) = (respond(&model), respond(&without));
     assert_eq!(with[0].displacements, without[0].displacements);
@@ -508,6 +511,45 @@ fn a_rigid_body_that_cannot_move_takes_no_misfit_but_one_that_fits() {
     assert!((solution.output.displacement - turned).amax() < 1e-15);
     let end = solution.displacements[b.expect("a node").0];
     assert!((end - raised).amax() < 1e-15);
+}
+
+/// A bent bar in a rigid frame: what a preload presses does not ask whether the frame is held.
+#[test]
+fn a_mechanism_that_floats_bears_its_own_preloads() {
+    let pressed = |held: bool| {
+        let mut model = Model::new("frame");
+        let points = [
+            ("A", Point3::new(0.13, -0.21, 0.37)),
+            ("M", Point3::new(0.41, 0.29, 0.11)),
+            ("B", Point3::new(0.77, 0.53, -0.19)),
+        ];
+        model
+            .add_beam("bar", &points, &steel(), &flat(), None, 1)
+            .expect("a body");
+        model.add_rigid("frame", &points).expect("a body");
+        let frame = Rotation3::from_euler_angles(0.3, -0.5, 0.7);
+        for (k, point) in ["A", "M", "B"].into_iter().enumerate() {
+            let between = ["frame", "bar"].map(|body| model.node(body, point));
+            let stiffness = springs([1e8, 2e8, 3e8, 1e5, 2e5, 3e5]);
+            let soft = add(&mut model, point, between, Fixed, stiffness, frame);
+            let force = Vector6::new(3.0, -2.0, 5.0, 0.7, 1.1, -0.9) * (k as f64 + 1.0);
+            model.set_preload(soft, &force).expect("a preload");
+        }
+        model.set_output(model.node("frame", "A").expect("a node"));
+        if held {
+            let foot = model.node("frame", "B");
+            weld(&mut model, "foot", [None, foot]);
+        }
+        solve(&model).expect("a solution")
+    };
+    let (floating, held) = (pressed(false), pressed(true));
+    assert_eq!(floating.output.free_motions.len(), 6);
+    assert!(floating.warnings.is_empty(), "{:?}", floating.warnings);
+    for k in 0..3 {
+        let wrench = |solution: &Solution| solution.joint_wrenches[k].expect("determined");
+        let difference = (wrench(&floating) - wrench(&held)).amax();
+        assert!(difference < 1e-11 * wrench(&held).amax(), "{difference:e}");
+    }
 }
 
 #[test]
