@@ -242,6 +242,35 @@ impl<S: Simd> Assembly<'_, S> {
             self.add(row, places.screws[a], dot(&v, force) + dot(&w, &moment));
         }
     }
+
+    /// Loads that a displacement of node `given` within the body gives: what its stiffness
+    /// answers with, at every node. Called before the blocks are carried.
+    #[inline(always)]
+    pub fn add_inner_load(
+        &mut self,
+        nodes: &[NodeMotion],
+        places: &[usize],
+        row: usize,
+        blocks: &[S::f64s],
+        given: usize,
+        (linear, angular): (&Vec3<S>, &Vec3<S>),
+    ) {
+        let mut start = 0;
+        for (r, node) in nodes.iter().enumerate() {
+            let (block, [rows, columns]) = if r <= given {
+                (&blocks[place(r, given)..], [6, 1])
+            } else {
+                (&blocks[place(given, r)..], [1, 6])
+            };
+            let force = three!(i =>
+                -product_of_row(self.simd, &block[i * rows..], columns, linear, angular));
+            let moment = three!(i =>
+                -product_of_row(self.simd, &block[(3 + i) * rows..], columns, linear, angular));
+            let (_, end) = split(node, places, start);
+            self.add_load(node, &places[start..], row, &force, &moment);
+            start = end;
+        }
+    }
 }
 
 /// The places of one node's coordinates, and where the next node's start.

@@ -3,7 +3,7 @@
 use aligned_vec::{AVec, ConstAlign};
 
 use super::pass::RESULTS;
-use super::program::Program;
+use super::program::{Element, Program};
 
 /// Numbers aligned as the widest registers are.
 pub(super) type Numbers = AVec<f64, ConstAlign<64>>;
@@ -23,14 +23,17 @@ pub(super) struct Buffers {
     pub panel: Numbers,
     pub rests: Numbers,
     pub blocks: Numbers,
-    /// That one chain transmits.
-    pub wrenches: Numbers,
+    /// The same of an element that some poses form anew, and what that needs.
+    pub formed: Numbers,
+    pub forming: Numbers,
     pub results: Numbers,
 }
 
 impl Buffers {
     pub fn new(program: &Program, width: usize) -> Self {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
+        let held = program.elements.iter().filter_map(Element::held);
+        let forming = held.map(|h| h.form.workspace(h.points.len() - 1));
         let fronts = &program.fronts;
         Self {
             width,
@@ -43,7 +46,8 @@ impl Buffers {
             panel: zeros(fronts.largest * fronts.most_pivots),
             rests: zeros(fronts.rest_len),
             blocks: zeros(36 * program.most_blocks),
-            wrenches: zeros(6 * program.most_ends),
+            formed: zeros(36 * program.most_blocks),
+            forming: zeros(forming.max().unwrap_or(0)),
             results: zeros(RESULTS),
         }
     }
