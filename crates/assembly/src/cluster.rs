@@ -126,24 +126,6 @@ pub(crate) fn absorbed_joint(
     }
 }
 
-/// The absorbed joints of a cluster with their nodes' places, in the cluster's axes.
-pub(crate) fn local_joints(
-    plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
-    cluster: &Cluster,
-    to_local: &Rotation3<f64>,
-) -> Vec<(usize, JointId, ElasticJoint)> {
-    let joints = cluster.joints.iter().enumerate();
-    let joints = joints.filter_map(|(node, joint)| Some((node, (*joint)?)));
-    joints
-        .map(|(node, joint)| {
-            let elastic = absorbed_joint(plan, model, geometry, joint);
-            (node, joint, seen_from(to_local, &elastic))
-        })
-        .collect()
-}
-
 /// A joint in the axes that `to_local` turns into.
 fn seen_from(to_local: &Rotation3<f64>, joint: &ElasticJoint) -> ElasticJoint {
     ElasticJoint {

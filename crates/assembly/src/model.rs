@@ -430,11 +430,6 @@ impl Model {
     pub fn gravity(&self) -> &Vector3<f64> {
         &self.gravity
     }
-    /// Sum of the plain loads on a node.
-    pub(crate) fn node_load(&self, node: NodeId) -> Vector6<f64> {
-        let on_node = self.loads().iter().filter(|load| load.node == node);
-        on_node.map(|load| load.wrench).sum()
-    }
     /// Whether nothing acts but loads on nodes in global axes, cases and misfits apart.
     pub fn has_plain_loads(&self) -> bool {
         let global = |load: &Load| load.axes == Axes::Global;

@@ -19,6 +19,10 @@ pub(super) struct Assembly<'a, S: Simd> {
     /// Twists of the screws, six entries a coordinate.
     pub screws: &'a [S::f64s],
     pub inputs: &'a [S::f64s],
+    /// By coordinates: which idle motion it tells.
+    pub idle: &'a [Option<usize>],
+    /// By idle motions: the sum of squares that the loads' work on it was made of.
+    pub load_terms: &'a mut [S::f64s],
 }
 
 /// Places of a node's coordinates among the front's variables.
@@ -39,7 +43,7 @@ impl<S: Simd> Assembly<'_, S> {
 
     /// Adds to an entry below or on the diagonal.
     #[inline(always)]
-    fn add(&mut self, i: usize, j: usize, value: Lane<S>) {
+    pub fn add(&mut self, i: usize, j: usize, value: Lane<S>) {
         let (row, column) = if i < j { (j, i) } else { (i, j) };
         let entry = &mut self.entries[column * self.size + row];
         *entry = self.simd.add_f64s(*entry, value.value);
@@ -66,7 +70,7 @@ impl<S: Simd> Assembly<'_, S> {
     }
 
     #[inline(always)]
-    fn screw(&self, coordinate: usize) -> (Vec3<S>, Vec3<S>) {
+    pub fn screw(&self, coordinate: usize) -> (Vec3<S>, Vec3<S>) {
         let at = &self.screws[6 * coordinate..6 * coordinate + 6];
         (
             three!(k => Lane::new(self.simd, at[k])),
@@ -230,6 +234,23 @@ impl<S: Simd> Assembly<'_, S> {
             Some(points) => add(moment, &cross(&arm(self.simd, self.inputs, points), force)),
             None => *moment,
         };
+        for coordinate in node.coordinates() {
+            if let Some(idle) = self.idle[coordinate] {
+                let (linear, angular) = match node.root {
+                    Some(root) if (root..root + 6).contains(&coordinate) => {
+                        let one = Lane::splat(self.simd, 1.0);
+                        (one, one)
+                    }
+                    _ => {
+                        let (v, w) = self.screw(coordinate);
+                        (dot(&v, &v), dot(&w, &w))
+                    }
+                };
+                let terms = linear * dot(force, force) + angular * dot(&moment, &moment);
+                let sum = &mut self.load_terms[idle];
+                *sum = self.simd.add_f64s(*sum, terms.value);
+            }
+        }
         let (places, _) = split(node, places, 0);
         if let Some(root) = places.root {
             for k in 0..3 {
@@ -240,35 +261,6 @@ impl<S: Simd> Assembly<'_, S> {
         for (a, &coordinate) in node.screws.iter().enumerate() {
             let (v, w) = self.screw(coordinate);
             self.add(row, places.screws[a], dot(&v, force) + dot(&w, &moment));
-        }
-    }
-
-    /// Loads that a displacement of node `given` within the body gives: what its stiffness
-    /// answers with, at every node. Called before the blocks are carried.
-    #[inline(always)]
-    pub fn add_inner_load(
-        &mut self,
-        nodes: &[NodeMotion],
-        places: &[usize],
-        row: usize,
-        blocks: &[S::f64s],
-        given: usize,
-        (linear, angular): (&Vec3<S>, &Vec3<S>),
-    ) {
-        let mut start = 0;
-        for (r, node) in nodes.iter().enumerate() {
-            let (block, [rows, columns]) = if r <= given {
-                (&blocks[place(r, given)..], [6, 1])
-            } else {
-                (&blocks[place(given, r)..], [1, 6])
-            };
-            let force = three!(i =>
-                -product_of_row(self.simd, &block[i * rows..], columns, linear, angular));
-            let moment = three!(i =>
-                -product_of_row(self.simd, &block[(3 + i) * rows..], columns, linear, angular));
-            let (_, end) = split(node, places, start);
-            self.add_load(node, &places[start..], row, &force, &moment);
-            start = end;
         }
     }
 }

@@ -5,11 +5,11 @@
 use nalgebra::Matrix6;
 use pulp::Simd;
 
+use super::inputs::Point;
 use super::lane::{
-    Lane, Mat3, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub, three,
-    transposed,
+    Lane, Mat3, Vec3, add, cross, dot, product, product_transposed, scaled, sub, three, transposed,
 };
-use super::program::{Axes, BeamElement, HeldElement};
+use super::program::FlexibleElement;
 
 /// A `y_axis` closer than this to the beam (sine of the angle) counts as along it.
 const ALONG: f64 = 1e-6;
@@ -87,134 +87,6 @@ pub(super) fn write<S: Simd>(blocks: &mut [S::f64s], place: usize, parts: [&Mat3
     }
 }
 
-/// Bending in one plane: force per deflection, force per rotation, moment per rotation at the same
-/// node and at the other.
-#[inline(always)]
-fn bending<S: Simd>(rigidity: f64, shear: f64, per_length: Lane<S>) -> [Lane<S>; 4] {
-    let over = per_length * per_length.constant(rigidity);
-    let (r, same, other);
-    if shear == 0.0 {
-        r = over;
-        same = over.constant(4.0) * over;
-        other = over.constant(2.0) * over;
-    } else {
-        let s = per_length * per_length * over.constant(shear);
-        r = over / (over.constant(1.0) + s);
-        same = (over.constant(4.0) + s) * r;
-        other = (over.constant(2.0) - s) * r;
-    }
-    let moment = over.constant(6.0) * r * per_length;
-    [
-        over.constant(2.0) * moment * per_length,
-        moment,
-        same,
-        other,
-    ]
-}
-
-/// `across (E − x xᵀ) + along x xᵀ` for a unit vector x.
-#[inline(always)]
-fn axial<S: Simd>(x: &Vec3<S>, across: Lane<S>, along: Lane<S>) -> Mat3<S> {
-    let [a, b, c] = scaled(x, along - across);
-    let (ab, ac, bc) = (a * x[1], a * x[2], b * x[2]);
-    [
-        [a.mul_add(x[0], across), ab, ac],
-        [ab, b.mul_add(x[1], across), bc],
-        [ac, bc, c.mul_add(x[2], across)],
-    ]
-}
-
-/// Blocks of a prismatic beam (Eqs. 1–3 with shear, Eq. 38).
-#[inline(always)]
-pub(super) fn beam<S: Simd>(
-    simd: S,
-    beam: &BeamElement,
-    inputs: &[S::f64s],
-    blocks: &mut [S::f64s],
-) {
-    let span = arm(simd, inputs, beam.ends);
-    let per_length = dot(&span, &span).sqrt().recip();
-    let x = scaled(&span, per_length);
-    let tension = Lane::splat(simd, beam.axial) * per_length;
-    let torsion = Lane::splat(simd, beam.torsional) * per_length;
-    let (t, b, c, d);
-    if let Some(y_axis) = beam.y_axis {
-        let axes = element_axes(&x, &vector(simd, inputs, y_axis));
-        let [dz, mz, same_y, other_y] = bending(beam.bending[0], beam.shear[0], per_length);
-        let [dy, my, same_z, other_z] = bending(beam.bending[1], beam.shear[1], per_length);
-        t = spectral(&axes, [tension, dy, dz]);
-        c = spectral(&axes, [torsion, same_y, same_z]);
-        d = spectral(&axes, [-torsion, other_y, other_z]);
-        let (y, z) = (scaled(&axes[1], my), scaled(&axes[2], mz));
-        b = three!(i => three!(j => y[i].mul_add(axes[2][j], -(z[i] * axes[1][j]))));
-    } else {
-        let [deflection, moment, same, other] = bending(beam.bending[0], beam.shear[0], per_length);
-        t = axial(&x, deflection, tension);
-        c = axial(&x, same, torsion);
-        d = axial(&x, other, -torsion);
-        let [x0, x1, x2] = scaled(&x, moment);
-        let zero = Lane::splat(simd, 0.0);
-        b = [[zero, x2, -x1], [-x2, zero, x0], [x1, -x0, zero]];
-    }
-    let minus_b = negated(&b);
-    let minus_b_t = transposed(&minus_b);
-    write(blocks, place(0, 0), [&t, &b, &transposed(&b), &c]);
-    write(blocks, place(0, 1), [&negated(&t), &b, &minus_b_t, &d]);
-    write(blocks, place(1, 1), [&t, &minus_b, &minus_b_t, &c]);
-}
-
-/// The axes of a held element as the columns of a rotation.
-#[inline(always)]
-pub(super) fn held_axes<S: Simd>(simd: S, held: &HeldElement, inputs: &[S::f64s]) -> Mat3<S> {
-    let rows = match held.axes {
-        Axes::Flexible(columns) => three!(k => vector(simd, inputs, columns[k])),
-        Axes::Segment(y_axis) => {
-            let span = arm(simd, inputs, [held.points[0], held.points[1]]);
-            let x = scaled(&span, dot(&span, &span).sqrt().recip());
-            element_axes(&x, &vector(simd, inputs, y_axis))
-        }
-    };
-    transposed(&rows)
-}
-
-/// The largest difference between what a held element's stiffness depends on and what it was in
-/// the plan's configuration, relative to its size.
-#[inline(always)]
-pub(super) fn held_change<S: Simd>(
-    simd: S,
-    held: &HeldElement,
-    axes: &Mat3<S>,
-    inputs: &[S::f64s],
-) -> Lane<S> {
-    let to_body = transposed(axes);
-    let mut largest = Lane::splat(simd, 0.0);
-    for (k, was) in held.arms.iter().enumerate() {
-        let now = apply(
-            &to_body,
-            &arm(simd, inputs, [held.points[0], held.points[k + 1]]),
-        );
-        for c in 0..3 {
-            let change = (now[c] - Lane::splat(simd, was[c])).abs();
-            largest = largest.max(change * Lane::splat(simd, held.per_length));
-        }
-    }
-    for joint in &held.joints {
-        let columns = three!(k => vector(simd, inputs, joint.columns[k]));
-        let turn = product(&to_body, &transposed(&columns));
-        for part in &joint.parts {
-            let now = turned(simd, &joint.own, part.place, &turn);
-            for r in 0..3 {
-                for c in 0..3 {
-                    let was = joint.turned[(part.place.0 + r, part.place.1 + c)];
-                    let change = (now[r][c] - Lane::splat(simd, was)).abs();
-                    largest = largest.max(change * Lane::splat(simd, part.per_size));
-                }
-            }
-        }
-    }
-    largest
-}
-
 /// `R B Rᵀ` of the 3×3 block of a constant matrix that starts at `(i, j)`.
 #[inline(always)]
 pub(super) fn turned<S: Simd>(
@@ -227,17 +99,18 @@ pub(super) fn turned<S: Simd>(
     product_transposed(&product(turn, &block), turn)
 }
 
-/// Blocks (r, s), 1 ≤ r ≤ s, of a stiffness over nodes 1..=m in the body's axes (column-major),
-/// turned to global axes. `axes`: the body's as columns.
+/// Blocks of a flexible body: its stiffness, held at node 0, turned to global axes, and what
+/// follows for node 0.
 #[inline(always)]
-pub(super) fn held_parts<S: Simd>(
+pub(super) fn flexible<S: Simd>(
     simd: S,
-    held: &HeldElement,
-    stiffness: &[f64],
-    axes: &Mat3<S>,
+    body: &FlexibleElement,
+    inputs: &[S::f64s],
     blocks: &mut [S::f64s],
 ) {
-    let count = held.points.len() - 1;
+    let axes = &transposed(&three!(k => vector(simd, inputs, body.axes[k])));
+    let stiffness = &body.stiffness;
+    let count = body.points.len() - 1;
     for s in 1..=count {
         for r in 1..=s {
             let part = |i: usize, j: usize| (6 * count, 6 * (r - 1) + i, 6 * (s - 1) + j);
@@ -252,17 +125,13 @@ pub(super) fn held_parts<S: Simd>(
             write(blocks, place(r, s), [&a, &b, &c, &d]);
         }
     }
+    unheld(simd, &body.points, inputs, blocks);
 }
 
 /// Blocks (0, s) of a stiffness held at node 0, from the others by equilibrium (Eqs. 3 and 7).
 #[inline(always)]
-pub(super) fn unheld<S: Simd>(
-    simd: S,
-    held: &HeldElement,
-    inputs: &[S::f64s],
-    blocks: &mut [S::f64s],
-) {
-    let count = held.points.len() - 1;
+fn unheld<S: Simd>(simd: S, points: &[Point], inputs: &[S::f64s], blocks: &mut [S::f64s]) {
+    let count = points.len() - 1;
     for s in 0..=count {
         for entry in &mut blocks[place(0, s)..place(0, s) + 36] {
             *entry = simd.splat_f64s(0.0);
@@ -271,7 +140,7 @@ pub(super) fn unheld<S: Simd>(
     for s in 1..=count {
         for r in 1..=count {
             // K_0s −= X_rᵀ K_rs
-            let arm = arm(simd, inputs, [held.points[0], held.points[r]]);
+            let arm = arm(simd, inputs, [points[0], points[r]]);
             let (from, [rows, columns]) = if r <= s {
                 (place(r, s), [6, 1])
             } else {
@@ -289,7 +158,7 @@ pub(super) fn unheld<S: Simd>(
             }
         }
         // K_00 −= K_0s X_s
-        let arm = arm(simd, inputs, [held.points[0], held.points[s]]);
+        let arm = arm(simd, inputs, [points[0], points[s]]);
         for i in 0..6 {
             let at = place(0, s) + 6 * i;
             let linear: Vec3<S> = three!(j => Lane::new(simd, blocks[at + j]));

@@ -3,7 +3,7 @@
 use aligned_vec::{AVec, ConstAlign};
 
 use super::pass::RESULTS;
-use super::program::{Element, Program};
+use super::program::Program;
 
 /// Numbers aligned as the widest registers are.
 pub(super) type Numbers = AVec<f64, ConstAlign<64>>;
@@ -17,23 +17,22 @@ pub(super) struct Buffers {
     pub errors: Numbers,
     /// Of one front's variables.
     pub local_errors: Numbers,
+    /// By idle motions.
+    pub load_terms: Numbers,
     /// Of one hang.
     pub gains: Numbers,
     pub front: Numbers,
     pub panel: Numbers,
     pub rests: Numbers,
     pub blocks: Numbers,
-    /// The same of an element that some poses form anew, and what that needs.
-    pub formed: Numbers,
-    pub forming: Numbers,
+    /// That one chain transmits, and what loads within do.
+    pub wrenches: Numbers,
     pub results: Numbers,
 }
 
 impl Buffers {
     pub fn new(program: &Program, width: usize) -> Self {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
-        let held = program.elements.iter().filter_map(Element::held);
-        let forming = held.map(|h| h.form.workspace(h.points.len() - 1));
         let fronts = &program.fronts;
         Self {
             width,
@@ -41,13 +40,13 @@ impl Buffers {
             screws: zeros(6 * program.coordinates),
             errors: zeros(program.coordinates),
             local_errors: zeros(fronts.largest),
+            load_terms: zeros(program.idle_count),
             gains: zeros(fronts.largest * fronts.most_targets()),
             front: zeros(fronts.largest * fronts.largest),
             panel: zeros(fronts.largest * fronts.most_pivots),
             rests: zeros(fronts.rest_len),
             blocks: zeros(36 * program.most_blocks),
-            formed: zeros(36 * program.most_blocks),
-            forming: zeros(forming.max().unwrap_or(0)),
+            wrenches: zeros(7 * program.most_ends),
             results: zeros(RESULTS),
         }
     }

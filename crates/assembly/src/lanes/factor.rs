@@ -14,7 +14,7 @@ pub(super) const ROUNDING: f64 = f64::EPSILON / 4.0;
 /// A pivot must be this many times its error to be taken for one.
 const PIVOT: f64 = 16.0;
 /// A pivot that an idle motion leaves is below this many times its error.
-const IDLE: f64 = 4e3;
+pub(super) const IDLE: f64 = 4e3;
 
 /// A front's matrix, its lower triangle, column by column at `size` each, and its variables'
 /// errors: of the diagonal entries, as a multiple of [`ROUNDING`].
@@ -24,15 +24,17 @@ pub(super) struct Matrix<'a, S: Simd> {
     pub errors: &'a mut [S::f64s],
 }
 
-/// Eliminates the first `pivots` variables, the last `idle` of which no energy goes into, and
+/// Eliminates the first `pivots` variables, the last ones of which no energy goes into, and
 /// writes what is left into `rest`, a square by columns of which the lower triangle counts. A lane
-/// whose pivot is none becomes not a number. `panel`: `size · pivots` entries.
+/// whose pivot is none becomes not a number. `panel`: `size · pivots` entries; `idle`: of each
+/// variable without energy, the sum of squares that its entry in the loads' row, the last one, was
+/// made of.
 #[inline(always)]
 pub(super) fn eliminate<S: Simd>(
     simd: S,
     matrix: &mut Matrix<'_, S>,
     pivots: usize,
-    idle: usize,
+    idle: &[S::f64s],
     panel: &mut [S::f64s],
     rest: &mut [S::f64s],
 ) {
@@ -57,14 +59,20 @@ pub(super) fn eliminate<S: Simd>(
         }
         let error = Lane::new(simd, errors[k]);
         let pivot = Lane::new(simd, column[k]);
-        if k + idle >= pivots {
+        if k + idle.len() >= pivots {
             // Nothing resists it: it must have no pivot and act on nothing.
+            let loads = Lane::new(simd, idle[k + idle.len() - pivots]);
+            let loads = loads * Lane::splat(simd, (ROUNDING * IDLE) * (ROUNDING * IDLE));
             let still = error * epsilon * Lane::splat(simd, IDLE);
             let zero = Lane::splat(simd, 0.0);
             let mut poison = pivot.abs().if_above(still, nan, zero);
             for i in k + 1..size {
                 let entry = Lane::new(simd, column[i]);
-                let bound = still * Lane::new(simd, errors[i]) * epsilon * Lane::splat(simd, IDLE);
+                let mut bound =
+                    still * Lane::new(simd, errors[i]) * epsilon * Lane::splat(simd, IDLE);
+                if i + 1 == size {
+                    bound += loads;
+                }
                 poison += (entry * entry).if_above(bound, nan, zero);
             }
             for out in &mut out[k + 1..] {

@@ -110,11 +110,11 @@ enum Origin {
 }
 
 impl Fronts {
-    /// Orders the elimination of the `unknowns` coordinates by least boundary, `late` ones a
-    /// little later. `idle` ones come after all others but the output's. `None` where nothing
+    /// Orders the elimination of these `coordinates` by least boundary, `late` ones a little later.
+    /// `idle` ones come after all others but the output's. `None` where nothing
     /// acts on some coordinate.
     pub fn new(
-        unknowns: usize,
+        coordinates: Vec<usize>,
         groups: Vec<Group>,
         idle: &[usize],
         output: Range<usize>,
@@ -127,7 +127,7 @@ impl Fronts {
             .chain(output.clone())
             .chain(loads_row)
             .collect();
-        let (mut nodes, cliques) = eliminate(unknowns, &groups, &last, late)?;
+        let (mut nodes, cliques) = eliminate(coordinates, &groups, &last, late)?;
         let mut root = Node {
             pivots: idle.to_vec(),
             boundary: output.chain(loads_row).collect(),
@@ -231,7 +231,7 @@ impl Node {
 
 /// Eliminates all coordinates but the `last`; returns the fronts so far and what is left.
 fn eliminate(
-    unknowns: usize,
+    coordinates: Vec<usize>,
     groups: &[Group],
     last: &[usize],
     late: impl Fn(usize) -> bool,
@@ -246,20 +246,28 @@ fn eliminate(
             origin: Origin::Group(k),
         });
     }
-    let mut cliques_of: Vec<Vec<usize>> = vec![Vec::new(); unknowns + 1];
+    let count = cliques.iter().flat_map(|c| &c.variables).max();
+    let count = 1 + count
+        .into_iter()
+        .chain(&coordinates)
+        .max()
+        .copied()
+        .unwrap_or(0);
+    let mut cliques_of: Vec<Vec<usize>> = vec![Vec::new(); count];
     for (k, clique) in cliques.iter().enumerate() {
         for &v in &clique.variables {
             cliques_of[v].push(k);
         }
     }
-    let mut left: Vec<usize> = (0..unknowns).filter(|v| !last.contains(v)).collect();
+    let mut left = coordinates;
+    left.retain(|v| !last.contains(v));
     if left.iter().any(|v| cliques_of[*v].is_empty()) {
         return None;
     }
     let mut nodes = Vec::new();
     let mut alive = vec![true; cliques.len()];
     // Boundary and size of the front of every coordinate, kept until a neighbour changes.
-    let mut costs: Vec<Option<(usize, usize)>> = vec![None; unknowns + 1];
+    let mut costs: Vec<Option<(usize, usize)>> = vec![None; count];
     while !left.is_empty() {
         let mut best = (usize::MAX, usize::MAX, usize::MAX);
         for &v in &left {

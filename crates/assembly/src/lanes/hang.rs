@@ -22,6 +22,10 @@ use crate::model::NodeId;
 /// An element is much stiffer than others below this share of its stiffness.
 const DOMINATED: f64 = 0.3;
 
+/// A chain with more free motions than this holds nothing along most directions: what hangs on it
+/// would gain the neighbour's stiffness there and lose digits instead of keeping them.
+const MOST_FREE: usize = 1;
+
 /// Coordinates of a root.
 const ROOT: usize = 6;
 
@@ -88,6 +92,9 @@ pub(super) fn hang(
                 continue;
             };
             if weights[stiffest] < others {
+                continue;
+            }
+            if elements[stiffest].releases() > MOST_FREE {
                 continue;
             }
             let nodes = &elements[stiffest].nodes;

@@ -100,22 +100,33 @@ impl Inputs {
     /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
     /// `(3 v + k) · width + lane`.
     pub fn read(&self, geometry: &Geometry, out: &mut [f64], width: usize, lane: usize) {
-        let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
-            rotation.matrix().column(c).into_owned()
-        };
         for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
-            let vector = match *source {
-                Source::Position(node) => geometry.positions[node.0].coords,
-                Source::FrameColumn(joint, c) => column(&geometry.frames[joint.0], c),
-                Source::YAxis(segment, ends) => match geometry.y_axes[segment.0] {
-                    Some(given) => given,
-                    None => upright(geometry, ends),
-                },
-                Source::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
-            };
+            let vector = source.at(geometry);
             out[lane] = vector.x;
             out[width + lane] = vector.y;
             out[2 * width + lane] = vector.z;
+        }
+    }
+
+    /// The vector at a place.
+    pub fn at(&self, geometry: &Geometry, place: usize) -> Vector3<f64> {
+        self.sources[place].at(geometry)
+    }
+}
+
+impl Source {
+    fn at(self, geometry: &Geometry) -> Vector3<f64> {
+        let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
+            rotation.matrix().column(c).into_owned()
+        };
+        match self {
+            Self::Position(node) => geometry.positions[node.0].coords,
+            Self::FrameColumn(joint, c) => column(&geometry.frames[joint.0], c),
+            Self::YAxis(segment, ends) => match geometry.y_axes[segment.0] {
+                Some(given) => given,
+                None => upright(geometry, ends),
+            },
+            Self::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
         }
     }
 }

@@ -4,24 +4,24 @@
 use pulp::{Simd, WithSimd};
 
 use super::assemble::{Assembly, parts};
-use super::blocks::{arm, beam, bushing, turned, vector};
+use super::blocks::{arm, bushing, flexible, vector};
 use super::buffers::Buffers;
 use super::factor::{Matrix, ROUNDING, eliminate};
-use super::form::held;
 use super::fronts::{Front, Part};
 use super::hang::{Motion, make_relative};
-use super::lane::{Lane, Vec3, add, apply, cross, scaled, three, transposed};
-use super::program::{Element, HeldElement, Kind, Program, Screw};
+use super::lane::{Lane, Vec3, add, cross, scaled};
+use super::program::{Kind, Program, Screw};
 use super::scatter::Moves;
+use super::transmit::add_chain;
 
 /// Lower triangle of a 6×6 matrix.
 const TRIANGLE: usize = 21;
-/// Entries of a result for each pose: upper triangle of the stiffness by rows, displacement, the
-/// stiffness's relative error and the smallest pivot of its scaled form.
+/// Entries of a result for each pose: upper triangle of the stiffness by rows, displacement, and the
+/// relative errors of both.
 pub(super) const RESULTS: usize = TRIANGLE + 6 + 2;
 pub(super) const DISPLACEMENT: usize = TRIANGLE;
 pub(super) const ERROR: usize = TRIANGLE + 6;
-pub(super) const PIVOT: usize = TRIANGLE + 7;
+pub(super) const DISPLACEMENT_ERROR: usize = TRIANGLE + 7;
 
 /// The whole pass.
 pub(super) struct Pass<'a> {
@@ -35,13 +35,13 @@ struct Registers<'a, S: Simd> {
     screws: &'a mut [S::f64s],
     errors: &'a mut [S::f64s],
     local_errors: &'a mut [S::f64s],
+    load_terms: &'a mut [S::f64s],
     gains: &'a mut [S::f64s],
     front: &'a mut [S::f64s],
     panel: &'a mut [S::f64s],
     rests: &'a mut [S::f64s],
     blocks: &'a mut [S::f64s],
-    formed: &'a mut [S::f64s],
-    forming: &'a mut [S::f64s],
+    wrenches: &'a mut [S::f64s],
     results: &'a mut [S::f64s],
 }
 
@@ -55,13 +55,13 @@ impl WithSimd for Pass<'_> {
             screws,
             errors,
             local_errors,
+            load_terms,
             gains,
             front,
             panel,
             rests,
             blocks,
-            formed,
-            forming,
+            wrenches,
             results,
             ..
         } = self.buffers;
@@ -70,19 +70,20 @@ impl WithSimd for Pass<'_> {
             screws: S::as_mut_simd_f64s(screws).0,
             errors: S::as_mut_simd_f64s(errors).0,
             local_errors: S::as_mut_simd_f64s(local_errors).0,
+            load_terms: S::as_mut_simd_f64s(load_terms).0,
             gains: S::as_mut_simd_f64s(gains).0,
             front: S::as_mut_simd_f64s(front).0,
             panel: S::as_mut_simd_f64s(panel).0,
             rests: S::as_mut_simd_f64s(rests).0,
             blocks: S::as_mut_simd_f64s(blocks).0,
-            formed: S::as_mut_simd_f64s(formed).0,
-            forming: S::as_mut_simd_f64s(forming).0,
+            wrenches: S::as_mut_simd_f64s(wrenches).0,
             results: S::as_mut_simd_f64s(results).0,
         };
         for screw in &self.program.screws {
             registers.place_screw(simd, screw);
         }
         registers.errors.fill(simd.splat_f64s(0.0));
+        registers.load_terms.fill(simd.splat_f64s(0.0));
         for front in &self.program.fronts.list {
             registers.solve_front(simd, self.program, front);
         }
@@ -96,7 +97,7 @@ impl<S: Simd> Registers<'_, S> {
     fn place_screw(&mut self, simd: S, screw: &Screw) {
         let zero = Lane::splat(simd, 0.0);
         let (mut linear, mut angular): (Vec3<S>, Vec3<S>) = ([zero; 3], [zero; 3]);
-        for (column, along, about) in &screw.axes {
+        for (column, along, about) in &screw.motion.axes {
             let axis = vector(simd, self.inputs, *column);
             if *along != 0.0 {
                 linear = add(&linear, &scaled(&axis, Lane::splat(simd, *along)));
@@ -136,23 +137,26 @@ impl<S: Simd> Registers<'_, S> {
         for (local, variable) in self.local_errors.iter_mut().zip(&front.variables) {
             *local = self.errors[*variable];
         }
-        for ((part, places), moves) in front.parts.iter().zip(&scatter.parts) {
-            self.add_part(simd, program, size, *part, places, moves);
-        }
-        for (k, hang) in front.hangs.iter().enumerate() {
-            let motion = Motion::<S> {
-                inputs: self.inputs,
-                screws: self.screws,
+        for k in 0..front.parts.len() + front.hangs.len() {
+            let (part, places, moves) = if let Some((part, places)) = front.parts.get(k) {
+                (*part, places, &scatter.parts[k])
+            } else {
+                let k = k - front.parts.len();
+                let hang = &front.hangs[k];
+                let motion = Motion::<S> {
+                    inputs: self.inputs,
+                    screws: self.screws,
+                };
+                let mut matrix = Matrix::<S> {
+                    entries: self.front,
+                    size,
+                    errors: self.local_errors,
+                };
+                let places = &scatter.hangs[k];
+                make_relative(simd, &mut matrix, hang, places, &motion, self.gains);
+                (hang.part, &hang.part_places, &scatter.hung_parts[k])
             };
-            let mut matrix = Matrix::<S> {
-                entries: self.front,
-                size,
-                errors: self.local_errors,
-            };
-            let places = &scatter.hangs[k];
-            make_relative(simd, &mut matrix, hang, places, &motion, self.gains);
-            let moves = &scatter.hung_parts[k];
-            self.add_part(simd, program, size, hang.part, &hang.part_places, moves);
+            self.add_part(simd, program, size, part, places, moves);
         }
         let mut matrix = Matrix::<S> {
             entries: self.front,
@@ -165,7 +169,7 @@ impl<S: Simd> Registers<'_, S> {
             simd,
             &mut matrix,
             front.pivots,
-            front.idle,
+            if front.idle > 0 { self.load_terms } else { &[] },
             self.panel,
             rest,
         );
@@ -192,6 +196,8 @@ impl<S: Simd> Registers<'_, S> {
             errors: self.local_errors,
             screws: self.screws,
             inputs: self.inputs,
+            idle: &program.idle,
+            load_terms: self.load_terms,
         };
         // The loads' row is the last coordinate of those that have it.
         let row = places[places.len() - 1];
@@ -208,23 +214,15 @@ impl<S: Simd> Registers<'_, S> {
                 let element = &program.elements[k];
                 let nodes = &element.nodes;
                 match &element.kind {
-                    Kind::Beam(b) => beam(simd, b, self.inputs, self.blocks),
+                    Kind::Chain(chain) => {
+                        let wrenches = &mut *self.wrenches;
+                        add_chain(&mut assembly, chain, nodes, places, &moves.pairs, wrenches);
+                        return;
+                    }
+                    Kind::Flexible(body) => flexible(simd, body, self.inputs, self.blocks),
                     Kind::Bushing { columns, stiffness } => {
                         let count = nodes.len();
                         bushing(simd, columns, stiffness, count, self.inputs, self.blocks);
-                    }
-                    Kind::Held(h) => {
-                        let (formed, forming) = (&mut *self.formed, &mut *self.forming);
-                        held(simd, h, self.inputs, self.blocks, formed, forming);
-                        for joint in &h.joints {
-                            if joint.load.iter().all(|v| *v == 0.0) {
-                                continue;
-                            }
-                            let give = joint_give(simd, joint, self.inputs);
-                            let give = (&give.0, &give.1);
-                            let node = joint.node;
-                            assembly.add_inner_load(nodes, places, row, self.blocks, node, give);
-                        }
                     }
                 }
                 assembly.add_element(nodes, places, self.blocks, moves);
@@ -282,7 +280,19 @@ impl<S: Simd> Registers<'_, S> {
             self.results[DISPLACEMENT + c] = displacement[c].value;
         }
         self.results[ERROR] = error.value;
-        self.results[PIVOT] = pivot.value;
+        let mut lost = error;
+        if program.fronts.loaded {
+            // A pivot's error acts on the forces handed on to the output as on the stiffness: by the
+            // geometric mean of what it does to the two diagonals.
+            let row = Lane::new(simd, self.errors[last.variables[last.pivots + 6]]);
+            let mut energy = zero;
+            for c in 0..6 {
+                energy = energy.max(displacement[c] * displacement[c] * k[c][c]);
+            }
+            let by_loads = row * Lane::splat(simd, ROUNDING) * error / energy;
+            lost = lost.max(by_loads.if_above(zero, by_loads, zero).sqrt());
+        }
+        self.results[DISPLACEMENT_ERROR] = (lost / pivot).value;
     }
 }
 
@@ -313,37 +323,4 @@ fn solve_six<S: Simd>(k: &[[Lane<S>; 6]; 6], f: [Lane<S>; 6]) -> ([Lane<S>; 6], 
         u[c] = sum * inverses[c];
     }
     (u, loss.recip())
-}
-
-/// What a load inside an absorbed joint displaces its node by: the joint's compliance, turned,
-/// times the load.
-#[inline(always)]
-fn joint_give<S: Simd>(
-    simd: S,
-    joint: &super::program::HeldJoint,
-    inputs: &[S::f64s],
-) -> (Vec3<S>, Vec3<S>) {
-    let frame = transposed(&three!(k => vector(simd, inputs, joint.columns[k])));
-    let (force, moment) = parts(simd, &joint.load);
-    let own = &joint.own;
-    (
-        add(
-            &apply(&turned(simd, own, (0, 0), &frame), &force),
-            &apply(&turned(simd, own, (0, 3), &frame), &moment),
-        ),
-        add(
-            &apply(&turned(simd, own, (3, 0), &frame), &force),
-            &apply(&turned(simd, own, (3, 3), &frame), &moment),
-        ),
-    )
-}
-
-impl Element {
-    /// The element, where it is a held one.
-    pub fn held(&self) -> Option<&HeldElement> {
-        match &self.kind {
-            Kind::Held(held) => Some(held),
-            _ => None,
-        }
-    }
 }

@@ -7,26 +7,25 @@
 //! differ from lane to lane is left (the book, "Lanes").
 //!
 //! Every carrier moves as a rigid body by `root + Σ screw · q`, with the twists of root and screws
-//! taken at one reference point a component. An element is thus its stiffness over its nodes,
-//! carried to those points, and nothing else.
+//! taken at one reference point a component. Beams and elastic joints in series are one element
+//! ([`series`](super::series)); what lies between them has no coordinates.
 
-use hyperstat_elements::Beam;
-use hyperstat_elements::subassembly::ElasticJoint;
 use hyperstat_joints::Dof;
 use nalgebra::{DVector, Matrix6, Vector6};
 
-use crate::cluster::{SegmentBeam, cluster_frame, local_joints, unit_beam};
-use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
-use crate::numeric::evaluate;
-use crate::plan::{Plan, Source};
-use crate::restraint::{Restraint, scaled};
-use crate::topology::Cluster;
+use crate::directions::Directions;
+use crate::kinematics::{characteristic_length, node_twist};
+use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::plan::Plan;
+use crate::restraint::{Restraint, largest_minor, scaled};
+use crate::topology::{Cluster, Topology};
 
-use super::form::{Body, FactorColumn, Form, SegmentForm, TaperedElement};
+use super::chain::{Chain, InnerLoad, Link, Release};
 use super::fronts::{Fronts, Group};
 use super::hang::{hang, late_roots};
 use super::inputs::{Inputs, Point};
 use super::scatter::Scatter;
+use super::series::Series;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;
@@ -48,18 +47,21 @@ pub(super) struct Program {
     pub fronts: Fronts,
     /// All coordinates, the loads' row included.
     pub coordinates: usize,
+    /// By coordinates: which idle motion it tells.
+    pub idle: Vec<Option<usize>>,
+    pub idle_count: usize,
     /// Blocks that the largest element needs, 36 entries each.
     pub most_blocks: usize,
+    /// Coordinates of the chain that has most.
+    pub most_ends: usize,
 }
 
 /// The relative motion that a joint's coordinate stands for: a twist at the joint, carried to the
 /// component's reference point.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Screw {
     pub coordinate: usize,
-    /// Columns of the joint frame (places in the inputs), with what each gives to the translation
-    /// and to the rotation.
-    pub axes: Vec<(usize, f64, f64)>,
+    pub motion: Release,
     /// From the joint to the reference point, where they differ.
     pub arm: Option<[Point; 2]>,
 }
@@ -81,26 +83,26 @@ impl NodeMotion {
         self.root.is_some() || !self.screws.is_empty()
     }
 
-    fn coordinates(&self) -> impl Iterator<Item = usize> {
+    pub fn coordinates(&self) -> impl Iterator<Item = usize> {
         let root = self.root.into_iter().flat_map(|start| start..start + 6);
         root.chain(self.screws.iter().copied())
     }
 }
 
 /// An element: what it is, and how its nodes move.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Element {
     pub kind: Kind,
     pub nodes: Vec<NodeMotion>,
 }
 
 /// Where an element's stiffness comes from.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) enum Kind {
-    /// A prismatic beam between two points.
-    Beam(BeamElement),
-    /// A stiffness over nodes 1..=m with node 0 held, in axes that turn with the body.
-    Held(HeldElement),
+    /// Beams and elastic joints in series between two nodes.
+    Chain(Chain),
+    /// A flexible body.
+    Flexible(FlexibleElement),
     /// A stiffness between two nodes at one point, in a joint's frame (its columns' places).
     Bushing {
         columns: [usize; 3],
@@ -108,267 +110,142 @@ pub(super) enum Kind {
     },
 }
 
-/// A prismatic beam by its rigidities.
-#[derive(Debug)]
-pub(super) struct BeamElement {
-    pub ends: [Point; 2],
-    /// Direction of local y (a place in the inputs); `None` where it bends alike in all directions.
-    pub y_axis: Option<usize>,
-    pub axial: f64,
-    pub torsional: f64,
-    /// Bending about local y and z.
-    pub bending: [f64; 2],
-    /// `12 E I / G A_s` of deflection along z and y.
-    pub shear: [f64; 2],
-}
-
-/// A body's stiffness as it is in the plan's own configuration, what it depends on, and how it is
-/// formed where that changes.
-#[derive(Debug)]
-pub(super) struct HeldElement {
+/// A flexible body: a stiffness over nodes 1..=m with node 0 held, in axes that turn with it.
+#[derive(Debug, Clone)]
+pub(super) struct FlexibleElement {
     pub points: Vec<Point>,
-    pub axes: Axes,
-    /// Stiffness over nodes 1..=m, column-major.
+    /// Columns of its rotation (places in the inputs).
+    pub axes: [usize; 3],
+    /// Column-major.
     pub stiffness: Vec<f64>,
-    pub form: Form,
-    /// Where the stiffness changes with the pose: from node 0 to the others in the body's axes.
-    pub arms: Vec<[f64; 3]>,
-    /// Over the largest component of these.
-    pub per_length: f64,
-    pub joints: Vec<HeldJoint>,
-}
-
-/// Axes of a held element.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Axes {
-    /// Those of the segment from point 0 to point 1, with the place of its local y's direction.
-    Segment(usize),
-    /// The rotation of a flexible body (places of its columns).
-    Flexible([usize; 3]),
-}
-
-/// An absorbed joint of a held element.
-#[derive(Debug)]
-pub(super) struct HeldJoint {
-    /// Places of its frame's columns.
-    pub columns: [usize; 3],
-    /// Compliance in the joint's frame, and turned to the body's axes.
-    pub own: Matrix6<f64>,
-    pub turned: Matrix6<f64>,
-    /// The parts of the compliance that are not zero.
-    pub parts: Vec<CompliancePart>,
-    /// Its node in the element, and the loads inside it.
-    pub node: usize,
-    pub load: Vector6<f64>,
-}
-
-/// A 3×3 part of a compliance.
-#[derive(Debug)]
-pub(super) struct CompliancePart {
-    /// Its first row and column.
-    pub place: (usize, usize),
-    /// Over the size of its entries.
-    pub per_size: f64,
-}
-
-impl CompliancePart {
-    fn all_of(own: &Matrix6<f64>) -> Vec<Self> {
-        let largest = |first: usize| (first..first + 3).map(|k| own[(k, k)]).fold(0.0, f64::max);
-        let parts = [(0, 0), (0, 3), (3, 3)].map(|(i, j)| Self {
-            place: (i, j),
-            per_size: 1.0 / f64::sqrt(largest(i) * largest(j)),
-        });
-        parts
-            .into_iter()
-            .filter(|p| p.per_size.is_finite())
-            .collect()
-    }
 }
 
 /// A constant entry of the stiffness.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Spring {
     pub coordinates: [usize; 2],
     pub stiffness: f64,
 }
 
 /// A load on a node.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct NodeLoad {
     pub node: NodeMotion,
+    pub point: Point,
     pub wrench: Vector6<f64>,
 }
 
-/// Where the carriers of a component stand.
-struct Placed {
-    /// First coordinate of the root.
-    root: Option<usize>,
-    reference: NodeId,
+impl NodeLoad {
+    /// The same within a chain.
+    pub fn inner(self) -> InnerLoad {
+        InnerLoad {
+            point: self.point,
+            wrench: self.wrench,
+        }
+    }
 }
 
 impl Program {
     /// The program of a plan; `None` where the lanes do not take it: closed loops of rigid bodies
-    /// whose elimination depends on the pose, an output that does not move in all six ways,
-    /// motions of the output without energy, too many coordinates.
+    /// whose elimination depends on the pose, motions of the output without energy, too many
+    /// coordinates.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
-        let topology = &plan.topology;
-        if !plan.closed.is_empty()
-            || !plan.output_is_independent()
-            || topology.coordinates > MOST_COORDINATES
-        {
+        let topology = Topology::new(model, geometry, plan.output, false);
+        let closed = |component: &crate::topology::Component| !component.closings.is_empty();
+        if topology.components.iter().any(closed) || topology.coordinates > MOST_COORDINATES {
             return None;
         }
         let mut inputs = Inputs::new(model, geometry, APART)?;
-        let mut placed: Vec<Option<Placed>> = topology.carriers.iter().map(|_| None).collect();
-        let mut screws = Vec::new();
-        for component in &topology.components {
-            let reference = match (component.root, component.ties.first()) {
-                (Some(root), _) => topology.carriers[root].reference,
-                (None, Some(tie)) => tie.child_node,
-                (None, None) => continue,
-            };
-            let root = component.root.map(|c| topology.carriers[c].coordinates[0]);
-            let members = component
-                .root
-                .into_iter()
-                .chain(component.ties.iter().map(|t| t.child));
-            for carrier in members {
-                placed[carrier] = Some(Placed { root, reference });
-            }
-            for tie in &component.ties {
-                let moving = topology.joints[tie.joint.0].moving;
-                let basis = model.joints()[tie.joint.0].joint.basis();
-                for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
-                    screws.push(Screw {
-                        coordinate,
-                        axes: axes_of(&basis, dof, tie.joint, &mut inputs),
-                        arm: inputs.arm(tie.child_node, reference),
-                    });
-                }
-            }
-        }
-        let motion = |node: NodeId, inputs: &mut Inputs| {
-            let carrier = topology.carrier_of[node.0];
-            let placed = placed[carrier].as_ref()?;
-            let own = &topology.carriers[carrier].coordinates;
-            let skipped = if placed.root.is_some() { 6 } else { 0 };
-            let moves = !own.is_empty();
-            Some(NodeMotion {
-                root: placed.root,
-                screws: own[skipped..].to_vec(),
-                arm: inputs.arm(placed.reference, node).filter(|_| moves),
-            })
+        let placed = Placed::all(&topology);
+        let screws = screws(model, &topology, &placed, &mut inputs)?;
+        let mut parts = Parts {
+            model,
+            geometry,
+            topology: &topology,
+            placed: &placed,
+            size: characteristic_length(geometry),
+            elements: Vec::new(),
+            springs: Vec::new(),
         };
-
-        let mut workspace = plan.workspace();
-        evaluate(plan, model, geometry, &[], &mut workspace).ok()?;
-        let mut elements = Vec::new();
-        let mut springs = Vec::new();
-        let mut weights = Vec::new();
-        for element in &plan.elements {
-            let mut nodes: Vec<NodeMotion> = Vec::new();
-            for (node, _) in &element.nodes {
-                nodes.push(motion(*node, &mut inputs)?);
-            }
-            let kind = match element.source {
-                Source::Cluster(k) => {
-                    let cluster = &topology.clusters[k];
-                    let beam = beam_element(cluster, model, &mut inputs);
-                    match beam {
-                        Some(beam) => Kind::Beam(beam),
-                        None => {
-                            let size = element.rows * element.rows;
-                            let start = element.stiffness_start;
-                            let stiffness = workspace.stiffnesses[start..start + size].to_vec();
-                            let held = Held {
-                                plan,
-                                model,
-                                geometry,
-                                cluster,
-                            };
-                            Kind::Held(held.element(stiffness, &mut inputs)?)
-                        }
-                    }
-                }
-                Source::Spring(joint) => {
-                    let role = &topology.joints[joint.0];
-                    let tie = topology.components.iter().flat_map(|c| &c.ties);
-                    let tie = tie.into_iter().find(|t| t.joint == joint);
-                    if let Some(tie) = tie {
-                        let places = tie.coordinates.clone().zip(role.moving.iter());
-                        let places: Vec<(usize, Dof)> =
-                            places.filter(|(_, d)| role.springs.contains(*d)).collect();
-                        for (k, (a, d)) in places.iter().enumerate() {
-                            for (b, e) in &places[k..] {
-                                springs.push(Spring {
-                                    coordinates: [*a, *b],
-                                    stiffness: role.directions.stiffness[(d.index(), e.index())],
-                                });
-                            }
-                        }
-                        continue;
-                    }
-                    let mut stiffness = role.directions.stiffness;
-                    for dof in role.springs.complement().iter() {
-                        stiffness.row_mut(dof.index()).fill(0.0);
-                        stiffness.column_mut(dof.index()).fill(0.0);
-                    }
-                    let basis = model.joints()[joint.0].joint.basis();
-                    let inverse = basis.try_inverse()?;
-                    Kind::Bushing {
-                        columns: [0, 1, 2].map(|c| inputs.frame_column(joint, c)),
-                        stiffness: Box::new(inverse.transpose() * stiffness * inverse),
-                    }
-                }
-            };
-            drop_shared(&mut nodes);
-            if nodes.iter().any(NodeMotion::moves) {
-                let rows = element.rows;
-                let diagonal =
-                    |k: usize| workspace.stiffnesses[element.stiffness_start + k * (rows + 1)];
-                weights.push((0..rows.min(3)).map(diagonal).sum());
-                elements.push(Element { kind, nodes });
-            }
+        for cluster in &topology.clusters {
+            parts.add_cluster(cluster, &mut inputs)?;
+        }
+        for joint in 0..model.joints().len() {
+            parts.add_joint(JointId(joint), &mut inputs)?;
         }
         let mut loads = Vec::new();
         for load in model.loads() {
             let wrench = load.wrench;
-            let node = motion(load.node, &mut inputs)?;
+            let node = parts.motion(load.node, &mut inputs)?;
             if node.moves() && wrench != Vector6::zeros() {
-                loads.push(NodeLoad { node, wrench });
+                let point = inputs.point(load.node);
+                loads.push(NodeLoad {
+                    node,
+                    point,
+                    wrench,
+                });
             }
         }
-        let idle = idle_coordinates(plan, model, geometry, &placed)?;
+        let idle = if plan.has_idle {
+            idle_coordinates(plan, &topology, model, geometry, &placed, &parts.elements)?
+        } else {
+            Vec::new()
+        };
         let output = topology.output_start..topology.output_start + 6;
-        let inner_load = elements.iter().any(has_inner_load)
-            || loads
-                .iter()
-                .any(|l| l.node.root != Some(output.start) || !l.node.screws.is_empty());
-        let loads_row = inner_load.then_some(topology.coordinates);
+        let with_root = topology.components.iter().filter(|c| c.root.is_some());
+        let components: Vec<_> = with_root
+            .map(|c| c.coordinates.clone())
+            .filter(|c| !c.contains(&output.start))
+            .collect();
+        let parts = Series {
+            elements: parts.elements,
+            springs: parts.springs,
+            loads,
+            private: idle.clone(),
+            idle,
+            gone: vec![false; topology.coordinates],
+        };
+        let Series {
+            mut elements,
+            springs,
+            loads,
+            idle,
+            gone,
+            ..
+        } = parts.joined(&screws, &components, |place| inputs.at(geometry, place));
+        let screws: Vec<Screw> = screws
+            .into_iter()
+            .filter(|screw| !gone[screw.coordinate])
+            .collect();
+        let of_output =
+            |l: &NodeLoad| l.node.root == Some(output.start) && l.node.screws.is_empty();
+        let at_output = loads.iter().all(of_output) && elements.iter().all(|e| !e.is_loaded());
+
+        let unknowns = topology.coordinates;
+        let loads_row = (!at_output).then_some(unknowns);
         let mut groups: Vec<Group> = Vec::new();
         for (k, element) in elements.iter().enumerate() {
-            let loaded = loads_row.filter(|_| has_inner_load(element));
             let own = element.nodes.iter().flat_map(NodeMotion::coordinates);
-            groups.push(Group::element(k, own.chain(loaded).collect()));
+            let row = loads_row.filter(|_| element.is_loaded());
+            groups.push(Group::element(k, own.chain(row).collect()));
         }
         for (k, spring) in springs.iter().enumerate() {
             groups.push(Group::spring(k, spring.coordinates.to_vec()));
         }
         for (k, load) in loads.iter().enumerate() {
-            groups.push(Group::load(
-                k,
-                load.node.coordinates().chain(loads_row).collect(),
-            ));
+            let own = load.node.coordinates();
+            groups.push(Group::load(k, own.chain(loads_row).collect()));
         }
-        let unknowns = topology.coordinates;
+        let weights: Vec<f64> = elements.iter().map(Element::weight).collect();
         let references = placed
             .iter()
             .flatten()
             .filter_map(|p| Some((p.root?, p.reference)));
-        let references = references.collect();
+        let references = references.filter(|(root, _)| !gone[*root]).collect();
         let late = late_roots(&elements, &weights, &references);
         let late = |c: usize| late.iter().any(|root| (*root..*root + 6).contains(&c));
-        let mut fronts = Fronts::new(unknowns, groups, &idle, output, loads_row, late)?;
+        let eliminated = (0..unknowns).filter(|c| !gone[*c]).collect();
+        let mut fronts = Fronts::new(eliminated, groups, &idle, output, loads_row, late)?;
         hang(
             &mut fronts,
             &mut elements,
@@ -379,9 +256,15 @@ impl Program {
         for front in &mut fronts.list {
             front.scatter = Scatter::new(front, &elements);
         }
-        let blocks = |e: &Element| e.nodes.len() * (e.nodes.len() + 1) / 2;
+        let blocks = elements.iter().map(Element::blocks);
+        let ends = elements.iter().map(Element::ends);
         Some(Self {
-            most_blocks: elements.iter().map(blocks).max().unwrap_or(0),
+            most_blocks: blocks.max().unwrap_or(0),
+            most_ends: ends.max().unwrap_or(0),
+            idle: (0..unknowns)
+                .map(|c| idle.iter().position(|i| *i == c))
+                .collect(),
+            idle_count: idle.len(),
             inputs,
             screws,
             elements,
@@ -393,162 +276,257 @@ impl Program {
     }
 }
 
-/// Whether loads inside an element's absorbed joints strain it.
-fn has_inner_load(element: &Element) -> bool {
-    matches!(&element.kind, Kind::Held(held) if held.joints.iter().any(|j| j.load != Vector6::zeros()))
+impl Element {
+    /// Stiffness against translations in the plan's configuration, as a measure \[N/m\].
+    fn weight(&self) -> f64 {
+        match &self.kind {
+            Kind::Chain(chain) => chain.weight(),
+            Kind::Flexible(flexible) => {
+                let rows = 6 * (flexible.points.len() - 1);
+                (0..3).map(|k| flexible.stiffness[k * (rows + 1)]).sum()
+            }
+            Kind::Bushing { stiffness, .. } => (0..3).map(|k| stiffness[(k, k)]).sum(),
+        }
+    }
+
+    /// Blocks that it needs, 36 entries each.
+    fn blocks(&self) -> usize {
+        match self.kind {
+            Kind::Chain(_) => 0,
+            _ => self.nodes.len() * (self.nodes.len() + 1) / 2,
+        }
+    }
+
+    /// Free motions within a chain.
+    pub fn releases(&self) -> usize {
+        match &self.kind {
+            Kind::Chain(chain) => chain.releases.len(),
+            _ => 0,
+        }
+    }
+
+    /// Whether loads act on what lies within it.
+    pub fn is_loaded(&self) -> bool {
+        matches!(&self.kind, Kind::Chain(chain) if !chain.loads.is_empty())
+    }
+
+    /// Coordinates of a chain.
+    pub fn ends(&self) -> usize {
+        match self.kind {
+            Kind::Chain(_) => self.nodes.iter().flat_map(NodeMotion::coordinates).count(),
+            _ => 0,
+        }
+    }
 }
 
-/// The columns of a joint's frame that make up one of its directions.
-fn axes_of(
-    basis: &Matrix6<f64>,
-    dof: Dof,
-    joint: JointId,
+/// Where a carrier stands.
+struct Placed {
+    /// First coordinate of its component's root.
+    root: Option<usize>,
+    /// The component's reference point.
+    reference: NodeId,
+}
+
+impl Placed {
+    /// By carriers.
+    fn all(topology: &Topology) -> Vec<Option<Self>> {
+        let mut placed: Vec<Option<Self>> = topology.carriers.iter().map(|_| None).collect();
+        for component in &topology.components {
+            let reference = match (component.root, component.ties.first()) {
+                (Some(root), _) => topology.carriers[root].reference,
+                (None, Some(tie)) => tie.child_node,
+                (None, None) => continue,
+            };
+            let root = component.root.map(|c| topology.carriers[c].coordinates[0]);
+            let children = component.ties.iter().map(|t| t.child);
+            for carrier in component.root.into_iter().chain(children) {
+                placed[carrier] = Some(Self { root, reference });
+            }
+        }
+        placed
+    }
+}
+
+/// The screws of all joints that have coordinates of their own.
+fn screws(
+    model: &Model,
+    topology: &Topology,
+    placed: &[Option<Placed>],
     inputs: &mut Inputs,
-) -> Vec<(usize, f64, f64)> {
+) -> Option<Vec<Screw>> {
+    let mut screws = Vec::new();
+    for tie in topology.components.iter().flat_map(|c| &c.ties) {
+        let reference = placed[tie.child].as_ref()?.reference;
+        let moving = topology.joints[tie.joint.0].moving;
+        for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
+            screws.push(Screw {
+                coordinate,
+                motion: release(model, tie.joint, dof, tie.child_node, inputs),
+                arm: inputs.arm(tie.child_node, reference),
+            });
+        }
+    }
+    Some(screws)
+}
+
+/// One of a joint's directions, at one of its nodes.
+fn release(model: &Model, joint: JointId, dof: Dof, node: NodeId, inputs: &mut Inputs) -> Release {
+    let basis = model.joints()[joint.0].joint.basis();
     let direction = basis.column(dof.index());
     let parts = (0..3).map(|c| (c, direction[c], direction[3 + c]));
-    parts
+    let axes = parts
         .filter(|(_, linear, angular)| *linear != 0.0 || *angular != 0.0)
         .map(|(c, linear, angular)| (inputs.frame_column(joint, c), linear, angular))
-        .collect()
-}
-
-/// The beam of a cluster that is one prismatic segment without absorbed joints.
-fn beam_element(cluster: &Cluster, model: &Model, inputs: &mut Inputs) -> Option<BeamElement> {
-    let [(id, _)] = cluster.segments.as_slice() else {
-        return None;
-    };
-    if cluster.joints.iter().any(Option::is_some) {
-        return None;
-    }
-    let SegmentBeam::Prismatic(beam) = unit_beam(model, *id)? else {
-        return None;
-    };
-    let ends = [cluster.nodes[0], cluster.nodes[1]];
-    Some(BeamElement::new(&beam, *id, ends, inputs))
-}
-
-impl BeamElement {
-    /// A segment of any length, run through from one node to the other.
-    fn new(beam: &Beam, id: SegmentId, ends: [NodeId; 2], inputs: &mut Inputs) -> Self {
-        let section = beam.section_compliance();
-        let (shear_y, shear_z) = (section[1], section[2]);
-        let bending = [beam.bending_rigidity_y(), beam.bending_rigidity_z()];
-        let mut element = Self {
-            ends: ends.map(|n| inputs.point(n)),
-            y_axis: None,
-            axial: beam.axial_rigidity(),
-            torsional: beam.torsional_rigidity(),
-            bending,
-            shear: [12.0 * bending[0] * shear_z, 12.0 * bending[1] * shear_y],
-        };
-        let [across, upwards] = element.bending;
-        if across != upwards || element.shear[0] != element.shear[1] {
-            element.y_axis = Some(inputs.y_axis(id, ends));
-        }
-        element
+        .collect();
+    Release {
+        point: inputs.point(node),
+        axes,
     }
 }
 
-/// A cluster about to become a held element.
-struct Held<'a> {
-    plan: &'a Plan,
+/// The parts of a mechanism, each by itself.
+struct Parts<'a> {
     model: &'a Model,
     geometry: &'a Geometry,
-    cluster: &'a Cluster,
+    topology: &'a Topology,
+    placed: &'a [Option<Placed>],
+    /// Of the mechanism.
+    size: f64,
+    elements: Vec<Element>,
+    springs: Vec<Spring>,
 }
 
-impl Held<'_> {
-    fn element(&self, stiffness: Vec<f64>, inputs: &mut Inputs) -> Option<HeldElement> {
-        let Self {
-            plan,
-            model,
-            geometry,
-            cluster,
-        } = self;
-        let to_local = cluster_frame(cluster, geometry).ok()?.inverse();
-        let base = geometry.positions[cluster.nodes[0].0];
-        let mut arms: Vec<[f64; 3]> = cluster.nodes[1..]
-            .iter()
-            .map(|n| (to_local * (geometry.positions[n.0] - base)).into())
-            .collect();
-        if cluster.flexible.is_some() {
-            arms.clear();
-        }
-        let longest = arms.iter().flatten().fold(0.0_f64, |m, a| m.max(a.abs()));
-        let rotation =
-            |id: FlexibleId, inputs: &mut Inputs| [0, 1, 2].map(|c| inputs.rotation(id, c));
-        let joints = local_joints(plan, model, geometry, cluster, &to_local);
-        Some(HeldElement {
-            form: self.form(&joints, inputs)?,
-            points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
-            axes: match cluster.flexible {
-                Some(id) => Axes::Flexible(rotation(id, inputs)),
-                None => {
-                    let ends = [cluster.nodes[0], cluster.nodes[1]];
-                    Axes::Segment(inputs.y_axis(cluster.segments[0].0, ends))
-                }
-            },
-            stiffness,
-            arms,
-            per_length: 1.0 / longest,
-            joints: joints
-                .into_iter()
-                .map(|(node, joint, elastic)| HeldJoint {
-                    columns: [0, 1, 2].map(|c| inputs.frame_column(joint, c)),
-                    own: elastic.compliance,
-                    parts: CompliancePart::all_of(&elastic.compliance),
-                    turned: elastic.turned_compliance(),
-                    node,
-                    load: model.node_load(cluster.nodes[node]),
-                })
-                .collect(),
+impl Parts<'_> {
+    fn motion(&self, node: NodeId, inputs: &mut Inputs) -> Option<NodeMotion> {
+        let carrier = self.topology.carrier_of[node.0];
+        let placed = self.placed[carrier].as_ref()?;
+        let own = &self.topology.carriers[carrier].coordinates;
+        let skipped = if placed.root.is_some() { 6 } else { 0 };
+        let moves = !own.is_empty();
+        Some(NodeMotion {
+            root: placed.root,
+            screws: own[skipped..].to_vec(),
+            arm: inputs.arm(placed.reference, node).filter(|_| moves),
         })
     }
-}
 
-impl Held<'_> {
-    /// How its stiffness is formed.
-    fn form(&self, joints: &[(usize, JointId, ElasticJoint)], inputs: &mut Inputs) -> Option<Form> {
-        let Self { model, cluster, .. } = self;
-        let body = match cluster.flexible {
+    fn origin(&self, node: NodeId, inputs: &mut Inputs) -> Option<Point> {
+        let placed = self.placed[self.topology.carrier_of[node.0]].as_ref()?;
+        Some(inputs.point(placed.reference))
+    }
+
+    /// Adds an element whose nodes move as the model's nodes say, unless it is rigidly held.
+    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>) {
+        drop_shared(&mut nodes);
+        if nodes.iter().any(NodeMotion::moves) {
+            self.elements.push(Element { kind, nodes });
+        }
+    }
+
+    fn add_cluster(&mut self, cluster: &Cluster, inputs: &mut Inputs) -> Option<()> {
+        let mut nodes = Vec::new();
+        for node in &cluster.nodes {
+            nodes.push(self.motion(*node, inputs)?);
+        }
+        let kind = match cluster.flexible {
             Some(id) => {
-                let held = model.flexibles()[id.0].element.held_stiffness();
-                Body::Given(held.as_slice().to_vec())
+                let stiffness = self.model.flexibles()[id.0].element.held_stiffness();
+                Kind::Flexible(FlexibleElement {
+                    points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
+                    axes: [0, 1, 2].map(|c| inputs.rotation(id, c)),
+                    stiffness: stiffness.as_slice().to_vec(),
+                })
             }
             None => {
-                let mut segments = Vec::new();
-                for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
-                    let ends = [cluster.nodes[k], cluster.nodes[k + 1]];
-                    segments.push(match unit_beam(model, *id)? {
-                        SegmentBeam::Prismatic(beam) => {
-                            SegmentForm::Prismatic(BeamElement::new(&beam, *id, ends, inputs))
-                        }
-                        SegmentBeam::Tapered(beam) => {
-                            let y_axis = inputs.y_axis(*id, ends);
-                            let ends = ends.map(|n| inputs.point(n));
-                            SegmentForm::Tapered(TaperedElement::new(
-                                &beam, *reversed, ends, y_axis,
-                            ))
-                        }
-                    });
+                // Without absorbed joints, a run is one segment.
+                let [(id, _)] = cluster.segments.as_slice() else {
+                    return None;
+                };
+                let ends = self.model.segments()[id.0].ends;
+                nodes.clear();
+                for node in ends {
+                    nodes.push(self.motion(node, inputs)?);
                 }
-                Body::Run(segments)
+                let link = Link::beam(self.model, self.geometry, *id, inputs)?;
+                let [a, b] = ends.map(|n| self.origin(n, inputs));
+                Kind::Chain(Chain::new(link, Vec::new(), [a?, b?]))
             }
         };
-        let columns = joints.iter().flat_map(|(node, joint, elastic)| {
-            let frame = [0, 1, 2].map(|c| inputs.frame_column(*joint, c));
-            FactorColumn::all_of(*node, &elastic.compliance, frame)
-        });
-        Some(Form {
-            columns: columns.collect(),
-            body,
-        })
+        self.add(kind, nodes);
+        Some(())
+    }
+
+    /// What an elastic joint adds.
+    fn add_joint(&mut self, joint: JointId, inputs: &mut Inputs) -> Option<()> {
+        let role = &self.topology.joints[joint.0];
+        if role.springs.is_empty() {
+            return Some(());
+        }
+        let ties = self.topology.components.iter().flat_map(|c| &c.ties);
+        if let Some(tie) = ties.into_iter().find(|t| t.joint == joint) {
+            if !role.directions.has_stiffness {
+                return None;
+            }
+            let places = tie.coordinates.clone().zip(role.moving.iter());
+            let places: Vec<(usize, Dof)> =
+                places.filter(|(_, d)| role.springs.contains(*d)).collect();
+            for (k, (a, d)) in places.iter().enumerate() {
+                for (b, e) in &places[k..] {
+                    let stiffness = role.directions.stiffness[(d.index(), e.index())];
+                    if a == b || stiffness != 0.0 {
+                        self.springs.push(Spring {
+                            coordinates: [*a, *b],
+                            stiffness,
+                        });
+                    }
+                }
+            }
+            return Some(());
+        }
+        let entry = &self.model.joints()[joint.0];
+        let columns = [0, 1, 2].map(|c| inputs.frame_column(joint, c));
+        let basis = entry.joint.basis();
+        let Directions {
+            stiffness,
+            has_stiffness,
+            compliance,
+            ..
+        } = &role.directions;
+        let mut nodes = Vec::new();
+        for node in entry.between.iter().flatten() {
+            nodes.push(self.motion(*node, inputs)?);
+        }
+        let kind = match compliance {
+            Some(compliance) => {
+                let at = entry.between.iter().flatten().next()?;
+                let own = basis * compliance * basis.transpose();
+                let link = Link::joint(&own, *at, columns, self.size, inputs);
+                let free = role.directions.free.iter();
+                let releases = free.map(|dof| release(self.model, joint, dof, *at, inputs));
+                let releases = releases.collect();
+                let mut origins = [inputs.point(*at); 2];
+                for (origin, node) in origins.iter_mut().zip(entry.between.iter().flatten()) {
+                    *origin = self.origin(*node, inputs)?;
+                }
+                Kind::Chain(Chain::new(link, releases, origins))
+            }
+            None if *has_stiffness => {
+                let inverse = basis.try_inverse()?;
+                let stiffness = Box::new(inverse.transpose() * stiffness * inverse);
+                Kind::Bushing { columns, stiffness }
+            }
+            None => return None,
+        };
+        if matches!(kind, Kind::Chain(_)) && nodes.len() == 1 {
+            nodes.push(NodeMotion::default());
+        }
+        self.add(kind, nodes);
+        Some(())
     }
 }
 
 /// Takes out what all nodes of an element share: with it they move as one rigid body.
-fn drop_shared(nodes: &mut [NodeMotion]) {
+pub(super) fn drop_shared(nodes: &mut [NodeMotion]) {
     let first = nodes[0].clone();
     if first.root.is_some() && nodes.iter().all(|n| n.root == first.root) {
         for node in nodes.iter_mut() {
@@ -564,29 +542,32 @@ fn drop_shared(nodes: &mut [NodeMotion]) {
     }
 }
 
-/// One coordinate an idle motion: those with the largest minor. `None` where the output moves
-/// without energy.
+/// One coordinate an idle motion: those with the largest minor, where joints' coordinates count
+/// more that move several elements, since they stay, and roots' less, since they should go. `None`
+/// where the output moves without energy.
 fn idle_coordinates(
     plan: &Plan,
+    topology: &Topology,
     model: &Model,
     geometry: &Geometry,
     placed: &[Option<Placed>],
+    elements: &[Element],
 ) -> Option<Vec<usize>> {
-    if !plan.has_idle {
-        return Some(Vec::new());
-    }
     let restraint = Restraint::new(model, geometry, plan.output);
     if !restraint.moving.is_empty() {
         return None;
     }
-    let topology = &plan.topology;
     let mut columns: Vec<DVector<f64>> = Vec::new();
     for motion in &restraint.idle {
-        let twist = |node: NodeId| crate::kinematics::node_twist(motion, model, geometry, node.0);
+        let twist = |node: NodeId| node_twist(motion, model, geometry, node.0);
         let mut column = DVector::zeros(topology.coordinates);
+        let uses = |c: usize| {
+            let moved = |e: &&Element| e.nodes.iter().any(|n| n.screws.contains(&c));
+            elements.iter().filter(moved).count()
+        };
         for placed in placed.iter().flatten() {
             if let Some(root) = placed.root {
-                let at = scaled(&twist(placed.reference), restraint.size);
+                let at = scaled(&twist(placed.reference), restraint.size) / 4.0;
                 column.fixed_rows_mut::<6>(root).copy_from(&at);
             }
         }
@@ -599,10 +580,11 @@ fn idle_coordinates(
             let moving = topology.joints[tie.joint.0].moving;
             for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
                 let unit = if dof.index() < 3 { restraint.size } else { 1.0 };
-                column[coordinate] = along[dof.index()] / unit;
+                let rank = if uses(coordinate) > 1 { 4.0 } else { 1.0 };
+                column[coordinate] = along[dof.index()] / unit * rank;
             }
         }
         columns.push(column);
     }
-    Some(crate::restraint::largest_minor(columns, STILL))
+    Some(largest_minor(columns, STILL))
 }

@@ -3,11 +3,12 @@
 
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{
-    Cylindrical, DofSet, Fixed, Joint, Prismatic, Revolute, Spherical, Universal, frame_from_axes,
+    Cylindrical, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
+    frame_from_axes,
 };
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
-use super::pass::{DISPLACEMENT, ERROR, PIVOT};
+use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
 use super::{LANES, Lanes};
 use crate::model::{Connection, Geometry, JointStiffness, Member, Model};
 use crate::plan::Plan;
@@ -63,12 +64,14 @@ impl Random {
     }
 
     fn joint(&mut self) -> (Box<dyn Joint>, DofSet, JointStiffness) {
-        let joint: Box<dyn Joint> = match self.below(8) {
+        let joint: Box<dyn Joint> = match self.below(12) {
             0 => Box::new(Revolute),
             1 => Box::new(Prismatic),
             2 => Box::new(Cylindrical),
-            3 => Box::new(Universal),
-            4 => Box::new(Spherical),
+            3 | 4 => Box::new(Universal),
+            5 | 6 => Box::new(Spherical),
+            7 => Box::new(Screw::new(self.between(-0.05, 0.05)).expect("a pitch")),
+            8 => Box::new(Planar),
             _ => Box::new(Fixed),
         };
         let locked = if self.unit() < 0.6 {
@@ -76,6 +79,13 @@ impl Random {
         } else {
             DofSet::EMPTY
         };
+        if self.unit() < 0.15 {
+            // A bushing with all directions coupled.
+            let size = Vector6::new(1e4, 1e4, 1e4, 1e2, 1e2, 1e2);
+            let rows = Matrix6::from_fn(|i, _| size[i] * self.between(-1.0, 1.0));
+            let matrix = rows * rows.transpose() + Matrix6::from_diagonal(&size.map(|s| s * s));
+            return (joint, locked, JointStiffness::Matrix(matrix));
+        }
         let mut stiffness = [None; 6];
         if self.unit() < 0.5 {
             for (d, stiffness) in stiffness.iter_mut().enumerate() {
@@ -207,7 +217,7 @@ fn estimates(lanes: &Lanes, lane: usize) -> [f64; 2] {
     let engine = lanes.engine.as_ref().expect("lanes");
     let at = |k: usize| engine.buffers.result(k, lane);
     assert!(at(DISPLACEMENT).is_finite());
-    [at(ERROR), at(ERROR) / at(PIVOT)]
+    [at(ERROR), at(DISPLACEMENT_ERROR)]
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use super::blocks::place;
 use super::fronts::{Front, Part};
-use super::program::{Element, NodeMotion};
+use super::program::{Element, Kind, NodeMotion};
 
 /// From one place to another.
 pub(super) type Move = [u32; 2];
@@ -15,6 +15,8 @@ pub(super) struct Moves {
     pub added: Vec<Move>,
     /// Diagonal entries: from their places to their variables', for the errors.
     pub diagonal: Vec<Move>,
+    /// Of a chain: entries of its coordinates, column by column of the lower triangle.
+    pub pairs: Vec<u32>,
 }
 
 /// Everything that is added to a front.
@@ -58,8 +60,12 @@ impl Scatter {
             }
             scatter.children.push(moves);
         }
-        let of = |part: Part, places: &[usize], stored: &mut [bool]| match part {
-            Part::Element(k) => element(&elements[k].nodes, places, size, stored),
+        let mut zeros = Vec::new();
+        let mut of = |part: Part, places: &[usize], stored: &mut [bool]| match part {
+            Part::Element(k) => match elements[k].kind {
+                Kind::Chain(_) => chain(&places[..elements[k].ends()], size, stored, &mut zeros),
+                _ => element(&elements[k].nodes, places, size, stored),
+            },
             Part::Spring(_) | Part::Load(_) => Moves::default(),
         };
         for (part, places) in &front.parts {
@@ -86,7 +92,8 @@ impl Scatter {
                 .push(of(hang.part, &hang.part_places, &mut all));
         }
         let lower = (0..size).flat_map(|c| (c..size).map(move |r| c * size + r));
-        scatter.zeros = lower.filter(|p| !stored[*p]).map(|p| p as u32).collect();
+        zeros.extend(lower.filter(|p| !stored[*p]).map(|p| p as u32));
+        scatter.zeros = zeros;
         scatter
     }
 }
@@ -106,6 +113,21 @@ impl Moves {
 /// Place of entry (i, j) or (j, i).
 fn entry(size: usize, i: usize, j: usize) -> usize {
     i.min(j) * size + i.max(j)
+}
+
+/// The entries of a chain, which are only added to: those that nothing was stored in go to `zeros`.
+fn chain(places: &[usize], size: usize, stored: &mut [bool], zeros: &mut Vec<u32>) -> Moves {
+    let mut moves = Moves::default();
+    for (j, &column) in places.iter().enumerate() {
+        for &row in &places[j..] {
+            let entry = entry(size, row, column);
+            moves.pairs.push(entry as u32);
+            if !std::mem::replace(&mut stored[entry], true) {
+                zeros.push(entry as u32);
+            }
+        }
+    }
+    moves
 }
 
 /// The entries between the roots of an element's nodes.

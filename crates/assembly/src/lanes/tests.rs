@@ -189,7 +189,7 @@ impl WithSimd for Eliminate {
             size,
             errors: &mut errors,
         };
-        eliminate(simd, &mut matrix, self.pivots, 0, &mut panel, &mut rest);
+        eliminate(simd, &mut matrix, self.pivots, &[], &mut panel, &mut rest);
         DMatrix::from_fn(left, left, |r, c| {
             simd.reduce_max_f64s(rest[c.min(r) * left + c.max(r)])
         })
