@@ -135,8 +135,8 @@ pub(super) struct Loaded<S: Simd> {
     pub total: Six<S>,
     /// What end 1 moves, free motions apart.
     pub moved: Six<S>,
-    /// Work that is missing along free and along idle motions, with the size of its terms squared.
-    pub works: [Lane<S>; MOST_RELEASES],
+    /// Work that is missing along free and along idle motions, with the squares of its terms.
+    pub works: [[Lane<S>; 2]; MOST_RELEASES],
     pub idle_works: [[Lane<S>; 2]; MOST_IDLE],
 }
 
@@ -153,7 +153,7 @@ pub(super) fn loaded_compliance<S: Simd>(
     let mut loaded = Loaded {
         total: [zero; 6],
         moved: [zero; 6],
-        works: [zero; MOST_RELEASES],
+        works: [[zero; 2]; MOST_RELEASES],
         idle_works: [[zero; 2]; MOST_IDLE],
     };
     for item in chain.order.iter().rev() {
@@ -187,8 +187,8 @@ pub(super) fn loaded_compliance<S: Simd>(
                 }
             }
             Item::Release(k) => {
-                let [work, _] = frame.work(simd, &chain.releases[k], &loaded.total, inputs);
-                loaded.works[k] = -work;
+                let [work, terms] = frame.work(simd, &chain.releases[k], &loaded.total, inputs);
+                loaded.works[k] = [-work, terms];
             }
             Item::Idle(k) => {
                 let [work, terms] = frame.work(simd, &chain.idle[k].along, &loaded.total, inputs);

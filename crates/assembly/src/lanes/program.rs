@@ -33,6 +33,9 @@ const MOST_COORDINATES: usize = 600;
 const APART: f64 = 1e-9;
 /// Entries of idle motions below this are none.
 const STILL: f64 = 1e-9;
+/// How much coordinates count that stay, and those that may go, to tell idle motions by.
+const STAYS: f64 = 4.0;
+const GOES: f64 = 0.25;
 
 /// The work of a pose.
 #[derive(Debug)]
@@ -542,9 +545,9 @@ pub(super) fn drop_shared(nodes: &mut [NodeMotion]) {
     }
 }
 
-/// One coordinate an idle motion: those with the largest minor, where joints' coordinates count
-/// more that move several elements, since they stay, and roots' less, since they should go. `None`
-/// where the output moves without energy.
+/// One coordinate an idle motion: those with the largest minor, where coordinates count more that
+/// stay, since several chains meet at them, and roots' less that could go. `None` where the output
+/// moves without energy.
 fn idle_coordinates(
     plan: &Plan,
     topology: &Topology,
@@ -561,13 +564,12 @@ fn idle_coordinates(
     for motion in &restraint.idle {
         let twist = |node: NodeId| node_twist(motion, model, geometry, node.0);
         let mut column = DVector::zeros(topology.coordinates);
-        let uses = |c: usize| {
-            let moved = |e: &&Element| e.nodes.iter().any(|n| n.screws.contains(&c));
-            elements.iter().filter(moved).count()
-        };
+        let nodes = || elements.iter().flat_map(|e| &e.nodes);
         for placed in placed.iter().flatten() {
             if let Some(root) = placed.root {
-                let at = scaled(&twist(placed.reference), restraint.size) / 4.0;
+                let meeting = nodes().filter(|n| n.root == Some(root)).count();
+                let rank = if meeting > 2 { STAYS } else { GOES };
+                let at = scaled(&twist(placed.reference), restraint.size) * rank;
                 column.fixed_rows_mut::<6>(root).copy_from(&at);
             }
         }
@@ -580,7 +582,8 @@ fn idle_coordinates(
             let moving = topology.joints[tie.joint.0].moving;
             for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
                 let unit = if dof.index() < 3 { restraint.size } else { 1.0 };
-                let rank = if uses(coordinate) > 1 { 4.0 } else { 1.0 };
+                let meeting = nodes().filter(|n| n.screws.contains(&coordinate)).count();
+                let rank = if meeting > 1 { STAYS } else { 1.0 };
                 column[coordinate] = along[dof.index()] / unit * rank;
             }
         }

@@ -79,6 +79,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     let mut poison = zero;
     // The wrench that loads within make with both ends held: of it, what free motions ask for.
     let mut held = [zero; 6];
+    let mut doubts = [zero; M];
     let mut row_error = zero;
     for k in 0..M {
         let mut s = frame.twist(simd, &chain.releases[k], inputs);
@@ -123,11 +124,14 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         }
         if let Some(loaded) = &mut loaded {
             // No work on motion k: that is one component of the wrench.
-            let mut missing = loaded.works[k];
+            let [mut missing, mut terms] = loaded.works[k];
             for i in 0..k {
                 missing = (-s[i]).mul_add(held[i], missing);
+                terms = (s[i] * s[i]).mul_add(held[i].mul_add(held[i], doubts[i]), terms);
             }
-            held[k] = missing / turned;
+            let inverse = turned.recip();
+            held[k] = missing * inverse;
+            doubts[k] = terms * inverse * inverse;
             reflect(&mut loaded.moved, &s, factor, k);
             for i in k + 1..6 {
                 let first = (-s[i]).mul_add(w[k], c[i][k]);
@@ -169,9 +173,8 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         if let Some(loaded) = &loaded {
             let [mut work, mut terms] = loaded.idle_works[k];
             for i in 0..M {
-                let term = s[i] * held[i];
-                work += -term;
-                terms = term.mul_add(term, terms);
+                work = (-s[i]).mul_add(held[i], work);
+                terms = (s[i] * s[i]).mul_add(held[i].mul_add(held[i], doubts[i]), terms);
             }
             let bound = terms * Lane::splat(simd, (IDLE * ROUNDING) * (IDLE * ROUNDING));
             poison += (work * work).if_above(bound, nan, zero);
