@@ -19,10 +19,10 @@ pub(super) struct Assembly<'a, S: Simd> {
     /// Twists of the screws, six entries a coordinate.
     pub screws: &'a [S::f64s],
     pub inputs: &'a [S::f64s],
-    /// By coordinates: which idle motion it tells.
-    pub idle: &'a [Option<usize>],
-    /// By idle motions: the sum of squares that the loads' work on it was made of.
-    pub load_terms: &'a mut [S::f64s],
+    /// By coordinates: whether it tells an idle motion.
+    pub idle: &'a [bool],
+    /// By variables: the sum of squares that the entry in the loads' row was made of.
+    pub load_errors: &'a mut [S::f64s],
 }
 
 /// Places of a node's coordinates among the front's variables.
@@ -56,6 +56,13 @@ impl<S: Simd> Assembly<'_, S> {
         *entry = self.simd.add_f64s(*entry, value.value);
         let error = &mut self.errors[i];
         *error = self.simd.add_f64s(*error, value.value);
+    }
+
+    /// Adds to the measure of the rounding of a variable's entry in the loads' row.
+    #[inline(always)]
+    pub fn add_load_error(&mut self, i: usize, squares: Lane<S>) {
+        let error = &mut self.load_errors[i];
+        *error = self.simd.add_f64s(*error, squares.value);
     }
 
     /// Adds a constant to entry (i, j).
@@ -234,33 +241,22 @@ impl<S: Simd> Assembly<'_, S> {
             Some(points) => add(moment, &cross(&arm(self.simd, self.inputs, points), force)),
             None => *moment,
         };
-        for coordinate in node.coordinates() {
-            if let Some(idle) = self.idle[coordinate] {
-                let (linear, angular) = match node.root {
-                    Some(root) if (root..root + 6).contains(&coordinate) => {
-                        let one = Lane::splat(self.simd, 1.0);
-                        (one, one)
-                    }
-                    _ => {
-                        let (v, w) = self.screw(coordinate);
-                        (dot(&v, &v), dot(&w, &w))
-                    }
-                };
-                let terms = linear * dot(force, force) + angular * dot(&moment, &moment);
-                let sum = &mut self.load_terms[idle];
-                *sum = self.simd.add_f64s(*sum, terms.value);
-            }
-        }
         let (places, _) = split(node, places, 0);
         if let Some(root) = places.root {
             for k in 0..3 {
                 self.add(row, root[k], force[k]);
                 self.add(row, root[3 + k], moment[k]);
+                self.add_load_error(root[k], force[k] * force[k]);
+                self.add_load_error(root[3 + k], dot(&moment, &moment));
             }
         }
         for (a, &coordinate) in node.screws.iter().enumerate() {
             let (v, w) = self.screw(coordinate);
-            self.add(row, places.screws[a], dot(&v, force) + dot(&w, &moment));
+            let place = places.screws[a];
+            self.add(row, place, dot(&v, force) + dot(&w, &moment));
+            let by_force = dot(&v, &v) * dot(force, force);
+            let by_moment = dot(&w, &w) * dot(&moment, &moment);
+            self.add_load_error(place, by_force + by_moment);
         }
     }
 }

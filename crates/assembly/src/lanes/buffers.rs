@@ -17,8 +17,9 @@ pub(super) struct Buffers {
     pub errors: Numbers,
     /// Of one front's variables.
     pub local_errors: Numbers,
-    /// By idle motions.
-    pub load_terms: Numbers,
+    /// Of the loads' row, of all coordinates and of one front's variables; none without a row.
+    pub load_errors: Numbers,
+    pub local_load_errors: Numbers,
     /// Of one hang.
     pub gains: Numbers,
     pub front: Numbers,
@@ -34,13 +35,15 @@ impl Buffers {
     pub fn new(program: &Program, width: usize) -> Self {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
         let fronts = &program.fronts;
+        let loaded = fronts.loaded;
         Self {
             width,
             inputs: zeros(3 * program.inputs.len()),
             screws: zeros(6 * program.coordinates),
             errors: zeros(program.coordinates),
             local_errors: zeros(fronts.largest),
-            load_terms: zeros(program.idle_count),
+            load_errors: zeros(if loaded { program.coordinates } else { 0 }),
+            local_load_errors: zeros(if loaded { fronts.largest } else { 0 }),
             gains: zeros(fronts.largest * fronts.most_targets()),
             front: zeros(fronts.largest * fronts.largest),
             panel: zeros(fronts.largest * fronts.most_pivots),

@@ -135,6 +135,8 @@ pub(super) struct Loaded<S: Simd> {
     pub total: Six<S>,
     /// What end 1 moves, free motions apart.
     pub moved: Six<S>,
+    /// A measure of the energy.
+    pub energy: Lane<S>,
     /// Work that is missing along free and along idle motions, with the squares of its terms.
     pub works: [[Lane<S>; 2]; MOST_RELEASES],
     pub idle_works: [[Lane<S>; 2]; MOST_IDLE],
@@ -153,6 +155,7 @@ pub(super) fn loaded_compliance<S: Simd>(
     let mut loaded = Loaded {
         total: [zero; 6],
         moved: [zero; 6],
+        energy: zero,
         works: [[zero; 2]; MOST_RELEASES],
         idle_works: [[zero; 2]; MOST_IDLE],
     };
@@ -181,6 +184,8 @@ pub(super) fn loaded_compliance<S: Simd>(
                         moved = entry.mul_add(loaded.total[j], moved);
                     }
                     loaded.moved[i] = moved;
+                    let by = c[i][i] * loaded.total[i];
+                    loaded.energy = by.mul_add(loaded.total[i], loaded.energy);
                     for j in 0..=i {
                         sum.entries[i][j] += c[i][j];
                     }

@@ -22,19 +22,20 @@ pub(super) struct Matrix<'a, S: Simd> {
     pub entries: &'a mut [S::f64s],
     pub size: usize,
     pub errors: &'a mut [S::f64s],
+    /// Where the last variable is the loads' row: squares of its entries' errors over
+    /// [`ROUNDING`]'s square; empty otherwise.
+    pub load_errors: &'a mut [S::f64s],
 }
 
-/// Eliminates the first `pivots` variables, the last ones of which no energy goes into, and
+/// Eliminates the first `pivots` variables, the last `idle` of which no energy goes into, and
 /// writes what is left into `rest`, a square by columns of which the lower triangle counts. A lane
-/// whose pivot is none becomes not a number. `panel`: `size · pivots` entries; `idle`: of each
-/// variable without energy, the sum of squares that its entry in the loads' row, the last one, was
-/// made of.
+/// whose pivot is none becomes not a number. `panel`: `size · pivots` entries.
 #[inline(always)]
 pub(super) fn eliminate<S: Simd>(
     simd: S,
     matrix: &mut Matrix<'_, S>,
     pivots: usize,
-    idle: &[S::f64s],
+    idle: usize,
     panel: &mut [S::f64s],
     rest: &mut [S::f64s],
 ) {
@@ -42,6 +43,7 @@ pub(super) fn eliminate<S: Simd>(
     let epsilon = Lane::splat(simd, ROUNDING);
     let nan = Lane::splat(simd, f64::NAN);
     let errors = &mut matrix.errors[..size];
+    let load_errors = &mut *matrix.load_errors;
     let entries = &mut matrix.entries[..size * size];
     for k in 0..pivots {
         let (done, rest) = entries.split_at_mut(k * size);
@@ -59,10 +61,8 @@ pub(super) fn eliminate<S: Simd>(
         }
         let error = Lane::new(simd, errors[k]);
         let pivot = Lane::new(simd, column[k]);
-        if k + idle.len() >= pivots {
+        if k + idle >= pivots {
             // Nothing resists it: it must have no pivot and act on nothing.
-            let loads = Lane::new(simd, idle[k + idle.len() - pivots]);
-            let loads = loads * Lane::splat(simd, (ROUNDING * IDLE) * (ROUNDING * IDLE));
             let still = error * epsilon * Lane::splat(simd, IDLE);
             let zero = Lane::splat(simd, 0.0);
             let mut poison = pivot.abs().if_above(still, nan, zero);
@@ -70,8 +70,10 @@ pub(super) fn eliminate<S: Simd>(
                 let entry = Lane::new(simd, column[i]);
                 let mut bound =
                     still * Lane::new(simd, errors[i]) * epsilon * Lane::splat(simd, IDLE);
-                if i + 1 == size {
-                    bound += loads;
+                if i + 1 == size && !load_errors.is_empty() {
+                    let loads = Lane::new(simd, load_errors[k]);
+                    let share = (ROUNDING * IDLE) * (ROUNDING * IDLE);
+                    bound = loads.mul_add(Lane::splat(simd, share), bound);
                 }
                 poison += (entry * entry).if_above(bound, nan, zero);
             }
@@ -87,6 +89,13 @@ pub(super) fn eliminate<S: Simd>(
             let l = Lane::new(simd, *entry) * minus;
             *out = l.value;
             *sum = (l * l).mul_add(error, Lane::new(simd, *sum)).value;
+        }
+        if !load_errors.is_empty() {
+            let error = Lane::new(simd, load_errors[k]);
+            for (l, sum) in out[k + 1..].iter().zip(&mut load_errors[k + 1..]) {
+                let l = Lane::new(simd, *l);
+                *sum = (l * l).mul_add(error, Lane::new(simd, *sum)).value;
+            }
         }
     }
     let left = size - pivots;

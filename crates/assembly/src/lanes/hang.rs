@@ -230,23 +230,18 @@ pub(super) fn make_relative<S: Simd>(
             *entry = simd.add_f64s(*entry, (energy + crossed).value);
         }
         // The entries' errors, as if the component's were the target's own.
-        let mut error = Lane::new(simd, matrix.errors[column]);
-        let own: Column<S> = six!(q => Lane::new(simd, matrix.errors[hang.places[q]]));
-        if b >= ROOT {
-            let (screw, _) = hang.screws[b - ROOT];
-            let twist = twist(simd, screw, motion, &arm);
-            for q in 0..6 {
-                error = (twist[q] * twist[q]).mul_add(own[q], error);
-            }
-        } else {
-            error += own[b];
-            if let (Some(arm), Some(axis)) = (&arm, b.checked_sub(3)) {
-                let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-                error = (arm[j] * arm[j]).mul_add(own[i], error);
-                error = (arm[i] * arm[i]).mul_add(own[j], error);
-            }
+        relative_error(simd, &mut *matrix.errors, column, b, hang, motion, &arm);
+        if !matrix.load_errors.is_empty() {
+            relative_error(
+                simd,
+                &mut *matrix.load_errors,
+                column,
+                b,
+                hang,
+                motion,
+                &arm,
+            );
         }
-        matrix.errors[column] = error.value;
     }
     for &row in &places.others {
         let gains = &gains[row * count..(row + 1) * count];
@@ -256,6 +251,36 @@ pub(super) fn make_relative<S: Simd>(
             *entry = simd.add_f64s(*entry, *gain);
         }
     }
+}
+
+/// Adds the errors of a component's coordinates to that of target `b`.
+#[inline(always)]
+fn relative_error<S: Simd>(
+    simd: S,
+    errors: &mut [S::f64s],
+    column: usize,
+    b: usize,
+    hang: &Hang,
+    motion: &Motion<'_, S>,
+    arm: &Option<Vec3<S>>,
+) {
+    let mut error = Lane::new(simd, errors[column]);
+    let own: Column<S> = six!(q => Lane::new(simd, errors[hang.places[q]]));
+    if b >= ROOT {
+        let (screw, _) = hang.screws[b - ROOT];
+        let twist = twist(simd, screw, motion, arm);
+        for q in 0..6 {
+            error = (twist[q] * twist[q]).mul_add(own[q], error);
+        }
+    } else {
+        error += own[b];
+        if let (Some(arm), Some(axis)) = (arm, b.checked_sub(3)) {
+            let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+            error = (arm[j] * arm[j]).mul_add(own[i], error);
+            error = (arm[i] * arm[i]).mul_add(own[j], error);
+        }
+    }
+    errors[column] = error.value;
 }
 
 /// Six numbers of one row, or of one twist.

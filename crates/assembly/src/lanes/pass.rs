@@ -35,7 +35,8 @@ struct Registers<'a, S: Simd> {
     screws: &'a mut [S::f64s],
     errors: &'a mut [S::f64s],
     local_errors: &'a mut [S::f64s],
-    load_terms: &'a mut [S::f64s],
+    load_errors: &'a mut [S::f64s],
+    local_load_errors: &'a mut [S::f64s],
     gains: &'a mut [S::f64s],
     front: &'a mut [S::f64s],
     panel: &'a mut [S::f64s],
@@ -55,7 +56,8 @@ impl WithSimd for Pass<'_> {
             screws,
             errors,
             local_errors,
-            load_terms,
+            load_errors,
+            local_load_errors,
             gains,
             front,
             panel,
@@ -70,7 +72,8 @@ impl WithSimd for Pass<'_> {
             screws: S::as_mut_simd_f64s(screws).0,
             errors: S::as_mut_simd_f64s(errors).0,
             local_errors: S::as_mut_simd_f64s(local_errors).0,
-            load_terms: S::as_mut_simd_f64s(load_terms).0,
+            load_errors: S::as_mut_simd_f64s(load_errors).0,
+            local_load_errors: S::as_mut_simd_f64s(local_load_errors).0,
             gains: S::as_mut_simd_f64s(gains).0,
             front: S::as_mut_simd_f64s(front).0,
             panel: S::as_mut_simd_f64s(panel).0,
@@ -83,7 +86,7 @@ impl WithSimd for Pass<'_> {
             registers.place_screw(simd, screw);
         }
         registers.errors.fill(simd.splat_f64s(0.0));
-        registers.load_terms.fill(simd.splat_f64s(0.0));
+        registers.load_errors.fill(simd.splat_f64s(0.0));
         for front in &self.program.fronts.list {
             registers.solve_front(simd, self.program, front);
         }
@@ -137,6 +140,9 @@ impl<S: Simd> Registers<'_, S> {
         for (local, variable) in self.local_errors.iter_mut().zip(&front.variables) {
             *local = self.errors[*variable];
         }
+        for (local, variable) in self.local_load_errors.iter_mut().zip(&front.variables) {
+            *local = self.load_errors[*variable];
+        }
         for k in 0..front.parts.len() + front.hangs.len() {
             let (part, places, moves) = if let Some((part, places)) = front.parts.get(k) {
                 (*part, places, &scatter.parts[k])
@@ -151,6 +157,7 @@ impl<S: Simd> Registers<'_, S> {
                     entries: self.front,
                     size,
                     errors: self.local_errors,
+                    load_errors: self.local_load_errors,
                 };
                 let places = &scatter.hangs[k];
                 make_relative(simd, &mut matrix, hang, places, &motion, self.gains);
@@ -162,6 +169,7 @@ impl<S: Simd> Registers<'_, S> {
             entries: self.front,
             size,
             errors: self.local_errors,
+            load_errors: self.local_load_errors,
         };
         let left = size - front.pivots;
         let rest = &mut self.rests[front.rest_start..][..left * left];
@@ -169,13 +177,19 @@ impl<S: Simd> Registers<'_, S> {
             simd,
             &mut matrix,
             front.pivots,
-            if front.idle > 0 { self.load_terms } else { &[] },
+            front.idle,
             self.panel,
             rest,
         );
         let boundary = self.local_errors[front.pivots..].iter();
         for (local, variable) in boundary.zip(&front.variables[front.pivots..]) {
             self.errors[*variable] = *local;
+        }
+        if program.fronts.loaded {
+            let boundary = self.local_load_errors[front.pivots..].iter();
+            for (local, variable) in boundary.zip(&front.variables[front.pivots..]) {
+                self.load_errors[*variable] = *local;
+            }
         }
     }
 
@@ -197,7 +211,7 @@ impl<S: Simd> Registers<'_, S> {
             screws: self.screws,
             inputs: self.inputs,
             idle: &program.idle,
-            load_terms: self.load_terms,
+            load_errors: self.local_load_errors,
         };
         // The loads' row is the last coordinate of those that have it.
         let row = places[places.len() - 1];
@@ -268,7 +282,7 @@ impl<S: Simd> Registers<'_, S> {
             error = error.max(Lane::new(simd, self.errors[variable]) / k[c][c]);
         }
         let error = error * Lane::splat(simd, ROUNDING);
-        let (displacement, pivot) = solve_six(&k, force);
+        let (displacement, gain) = solve_six(&k, force);
         let mut place = 0;
         for row in 0..6 {
             for column in row..6 {
@@ -280,7 +294,7 @@ impl<S: Simd> Registers<'_, S> {
             self.results[DISPLACEMENT + c] = displacement[c].value;
         }
         self.results[ERROR] = error.value;
-        let mut lost = error;
+        let mut lost = error + Lane::splat(simd, f64::EPSILON);
         if program.fronts.loaded {
             // A pivot's error acts on the forces handed on to the output as on the stiffness: by the
             // geometric mean of what it does to the two diagonals.
@@ -289,31 +303,52 @@ impl<S: Simd> Registers<'_, S> {
             for c in 0..6 {
                 energy = energy.max(displacement[c] * displacement[c] * k[c][c]);
             }
-            let by_loads = row * Lane::splat(simd, ROUNDING) * error / energy;
-            lost = lost.max(by_loads.if_above(zero, by_loads, zero).sqrt());
+            let rounding = Lane::splat(simd, ROUNDING);
+            let mut by_loads = row * rounding * error;
+            for c in 0..6 {
+                let own = Lane::new(simd, self.load_errors[last.variables[last.pivots + c]]);
+                by_loads = by_loads.max(own * rounding * rounding / k[c][c]);
+            }
+            let by_loads = by_loads / energy;
+            lost += by_loads.if_above(zero, by_loads, zero).sqrt();
         }
-        self.results[DISPLACEMENT_ERROR] = (lost / pivot).value;
+        self.results[DISPLACEMENT_ERROR] = (lost * gain).value;
     }
 }
 
-/// Solves `K u = f` by L D Lᵀ (lower triangle); also the smallest pivot relative to its diagonal
-/// entry.
+/// Solves `K u = f` by L D Lᵀ (lower triangle); also the largest `K_ii (K⁻¹)_ii`: what an error of K
+/// is multiplied by.
 #[inline(always)]
 fn solve_six<S: Simd>(k: &[[Lane<S>; 6]; 6], f: [Lane<S>; 6]) -> ([Lane<S>; 6], Lane<S>) {
+    let (zero, one) = (k[0][0].constant(0.0), k[0][0].constant(1.0));
     let mut l = *k;
     let mut u = f;
-    let mut inverses = [k[0][0]; 6];
-    let mut loss = k[0][0].constant(1.0);
+    let mut inverses = [zero; 6];
+    // Rows of L⁻¹.
+    let mut rows = [[zero; 6]; 6];
+    for c in 0..6 {
+        rows[c][c] = one;
+    }
     for c in 0..6 {
         inverses[c] = l[c][c].recip();
-        loss = loss.max((k[c][c] * inverses[c]).abs());
         for r in c + 1..6 {
             let minus = -(l[r][c] * inverses[c]);
             for i in r..6 {
                 l[i][r] = l[i][c].mul_add(minus, l[i][r]);
             }
             u[r] = u[c].mul_add(minus, u[r]);
+            for i in 0..=c {
+                rows[r][i] = rows[c][i].mul_add(minus, rows[r][i]);
+            }
         }
+    }
+    let mut gain = one;
+    for i in 0..6 {
+        let mut own = zero;
+        for r in i..6 {
+            own = (rows[r][i] * rows[r][i]).mul_add(inverses[r], own);
+        }
+        gain = gain.max((k[i][i] * own).abs());
     }
     for c in (0..6).rev() {
         let mut sum = u[c];
@@ -322,5 +357,5 @@ fn solve_six<S: Simd>(k: &[[Lane<S>; 6]; 6], f: [Lane<S>; 6]) -> ([Lane<S>; 6], 
         }
         u[c] = sum * inverses[c];
     }
-    (u, loss.recip())
+    (u, gain)
 }

@@ -50,9 +50,8 @@ pub(super) struct Program {
     pub fronts: Fronts,
     /// All coordinates, the loads' row included.
     pub coordinates: usize,
-    /// By coordinates: which idle motion it tells.
-    pub idle: Vec<Option<usize>>,
-    pub idle_count: usize,
+    /// By coordinates: whether it tells an idle motion.
+    pub idle: Vec<bool>,
     /// Blocks that the largest element needs, 36 entries each.
     pub most_blocks: usize,
     /// Coordinates of the chain that has most.
@@ -264,10 +263,7 @@ impl Program {
         Some(Self {
             most_blocks: blocks.max().unwrap_or(0),
             most_ends: ends.max().unwrap_or(0),
-            idle: (0..unknowns)
-                .map(|c| idle.iter().position(|i| *i == c))
-                .collect(),
-            idle_count: idle.len(),
+            idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
             inputs,
             screws,
             elements,

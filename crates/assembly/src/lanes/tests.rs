@@ -188,8 +188,9 @@ impl WithSimd for Eliminate {
             entries: &mut entries,
             size,
             errors: &mut errors,
+            load_errors: &mut [],
         };
-        eliminate(simd, &mut matrix, self.pivots, &[], &mut panel, &mut rest);
+        eliminate(simd, &mut matrix, self.pivots, 0, &mut panel, &mut rest);
         DMatrix::from_fn(left, left, |r, c| {
             simd.reduce_max_f64s(rest[c.min(r) * left + c.max(r)])
         })

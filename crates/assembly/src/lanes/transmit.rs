@@ -80,7 +80,11 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     // The wrench that loads within make with both ends held: of it, what free motions ask for.
     let mut held = [zero; 6];
     let mut doubts = [zero; M];
-    let mut row_error = zero;
+    // The energy that these loads put into the chain.
+    let mut energy = match &loaded {
+        Some(loaded) => loaded.energy,
+        None => zero,
+    };
     for k in 0..M {
         let mut s = frame.twist(simd, &chain.releases[k], inputs);
         let mut whole = zero;
@@ -140,7 +144,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             }
             let twice = w[k] * s[k];
             let own = c[k][k] - twice - twice;
-            row_error = (own * held[k]).mul_add(held[k], row_error);
+            energy = (own * held[k]).mul_add(held[k], energy);
         }
         let spread = spread * factor * factor;
         let twice = factor * Lane::splat(simd, -2.0);
@@ -196,9 +200,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         stiffness[a] = inverse;
         trust[a] = errors[M + a] * inverse * growth;
         if let Some(loaded) = &mut loaded {
-            let moved = loaded.moved[M + a];
-            forces[a] = moved * inverse;
-            row_error = forces[a].mul_add(moved, row_error);
+            forces[a] = loaded.moved[M + a] * inverse;
         }
         for b in a + 1..R {
             let l = c[M + b][M + a] * inverse;
@@ -247,25 +249,39 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             (own, 1),
         );
         let error = &mut assembly.errors[places[count]];
-        *error = row_error.mul_add(growth, Lane::new(simd, *error)).value;
+        *error = energy.mul_add(growth, Lane::new(simd, *error)).value;
     }
-    let mut place = 0;
+    let mut doubt = zero;
+    for k in 0..M {
+        doubt += doubts[k];
+    }
+    let mut next = 0;
     for (end, node) in nodes.iter().enumerate() {
         for coordinate in node.coordinates() {
-            if let Some(idle) = assembly.idle[coordinate] {
-                let terms = Terms::new(assembly, chain, frame, end, node.root, coordinate);
-                let mut stiff = Lane::new(simd, assembly.errors[places[place]]);
-                let mut load = terms.of(&ends[end]);
-                for a in 0..R {
-                    let terms = terms.of(&directions[a]);
-                    stiff = terms.mul_add(stiffness[a], stiff);
-                    load = (forces[a] * forces[a]).mul_add(terms, load);
-                }
-                assembly.errors[places[place]] = stiff.value;
-                let sum = &mut assembly.load_terms[idle];
-                *sum = (Lane::new(simd, *sum) + load).value;
+            let place = places[next];
+            next += 1;
+            let is_idle = assembly.idle[coordinate];
+            if !is_idle && loaded.is_none() {
+                continue;
             }
-            place += 1;
+            let terms = Terms::new(assembly, chain, frame, end, node.root, coordinate);
+            if is_idle {
+                let mut sum = Lane::new(simd, assembly.errors[place]);
+                for a in 0..R {
+                    sum = terms.of(&directions[a]).mul_add(stiffness[a], sum);
+                }
+                assembly.errors[place] = sum.value;
+            }
+            if loaded.is_some() {
+                let mut sum = terms.of(&ends[end]) + terms.by(doubt, doubt);
+                if is_idle {
+                    for a in 0..R {
+                        let squared = forces[a] * forces[a];
+                        sum = terms.of(&directions[a]).mul_add(squared, sum);
+                    }
+                }
+                assembly.add_load_error(place, sum);
+            }
         }
     }
     let mut pairs = pairs.iter();
@@ -379,7 +395,13 @@ impl<S: Simd> Terms<S> {
         }
     }
 
-    /// The sum of their squares.
+    /// The sum of their squares, of those of a force and of a moment over the chain's size.
+    #[inline(always)]
+    fn by(&self, force: Lane<S>, moment: Lane<S>) -> Lane<S> {
+        force.mul_add(self.by_force, moment * self.by_moment)
+    }
+
+    /// The sum of their squares for a wrench.
     #[inline(always)]
     fn of(&self, wrench: &Six<S>) -> Lane<S> {
         let force = dot(
@@ -390,7 +412,7 @@ impl<S: Simd> Terms<S> {
             &[wrench[0], wrench[1], wrench[2]],
             &[wrench[0], wrench[1], wrench[2]],
         );
-        force.mul_add(self.by_force, moment * self.by_moment)
+        self.by(force, moment)
     }
 }
 
