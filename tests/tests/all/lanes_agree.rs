@@ -5,7 +5,7 @@ use hyperstat_assembly::{Geometry, LANES, Lanes, Model, NodeId, Plan, PoseResult
 use hyperstat_mechanisms::prebuilt::{Delta, Elbow, Prebuilt, RodEnds, SingleFreedom};
 use hyperstat_tests::prebuilt::{BEARINGS, Case, legs, links, loaded};
 use hyperstat_tests::{stiffness_difference, vector_differences};
-use nalgebra::{Point3, Vector6};
+use nalgebra::{Point3, Vector3, Vector6};
 
 /// Lanes against one by one: relative to √(K_ii K_jj), and to the largest translation and rotation.
 const AGREEMENT: f64 = 1e-11;
@@ -221,6 +221,58 @@ fn lanes_find_what_a_sweep_finds() {
 #[test]
 fn lanes_find_what_a_sweep_finds_with_loads_on_inner_nodes() {
     check_all(true);
+}
+
+/// A moment on each node in turn: on a rod between ball joints it turns the rod about itself, and
+/// the lanes must refuse it as the one-by-one path does.
+#[test]
+fn moments_on_idle_motions_are_refused_as_in_a_sweep() {
+    let mut refused = 0;
+    for case in cases() {
+        let what = case.what(&case.poses[0]);
+        let unloaded = loaded(&*case.mechanism, &case.poses[0]);
+        for node in 0..unloaded.nodes().len() {
+            let mut model = unloaded.clone();
+            let moment = Vector6::new(0.0, 0.0, 0.0, 2.0, -3.0, 1.0);
+            model.add_load(NodeId(node), moment).expect("a finite load");
+            let plan = Plan::new(&model).expect(&what);
+            let mut random = Random::new();
+            let pose = random.geometry(&case, model.geometry());
+            let found = alone(&plan, &model, &pose);
+            let expected = plan.sweep(&model, &pose, &mut plan.workspace());
+            refused += usize::from(expected.is_err());
+            assert_agree(&format!("{what}, node {node}"), &found, &expected);
+        }
+    }
+    assert!(refused > 10, "{refused}");
+}
+
+/// Points moved a little, all nodes of a point together: what was idle in the plan's configuration
+/// may be held now.
+#[test]
+fn idle_motions_that_are_none_any_more_are_not_left_out() {
+    for case in cases() {
+        let what = case.what(&case.poses[0]);
+        let model = model(&case, false);
+        let plan = Plan::new(&model).expect(&what);
+        let mut random = Random::new();
+        for size in [1e-3, 1e-6] {
+            let mut pose = random.geometry(&case, model.geometry());
+            let old = pose.positions.clone();
+            for (k, point) in old.iter().enumerate() {
+                let first = old.iter().position(|p| (p - point).norm() < 1e-9);
+                let first = first.unwrap_or(k);
+                pose.positions[k] = if first < k {
+                    pose.positions[first]
+                } else {
+                    point + Vector3::new(random.unit(), random.unit(), random.unit()) * size
+                };
+            }
+            let found = alone(&plan, &model, &pose);
+            let expected = plan.sweep(&model, &pose, &mut plan.workspace());
+            assert_agree(&format!("{what}, {size}"), &found, &expected);
+        }
+    }
 }
 
 /// Neighbours: other poses, none, the same pose, and geometries that are none: all nodes at one
