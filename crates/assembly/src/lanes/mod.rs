@@ -16,11 +16,14 @@ mod blocks;
 mod buffers;
 mod chain;
 mod compliance;
+mod ends;
 mod factor;
 mod fronts;
 mod hang;
+mod idle;
 mod inputs;
 mod lane;
+mod parts;
 mod pass;
 mod program;
 #[cfg(test)]
@@ -45,8 +48,8 @@ use program::Program;
 /// Poses that are handed to [`Plan::sweep_lanes`] together.
 pub const LANES: usize = 8;
 
-/// Relative error that a pose of the lanes may have, by its estimate: that was up to 15 times
-/// too low near this bound (random mechanisms), more near rounding, and 1e-11 is promised.
+/// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
+/// promised: of 160 000 poses of random mechanisms the largest error below this was 7e-12.
 const TRUSTED: f64 = 5e-13;
 
 /// One thread's poses and buffers; made by [`Plan::lanes`].

@@ -294,7 +294,7 @@ impl<S: Simd> Registers<'_, S> {
             self.results[DISPLACEMENT + c] = displacement[c].value;
         }
         self.results[ERROR] = error.value;
-        let mut lost = error + Lane::splat(simd, f64::EPSILON);
+        let mut lost = error + Lane::splat(simd, ROUNDING);
         if program.fronts.loaded {
             // A pivot's error acts on the forces handed on to the output as on the stiffness: by the
             // geometric mean of what it does to the two diagonals.

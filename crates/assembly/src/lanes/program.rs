@@ -10,20 +10,19 @@
 //! taken at one reference point a component. Beams and elastic joints in series are one element
 //! ([`series`](super::series)); what lies between them has no coordinates.
 
-use hyperstat_joints::Dof;
-use nalgebra::{DVector, Matrix6, Vector6};
+use nalgebra::{Matrix6, Vector6};
 
-use crate::directions::Directions;
-use crate::kinematics::{characteristic_length, node_twist};
-use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::kinematics::characteristic_length;
+use crate::model::{Geometry, JointId, Model};
 use crate::plan::Plan;
-use crate::restraint::{Restraint, largest_minor, scaled};
-use crate::topology::{Cluster, Topology};
+use crate::topology::Topology;
 
-use super::chain::{Chain, InnerLoad, Link, Release};
+use super::chain::{Chain, InnerLoad, Release};
 use super::fronts::{Fronts, Group};
 use super::hang::{hang, late_roots};
+use super::idle::idle_coordinates;
 use super::inputs::{Inputs, Point};
+use super::parts::{Parts, Placed, screws};
 use super::scatter::Scatter;
 use super::series::Series;
 
@@ -31,11 +30,6 @@ use super::series::Series;
 const MOST_COORDINATES: usize = 600;
 /// Nodes of a joint farther apart than this share of the mechanism's size are no one point.
 const APART: f64 = 1e-9;
-/// Entries of idle motions below this are none.
-const STILL: f64 = 1e-9;
-/// How much coordinates count that stay, and those that may go, to tell idle motions by.
-const STAYS: f64 = 4.0;
-const GOES: f64 = 0.25;
 
 /// The work of a pose.
 #[derive(Debug)]
@@ -316,274 +310,4 @@ impl Element {
             _ => 0,
         }
     }
-}
-
-/// Where a carrier stands.
-struct Placed {
-    /// First coordinate of its component's root.
-    root: Option<usize>,
-    /// The component's reference point.
-    reference: NodeId,
-}
-
-impl Placed {
-    /// By carriers.
-    fn all(topology: &Topology) -> Vec<Option<Self>> {
-        let mut placed: Vec<Option<Self>> = topology.carriers.iter().map(|_| None).collect();
-        for component in &topology.components {
-            let reference = match (component.root, component.ties.first()) {
-                (Some(root), _) => topology.carriers[root].reference,
-                (None, Some(tie)) => tie.child_node,
-                (None, None) => continue,
-            };
-            let root = component.root.map(|c| topology.carriers[c].coordinates[0]);
-            let children = component.ties.iter().map(|t| t.child);
-            for carrier in component.root.into_iter().chain(children) {
-                placed[carrier] = Some(Self { root, reference });
-            }
-        }
-        placed
-    }
-}
-
-/// The screws of all joints that have coordinates of their own.
-fn screws(
-    model: &Model,
-    topology: &Topology,
-    placed: &[Option<Placed>],
-    inputs: &mut Inputs,
-) -> Option<Vec<Screw>> {
-    let mut screws = Vec::new();
-    for tie in topology.components.iter().flat_map(|c| &c.ties) {
-        let reference = placed[tie.child].as_ref()?.reference;
-        let moving = topology.joints[tie.joint.0].moving;
-        for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
-            screws.push(Screw {
-                coordinate,
-                motion: release(model, tie.joint, dof, tie.child_node, inputs),
-                arm: inputs.arm(tie.child_node, reference),
-            });
-        }
-    }
-    Some(screws)
-}
-
-/// One of a joint's directions, at one of its nodes.
-fn release(model: &Model, joint: JointId, dof: Dof, node: NodeId, inputs: &mut Inputs) -> Release {
-    let basis = model.joints()[joint.0].joint.basis();
-    let direction = basis.column(dof.index());
-    let parts = (0..3).map(|c| (c, direction[c], direction[3 + c]));
-    let axes = parts
-        .filter(|(_, linear, angular)| *linear != 0.0 || *angular != 0.0)
-        .map(|(c, linear, angular)| (inputs.frame_column(joint, c), linear, angular))
-        .collect();
-    Release {
-        point: inputs.point(node),
-        axes,
-    }
-}
-
-/// The parts of a mechanism, each by itself.
-struct Parts<'a> {
-    model: &'a Model,
-    geometry: &'a Geometry,
-    topology: &'a Topology,
-    placed: &'a [Option<Placed>],
-    /// Of the mechanism.
-    size: f64,
-    elements: Vec<Element>,
-    springs: Vec<Spring>,
-}
-
-impl Parts<'_> {
-    fn motion(&self, node: NodeId, inputs: &mut Inputs) -> Option<NodeMotion> {
-        let carrier = self.topology.carrier_of[node.0];
-        let placed = self.placed[carrier].as_ref()?;
-        let own = &self.topology.carriers[carrier].coordinates;
-        let skipped = if placed.root.is_some() { 6 } else { 0 };
-        let moves = !own.is_empty();
-        Some(NodeMotion {
-            root: placed.root,
-            screws: own[skipped..].to_vec(),
-            arm: inputs.arm(placed.reference, node).filter(|_| moves),
-        })
-    }
-
-    fn origin(&self, node: NodeId, inputs: &mut Inputs) -> Option<Point> {
-        let placed = self.placed[self.topology.carrier_of[node.0]].as_ref()?;
-        Some(inputs.point(placed.reference))
-    }
-
-    /// Adds an element whose nodes move as the model's nodes say, unless it is rigidly held.
-    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>) {
-        drop_shared(&mut nodes);
-        if nodes.iter().any(NodeMotion::moves) {
-            self.elements.push(Element { kind, nodes });
-        }
-    }
-
-    fn add_cluster(&mut self, cluster: &Cluster, inputs: &mut Inputs) -> Option<()> {
-        let mut nodes = Vec::new();
-        for node in &cluster.nodes {
-            nodes.push(self.motion(*node, inputs)?);
-        }
-        let kind = match cluster.flexible {
-            Some(id) => {
-                let stiffness = self.model.flexibles()[id.0].element.held_stiffness();
-                Kind::Flexible(FlexibleElement {
-                    points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
-                    axes: [0, 1, 2].map(|c| inputs.rotation(id, c)),
-                    stiffness: stiffness.as_slice().to_vec(),
-                })
-            }
-            None => {
-                // Without absorbed joints, a run is one segment.
-                let [(id, _)] = cluster.segments.as_slice() else {
-                    return None;
-                };
-                let ends = self.model.segments()[id.0].ends;
-                nodes.clear();
-                for node in ends {
-                    nodes.push(self.motion(node, inputs)?);
-                }
-                let link = Link::beam(self.model, self.geometry, *id, inputs)?;
-                let [a, b] = ends.map(|n| self.origin(n, inputs));
-                Kind::Chain(Chain::new(link, Vec::new(), [a?, b?]))
-            }
-        };
-        self.add(kind, nodes);
-        Some(())
-    }
-
-    /// What an elastic joint adds.
-    fn add_joint(&mut self, joint: JointId, inputs: &mut Inputs) -> Option<()> {
-        let role = &self.topology.joints[joint.0];
-        if role.springs.is_empty() {
-            return Some(());
-        }
-        let ties = self.topology.components.iter().flat_map(|c| &c.ties);
-        if let Some(tie) = ties.into_iter().find(|t| t.joint == joint) {
-            if !role.directions.has_stiffness {
-                return None;
-            }
-            let places = tie.coordinates.clone().zip(role.moving.iter());
-            let places: Vec<(usize, Dof)> =
-                places.filter(|(_, d)| role.springs.contains(*d)).collect();
-            for (k, (a, d)) in places.iter().enumerate() {
-                for (b, e) in &places[k..] {
-                    let stiffness = role.directions.stiffness[(d.index(), e.index())];
-                    if a == b || stiffness != 0.0 {
-                        self.springs.push(Spring {
-                            coordinates: [*a, *b],
-                            stiffness,
-                        });
-                    }
-                }
-            }
-            return Some(());
-        }
-        let entry = &self.model.joints()[joint.0];
-        let columns = [0, 1, 2].map(|c| inputs.frame_column(joint, c));
-        let basis = entry.joint.basis();
-        let Directions {
-            stiffness,
-            has_stiffness,
-            compliance,
-            ..
-        } = &role.directions;
-        let mut nodes = Vec::new();
-        for node in entry.between.iter().flatten() {
-            nodes.push(self.motion(*node, inputs)?);
-        }
-        let kind = match compliance {
-            Some(compliance) => {
-                let at = entry.between.iter().flatten().next()?;
-                let own = basis * compliance * basis.transpose();
-                let link = Link::joint(&own, *at, columns, self.size, inputs);
-                let free = role.directions.free.iter();
-                let releases = free.map(|dof| release(self.model, joint, dof, *at, inputs));
-                let releases = releases.collect();
-                let mut origins = [inputs.point(*at); 2];
-                for (origin, node) in origins.iter_mut().zip(entry.between.iter().flatten()) {
-                    *origin = self.origin(*node, inputs)?;
-                }
-                Kind::Chain(Chain::new(link, releases, origins))
-            }
-            None if *has_stiffness => {
-                let inverse = basis.try_inverse()?;
-                let stiffness = Box::new(inverse.transpose() * stiffness * inverse);
-                Kind::Bushing { columns, stiffness }
-            }
-            None => return None,
-        };
-        if matches!(kind, Kind::Chain(_)) && nodes.len() == 1 {
-            nodes.push(NodeMotion::default());
-        }
-        self.add(kind, nodes);
-        Some(())
-    }
-}
-
-/// Takes out what all nodes of an element share: with it they move as one rigid body.
-pub(super) fn drop_shared(nodes: &mut [NodeMotion]) {
-    let first = nodes[0].clone();
-    if first.root.is_some() && nodes.iter().all(|n| n.root == first.root) {
-        for node in nodes.iter_mut() {
-            node.root = None;
-        }
-    }
-    for screw in first.screws {
-        if nodes.iter().all(|n| n.screws.contains(&screw)) {
-            for node in nodes.iter_mut() {
-                node.screws.retain(|s| *s != screw);
-            }
-        }
-    }
-}
-
-/// One coordinate an idle motion: those with the largest minor, where coordinates count more that
-/// stay, since several chains meet at them, and roots' less that could go. `None` where the output
-/// moves without energy.
-fn idle_coordinates(
-    plan: &Plan,
-    topology: &Topology,
-    model: &Model,
-    geometry: &Geometry,
-    placed: &[Option<Placed>],
-    elements: &[Element],
-) -> Option<Vec<usize>> {
-    let restraint = Restraint::new(model, geometry, plan.output);
-    if !restraint.moving.is_empty() {
-        return None;
-    }
-    let mut columns: Vec<DVector<f64>> = Vec::new();
-    for motion in &restraint.idle {
-        let twist = |node: NodeId| node_twist(motion, model, geometry, node.0);
-        let mut column = DVector::zeros(topology.coordinates);
-        let nodes = || elements.iter().flat_map(|e| &e.nodes);
-        for placed in placed.iter().flatten() {
-            if let Some(root) = placed.root {
-                let meeting = nodes().filter(|n| n.root == Some(root)).count();
-                let rank = if meeting > 2 { STAYS } else { GOES };
-                let at = scaled(&twist(placed.reference), restraint.size) * rank;
-                column.fixed_rows_mut::<6>(root).copy_from(&at);
-            }
-        }
-        for tie in topology.components.iter().flat_map(|c| &c.ties) {
-            let joint = &model.joints()[tie.joint.0];
-            let at = |node: Option<NodeId>| node.map_or(Vector6::zeros(), twist);
-            let relative = at(joint.between[0]) - at(joint.between[1]);
-            let frame = &geometry.frames[tie.joint.0];
-            let along = crate::directions::to_directions(&joint.joint.basis(), frame) * relative;
-            let moving = topology.joints[tie.joint.0].moving;
-            for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
-                let unit = if dof.index() < 3 { restraint.size } else { 1.0 };
-                let meeting = nodes().filter(|n| n.screws.contains(&coordinate)).count();
-                let rank = if meeting > 1 { STAYS } else { 1.0 };
-                column[coordinate] = along[dof.index()] / unit * rank;
-            }
-        }
-        columns.push(column);
-    }
-    Some(largest_minor(columns, STILL))
 }

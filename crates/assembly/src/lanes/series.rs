@@ -5,7 +5,8 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::chain::{Idle, MOST_IDLE, MOST_RELEASES, Release};
-use super::program::{Element, Kind, NodeLoad, NodeMotion, Screw, Spring, drop_shared};
+use super::parts::drop_shared;
+use super::program::{Element, Kind, NodeLoad, NodeMotion, Screw, Spring};
 
 /// What a mechanism is made of, while elements are joined.
 #[derive(Clone)]
