@@ -103,23 +103,31 @@ impl Parts {
         let own = [rigid[first.0], rigid[second.0]];
         let origin = Point3::from(standing.translation.vector + self.centre);
         let apart = |p: &Point3<f64>, q: &Point3<f64>| (p - q).norm() > ONE_PLACE * self.size;
-        if !apart(&own[0], &own[1]) && !apart(&own[0], &origin) {
-            return Ok(());
-        }
         // Along a rail the joint stays with the other body; else it stands on the first.
         let rail =
             |node: NodeId, to: &Point3<f64>| self.runs_on(node, &(to - rigid[node.0]), rigid);
         let preferred = if rail(first, &own[1]) { own[1] } else { own[0] };
         let places = [preferred, own[0], own[1], origin];
-        let fits = |place: &&Point3<f64>| {
-            let offset = standing.rotation.inverse() * (**place - origin);
-            let moves = |node: NodeId| {
-                let travel = **place - rigid[node.0];
-                travel.norm() <= ONE_PLACE * self.size || self.gives_way(node, &travel, rigid)
-            };
-            moves(first) && moves(second) && joint.holds_about(&offset)
+        let slides = |node: NodeId, place: &Point3<f64>| {
+            let travel = place - rigid[node.0];
+            travel == Vector3::zeros() || self.gives_way(node, &travel, rigid)
         };
-        let Some(place) = places.iter().find(fits) else {
+        let holds = |place: &Point3<f64>| {
+            joint.holds_about(&(standing.rotation.inverse() * (place - origin)))
+        };
+        let fits =
+            |place: &&Point3<f64>| slides(first, place) && slides(second, place) && holds(place);
+        let stays = |node: NodeId, place: &Point3<f64>| !apart(place, &rigid[node.0]);
+        let nearly_fits = |place: &&Point3<f64>| {
+            let moves = |node: NodeId| stays(node, place) || slides(node, place);
+            moves(first) && moves(second) && holds(place)
+        };
+        // A travel however small is made; only what cannot be may stay open a little.
+        let place = places.iter().find(fits);
+        let Some(place) = place.or_else(|| places.iter().find(nearly_fits)) else {
+            if !apart(&own[0], &own[1]) && !apart(&own[0], &origin) {
+                return Ok(());
+            }
             let name = |n: NodeId| {
                 let body = self.model.nodes()[n.0].body;
                 self.model.bodies()[body.0].name.clone()
@@ -134,7 +142,7 @@ impl Parts {
             });
         };
         for node in [first, second] {
-            if apart(place, &rigid[node.0]) {
+            if slides(node, place) {
                 positions[node.0] = *place;
             }
         }
@@ -157,7 +165,7 @@ impl Parts {
         let travel = bearing - rigid[node.0].coords;
         let offset =
             standing.rotation.inverse() * (bearing - self.centre - standing.translation.vector);
-        let slides = travel.norm() > ONE_PLACE * self.size && self.runs_on(node, &travel, rigid);
+        let slides = travel != Vector3::zeros() && self.runs_on(node, &travel, rigid);
         if slides && joint.holds_about(&offset) {
             positions[node.0] = bearing.into();
         }

@@ -183,3 +183,36 @@ fn files_reach_the_poses_of_the_closed_forms() {
         );
     }
 }
+
+/// Poses hardly away from home, and one at which the first leg of the Exechon is as long as at home
+/// but for 2 µm: joints slide by as little as that too.
+#[test]
+fn small_travels_are_made_too() {
+    for case in cases() {
+        let model = file(&case);
+        let closure = LoopClosure::new(&model).expect("a linkage");
+        let plan = Plan::new(&model).expect("a plan");
+        let near = [1e-5, 1e-6, -1e-7].into_iter().flat_map(|step| {
+            let moved = |k: usize| {
+                let mut pose = case.home.clone();
+                pose[k] += step;
+                pose
+            };
+            (0..case.home.len()).map(moved).collect::<Vec<_>>()
+        });
+        let mut poses: Vec<Vec<f64>> = near.collect();
+        if case.mechanism.kind() == "Exechon" {
+            let pose = [
+                -0.038181258981022065,
+                0.08136676672740732,
+                0.9147306271913795,
+            ];
+            poses.push(pose.into());
+        }
+        for pose in poses {
+            let reached = check(&case, &closure, &closure.home(), &model, &plan, &pose);
+            let reached = reached.unwrap_or_else(|error| panic!("{error}"));
+            assert!(reached.is_some(), "{pose:?} is in reach");
+        }
+    }
+}
