@@ -1,7 +1,7 @@
-//! The tutorials of the book, followed to the letter: their files saved, their commands run, and
-//! their outputs found.
+//! The tutorials and the worked examples of the book, followed to the letter: their files saved,
+//! their commands run, and their outputs found.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::support::Bench;
 
@@ -22,7 +22,7 @@ struct Reader {
 impl Reader {
     fn new(page: &str) -> Self {
         Self {
-            bench: Bench::new(&format!("tutorial-{page}")),
+            bench: with_examples(&format!("book-{}", page.replace('/', "-"))),
             page: page.into(),
             file: None,
             said: String::new(),
@@ -83,10 +83,28 @@ impl Reader {
     }
 }
 
-/// Follows a tutorial, and gives the folder it was followed in and how many outputs it shows.
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// A folder with the files of `examples/`.
+fn with_examples(name: &str) -> Bench {
+    let bench = Bench::new(name);
+    std::fs::create_dir(bench.path("examples")).unwrap();
+    for entry in std::fs::read_dir(root().join("examples")).unwrap() {
+        let entry = entry.unwrap();
+        if entry.file_type().unwrap().is_file() {
+            let name = entry.file_name().into_string().unwrap();
+            std::fs::copy(entry.path(), bench.path(&format!("examples/{name}"))).unwrap();
+        }
+    }
+    bench
+}
+
+/// Follows a page, and gives the folder it was followed in and how many outputs it shows.
 fn follow(page: &str) -> (Bench, usize) {
-    let tutorials = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/tutorials");
-    let path = tutorials.join(format!("{page}.md"));
+    let path = root().join(format!("docs/src/{page}.md"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let mut reader = Reader::new(page);
     let mut block: Option<(String, String)> = None;
@@ -110,13 +128,13 @@ fn follow(page: &str) -> (Bench, usize) {
 
 #[test]
 fn my_first_mechanism() {
-    let (_, shown) = follow("first-mechanism");
+    let (_, shown) = follow("tutorials/first-mechanism");
     assert_eq!(shown, 2);
 }
 
 #[test]
 fn a_stiffness_map_of_a_delta() {
-    let (bench, shown) = follow("stiffness-map");
+    let (bench, shown) = follow("tutorials/stiffness-map");
     assert_eq!(shown, 2);
     let names = bench.names("out");
     for name in ["delta-map.csv", "delta-map-map.svg", "delta-map-map.png"] {
@@ -126,6 +144,22 @@ fn a_stiffness_map_of_a_delta() {
 
 #[test]
 fn what_should_i_make_thicker() {
-    let (_, shown) = follow("what-to-make-thicker");
+    let (_, shown) = follow("tutorials/what-to-make-thicker");
     assert_eq!(shown, 3);
+}
+
+/// Pages with worked examples, and how many outputs they show.
+#[test]
+fn worked_examples() {
+    for (page, outputs) in [
+        ("theory/budget", 1),
+        ("theory/closure", 1),
+        ("theory/frequencies", 2),
+        ("theory/measures", 2),
+        ("theory/states", 2),
+        ("theory/subassembly", 1),
+    ] {
+        let (_, shown) = follow(page);
+        assert_eq!(shown, outputs, "{page}");
+    }
 }
