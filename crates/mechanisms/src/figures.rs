@@ -132,7 +132,7 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
     })?;
     let owner = format!("`{kind}`");
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, names, &[])?,
+        Some(given) => Fields::read(given, owner, names)?,
         None => Fields::none(whole, owner),
     };
     let pose = || {

@@ -36,7 +36,7 @@ pub(crate) fn read(
         "misfit",
         "preload",
     ];
-    let fields = Fields::read(entry.value, owner, &known, &[])?;
+    let fields = Fields::read(entry.value, owner, &known)?;
 
     let point = fields.required("at")?;
     let point_name = at(point)?;
@@ -93,7 +93,7 @@ fn set(
     owner: &str,
     set: impl FnOnce(&Vector6<f64>) -> Result<(), ModelError>,
 ) -> Result<(), LoadError> {
-    let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name), &[])?;
+    let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name))?;
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
@@ -212,7 +212,7 @@ fn stiffness(fragment: Fragment<'_>) -> Result<JointStiffness, LoadError> {
 /// Reads stiffnesses by direction: `(x: 1e8, v: 1e5)`.
 pub(crate) fn directions(fragment: Fragment<'_>) -> Result<[Option<f64>; 6], LoadError> {
     let known = Dof::ALL.map(Dof::name);
-    let fields = Fields::read(fragment, "the stiffness", &known, &[])?;
+    let fields = Fields::read(fragment, "the stiffness", &known)?;
     let mut values = [None; 6];
     for (value, name) in values.iter_mut().zip(known) {
         *value = fields.get(name).map(spring).transpose()?;

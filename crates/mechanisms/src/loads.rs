@@ -98,7 +98,7 @@ fn check_case_name(name: &str, key: Fragment<'_>) -> Result<(), LoadError> {
 }
 
 fn read_mass(fragment: Fragment<'_>, model: &mut Model) -> Result<(), LoadError> {
-    let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"], &[])?;
+    let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"])?;
     let node = nodes::on(model, fields.required("on")?, "a mass")?;
     let mass = fields.number("mass")?;
     let made = match fields.get("inertia") {
@@ -145,7 +145,7 @@ fn read_set(
             "to",
             "frame",
         ];
-        let fields = Fields::read(load, "a load", &known, &[])?;
+        let fields = Fields::read(load, "a load", &known)?;
         let on = fields.required("on")?;
         if known[3..7].iter().any(|name| fields.get(name).is_some()) {
             if let Some(point) = fields.get("force").or(fields.get("moment")) {

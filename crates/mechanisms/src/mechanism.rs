@@ -43,7 +43,7 @@ impl Mechanism {
             "masses",
             "output",
         ];
-        let fields = Fields::read(fragment, "the mechanism", &known, &[])?;
+        let fields = Fields::read(fragment, "the mechanism", &known)?;
         let mut model = Model::new(fields.required("name")?.string()?);
         let tables = Tables {
             materials: Table::read(fields.get("materials"), "material", |entry, owner| {
