@@ -340,7 +340,8 @@ impl Source<'_> {
                 let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
-            SolveError::Misfit { joints } => self.misfit(model, joints),
+            SolveError::Misfit { joints } => self.joint(model, joints.first()),
+            SolveError::PreloadOnFreeMotion { joint, .. } => self.joint(model, Some(joint)),
             SolveError::LoadOnFreeMotion {
                 load: Some(load), ..
             } => self.load(*load),
@@ -348,7 +349,8 @@ impl Source<'_> {
             _ => self.output(),
         };
         let drives = match &error {
-            SolveError::LoadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
+            SolveError::LoadOnFreeMotion { body, .. }
+            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
             _ => MissingDrives::default(),
         };
         CliError::Unsolvable {
@@ -362,9 +364,9 @@ impl Source<'_> {
         self.at(|mechanism| mechanism.locate_body(body))
     }
 
-    /// Place of the first of the joints whose misfits do not fit.
-    fn misfit(&self, model: &Model, joints: &[String]) -> Location {
-        let named = |joint: &Connection| joints.first() == Some(&joint.name);
+    /// Place of a joint by its name; of the output, where none is named.
+    fn joint(&self, model: &Model, name: Option<&String>) -> Location {
+        let named = |joint: &Connection| name == Some(&joint.name);
         match model.joints().iter().position(named) {
             Some(place) => self.at(|mechanism| mechanism.locate_joint(JointId(place))),
             None => self.output(),

@@ -154,7 +154,10 @@ impl CliError {
             }
             Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
             Self::Unsolvable {
-                source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
+                source:
+                    SolveError::Unheld { .. }
+                    | SolveError::LoadOnFreeMotion { .. }
+                    | SolveError::PreloadOnFreeMotion { .. },
                 drives,
                 ..
             } => Some(drives.help()),

@@ -204,3 +204,25 @@ fn a_delta_with_a_long_rod() {
         );
     }
 }
+
+/// A preload along a motion that nothing resists is told as one, at its joint.
+#[test]
+fn a_preload_that_nothing_bears_is_told_with_its_joint() {
+    let bench = Bench::new("misfits-free-preload");
+    let none = "stiffness: (x: 0.0, y: 0.0, z: 0.0, u: 0.0, v: 0.0, w: 0.0)";
+    let text = bar(none).replace(
+        "\"bar\"), kind: Fixed),",
+        "\"bar\"), kind: Fixed, stiffness: (x: 0.0), preload: (x: 10.0)),",
+    );
+    bench.file("slides.ron", &text);
+    for command in ["solve", "check"] {
+        bench
+            .hyperstat(&[command, "slides.ron"])
+            .ends_with(2)
+            .says(&[
+                "slides.ron:8:9",
+                "the preload of joint `wall` works on a motion that nothing resists: `bar` moves",
+                "hold the ",
+            ]);
+    }
+}
