@@ -66,6 +66,8 @@ impl Batch {
                 "cases",
                 "gravity",
                 "masses",
+                "misfits",
+                "preloads",
                 "figures",
                 "vary",
                 "zip",

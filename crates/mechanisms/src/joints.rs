@@ -10,8 +10,8 @@ use crate::bodies::{GROUND, check_name};
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::{Entry, Fragment};
-use crate::nodes;
 use crate::registry::{Orientation, ParsedJoint, Registry};
+use crate::{names, nodes};
 
 /// Entries of a stiffness matrix that differ by less count as equal, relative to the square root
 /// of the two diagonal entries in their row and column.
@@ -84,6 +84,34 @@ pub(crate) fn read(
         })?;
     }
     Ok(joint)
+}
+
+/// Reads `{ "joint": (x: …) }`, numbers by direction that each joint gets by `set`, in place of what
+/// the model's joints have.
+pub(crate) fn replace(
+    map: Fragment<'_>,
+    owner: &str,
+    model: &mut Model,
+    set: fn(&mut Model, JointId, &Vector6<f64>) -> Result<(), ModelError>,
+) -> Result<(), LoadError> {
+    for entry in model.misfits().to_vec() {
+        let none = set(model, entry.joint, &Vector6::zeros());
+        none.map_err(|error| map.error(error.to_string()))?;
+    }
+    for entry in map.map()? {
+        let mut joints = model.joints().iter();
+        let Some(place) = joints.position(|joint| joint.name == entry.name) else {
+            let known = model.joints().iter().map(|joint| joint.name.as_str());
+            return Err(entry
+                .key
+                .error(format!("unknown joint `{}`", entry.name))
+                .with_help(names::help(&entry.name, "joints", known)));
+        };
+        self::set(entry.value, owner, |values| {
+            set(model, JointId(place), values)
+        })?;
+    }
+    Ok(())
 }
 
 /// Reads numbers by direction and gives them to the model; what it refuses of them, it refuses for
