@@ -1,18 +1,21 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
+use std::borrow::Cow;
+use std::path::Path;
+
 use hyperstat_assembly::{
     BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
     SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Along, Design, Input, Job, Location, Mechanism, PoseError, Registry};
+use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
 use hyperstat_reference::ReferenceSolution;
 
 use crate::args;
 use crate::drawing;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{FrequencyReport, SolveReport, Why};
+use crate::report::{Asked, FrequencyReport, SolveReport, Why};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -129,6 +132,25 @@ impl Case {
         self.free_output(&solution).map_or(Ok(solution), Err)
     }
 
+    /// Its solution, or that under the loads of a case by the name given as `--case` for this file.
+    pub(crate) fn under<'s>(
+        solution: &'s Solution,
+        case: Option<&str>,
+        file: &Path,
+    ) -> Result<Cow<'s, Solution>, CliError> {
+        let Some(name) = case else {
+            return Ok(Cow::Borrowed(solution));
+        };
+        let found = solution.of_case(name).map(Cow::Owned);
+        found.ok_or_else(|| CliError::UnknownCase {
+            path: file.into(),
+            case: name.into(),
+            known: (solution.cases.iter())
+                .map(|case| case.name.clone())
+                .collect(),
+        })
+    }
+
     /// The error of the mechanism having no such result, with its place in the file.
     pub(crate) fn unsolvable(&self, error: SolveError) -> CliError {
         self.source().unsolvable(&self.model, error)
@@ -198,9 +220,9 @@ impl Case {
             .map_err(|error| self.unsolvable(error))
     }
 
-    /// What is soft and why, along a direction.
-    pub(crate) fn why(&self, solution: &Solution, along: Along) -> Result<Why, CliError> {
-        Why::new(self, solution, along).map_err(|error| self.unsolvable(error))
+    /// What is soft and why: the answer to a question about this solution.
+    pub(crate) fn why(&self, solution: &Solution, asked: Asked<'_>) -> Result<Why, CliError> {
+        Why::new(self, solution, asked).map_err(|error| self.unsolvable(error))
     }
 
     /// The mechanism file that it is from, where it is from one.

@@ -50,6 +50,13 @@ pub(crate) enum CliError {
         design: usize,
         count: usize,
     },
+    /// A `--case` that the mechanism or the job does not hold.
+    #[error("{} holds no case `{case}`", .path.display())]
+    UnknownCase {
+        path: PathBuf,
+        case: String,
+        known: Vec<String>,
+    },
     /// A pose that the mechanism cannot take.
     #[error("job `{job}`, pose {pose}: {source}")]
     Pose {
@@ -144,6 +151,10 @@ impl CliError {
             Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
                 Some(format!("its jobs are {}", known.join(", ")))
             }
+            Self::UnknownCase { known, .. } => Some(match &**known {
+                [] => "it has no cases: leave `--case` out".into(),
+                known => format!("its cases are {}", known.join(", ")),
+            }),
             Self::NoSuchPose { count: 1, .. } => Some("leave `--pose` out".into()),
             Self::NoSuchPose { count, .. } => {
                 Some(format!("choose `--pose` from 0 to {}", count - 1))
