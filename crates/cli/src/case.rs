@@ -132,8 +132,10 @@ impl Case {
         self.free_output(&solution).map_or(Ok(solution), Err)
     }
 
-    /// Its solution, or that under the loads of a case by the name given as `--case` for this file.
+    /// Its solution, or that under the loads of a case by the name that `--case` gives; `file` is what
+    /// it was loaded from.
     pub(crate) fn under<'s>(
+        &self,
         solution: &'s Solution,
         case: Option<&str>,
         file: &Path,
@@ -143,7 +145,10 @@ impl Case {
         };
         let found = solution.of_case(name).map(Cow::Owned);
         found.ok_or_else(|| CliError::UnknownCase {
-            path: file.into(),
+            of: match self.job() {
+                Some((job, _)) => format!("job `{job}`"),
+                None => file.display().to_string(),
+            },
             case: name.into(),
             known: (solution.cases.iter())
                 .map(|case| case.name.clone())

@@ -51,9 +51,10 @@ pub(crate) enum CliError {
         count: usize,
     },
     /// A `--case` that the mechanism or the job does not hold.
-    #[error("{} holds no case `{case}`", .path.display())]
+    #[error("{of} holds no case `{case}`")]
     UnknownCase {
-        path: PathBuf,
+        /// The mechanism file, or the job.
+        of: String,
         case: String,
         known: Vec<String>,
     },

@@ -75,7 +75,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         case.name_values();
     }
     let solution = case.solve()?;
-    let loaded = Case::under(&solution, args.case.as_deref(), &args.input.file)?;
+    let loaded = case.under(&solution, args.case.as_deref(), &args.input.file)?;
     let verification = if args.verify {
         Some(case.verify(&solution)?)
     } else {

@@ -43,7 +43,7 @@ fn title(args: &args::Plot, case: &Case, of_case: Option<&str>) -> String {
 fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let model = &case.model;
     let solution = case.solve_held()?;
-    let loaded = Case::under(&solution, args.case.as_deref(), &args.file)?;
+    let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
     let mut figure = drawing::deformed(model, &loaded, title, magnified(args.scale))
         .map_err(|error| case.unsolvable(error))?;
@@ -75,7 +75,7 @@ fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliErr
 fn budget(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let model = &case.model;
     let solution = case.solve_held()?;
-    let loaded = Case::under(&solution, args.case.as_deref(), &args.file)?;
+    let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let asked = Asked {
         case: args.case.as_deref(),
         along: args.along.unwrap_or(Along::Displacement),

@@ -198,6 +198,10 @@ fn the_budget_of_a_case_is_drawn() {
         .ends_with(2)
         .says(&["bar.ron holds no case `pull`", "its cases are push, rest"]);
     bench
+        .hyperstat(&["plot", "batch.ron", "--deformed", "--case", "pull"])
+        .ends_with(2)
+        .says(&["job `bar` holds no case `pull`", "its cases are push, rest"]);
+    bench
         .hyperstat(&["plot", "bar.ron", "--mode", "1", "--case", "push"])
         .ends_with(2)
         .says(&["--case"]);
