@@ -13,13 +13,15 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 use crate::error::SolveError;
 use crate::loads::LoadSet;
 use crate::misfit::preloads;
-use crate::model::{Geometry, Model, NodeId, SegmentId};
+use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
 
 /// What acts in one state.
 #[derive(Debug, Clone)]
 pub(crate) struct Acting {
     /// Wrenches on nodes, global axes, the resultants of segments among them.
     pub nodes: Vec<(NodeId, Vector6<f64>)>,
+    /// The joints whose preloads are some of these wrenches, and the number of the first of them.
+    preloaded: (usize, Vec<JointId>),
     /// Loads along segments that have any, element frames, in the segments' order.
     segments: Vec<(SegmentId, BeamLoad)>,
     /// Whether the misfits of the model's joints act. The states that are solved together have
@@ -42,6 +44,7 @@ impl Acting {
     pub fn new(model: &Model, geometry: &Geometry, set: &LoadSet) -> Result<Self, SolveError> {
         let mut acting = Self {
             nodes: Vec::with_capacity(set.nodes.len()),
+            preloaded: (0, Vec::new()),
             segments: Vec::new(),
             misfits: false,
         };
@@ -63,8 +66,10 @@ impl Acting {
 
     /// What acts in every state: misfits and preloads, weight and temperatures.
     fn always(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        let (joints, nodes) = preloads(model, geometry).into_iter().unzip();
         let mut acting = Self {
-            nodes: preloads(model, geometry),
+            nodes,
+            preloaded: (0, joints),
             segments: Vec::new(),
             misfits: !model.misfits().is_empty(),
         };
@@ -138,8 +143,9 @@ impl Acting {
         }
     }
 
-    /// Both together.
+    /// Both together; `other` is what acts always, and has the preloads.
     fn with(mut self, other: &Self) -> Self {
+        self.preloaded = (self.nodes.len(), other.preloaded.1.clone());
         self.nodes.extend(&other.nodes);
         self.misfits |= other.misfits;
         let mut own = std::mem::take(&mut self.segments);
@@ -147,6 +153,12 @@ impl Acting {
         own.sort_by_key(|(segment, _)| *segment);
         self.join(own);
         self
+    }
+
+    /// The joint whose preload a wrench of [`Acting::nodes`] is, by its number.
+    pub fn preloaded(&self, wrench: usize) -> Option<JointId> {
+        let (first, joints) = &self.preloaded;
+        joints.get(wrench.checked_sub(*first)?).copied()
     }
 
     /// Load along a segment, element frame.

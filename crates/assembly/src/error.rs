@@ -150,6 +150,16 @@ pub enum SolveError {
         /// The motion in words.
         motion: String,
     },
+    /// A preload that works on a motion that nothing resists.
+    #[error("the preload of joint `{joint}` works on a motion that nothing resists: {motion}")]
+    PreloadOnFreeMotion {
+        /// Name of the joint.
+        joint: String,
+        /// A body of that joint that moves.
+        body: BodyId,
+        /// The motion in words.
+        motion: String,
+    },
     /// The stiffness is not positive definite although the rigid mechanism is held: numbers of
     /// too different size.
     #[error("the stiffness matrix is singular to working precision")]

@@ -124,7 +124,12 @@ pub(crate) fn node_twist(
 impl Motion {
     /// The motion in words, such as "`rod3` turns about (0, 0.6, 0.8) through rod3.B".
     pub fn describe(&self, model: &Model) -> String {
-        describe(self, model, characteristic_length(model.geometry()))
+        self.describe_at(model, model.geometry())
+    }
+
+    /// The motion in words, of the model in another configuration than its own.
+    pub(crate) fn describe_at(&self, model: &Model, geometry: &Geometry) -> String {
+        describe(self, model, geometry, characteristic_length(geometry))
     }
 
     /// The free directions of joints along which the motion goes, in the order of the joints. A
@@ -152,19 +157,20 @@ impl Motion {
 
 /// Motions in words, as [`Motion::describe`] puts one.
 pub fn describe_motions(motions: &[Motion], model: &Model) -> Vec<String> {
-    let size = characteristic_length(model.geometry());
-    let in_words = |motion| describe(motion, model, size);
+    let geometry = model.geometry();
+    let size = characteristic_length(geometry);
+    let in_words = |motion| describe(motion, model, geometry, size);
     motions.iter().map(in_words).collect()
 }
 
 /// A motion of a mechanism of this size in words.
-fn describe(motion: &Motion, model: &Model, size: f64) -> String {
+fn describe(motion: &Motion, model: &Model, geometry: &Geometry, size: f64) -> String {
     const SHOWN: usize = 4;
     let mut parts: Vec<String> = motion
         .twists
         .iter()
         .take(SHOWN)
-        .map(|(body, twist)| describe_body(*body, twist, model, size))
+        .map(|(body, twist)| describe_body(*body, twist, model, geometry, size))
         .collect();
     if motion.twists.len() > SHOWN {
         parts.push(format!(
@@ -175,8 +181,13 @@ fn describe(motion: &Motion, model: &Model, size: f64) -> String {
     parts.join("; ")
 }
 
-fn describe_body(body: BodyId, twist: &Vector6<f64>, model: &Model, size: f64) -> String {
-    let geometry = model.geometry();
+fn describe_body(
+    body: BodyId,
+    twist: &Vector6<f64>,
+    model: &Model,
+    geometry: &Geometry,
+    size: f64,
+) -> String {
     let entry = &model.bodies()[body.0];
     let name = &entry.name;
     let (v, w) = (twist.fixed_rows::<3>(0), twist.fixed_rows::<3>(3));

@@ -51,8 +51,11 @@ pub(crate) fn loose_preload(directions: &Directions, entry: &Misfit) -> Vector6<
     }
 }
 
-/// The wrenches on nodes, global axes, that preloads make.
-pub(crate) fn preloads(model: &Model, geometry: &Geometry) -> Vec<(NodeId, Vector6<f64>)> {
+/// The wrenches on nodes, global axes, that preloads of joints make.
+pub(crate) fn preloads(
+    model: &Model,
+    geometry: &Geometry,
+) -> Vec<(JointId, (NodeId, Vector6<f64>))> {
     let mut wrenches = Vec::new();
     for entry in model.misfits() {
         let joint = &model.joints()[entry.joint.0];
@@ -63,7 +66,7 @@ pub(crate) fn preloads(model: &Model, geometry: &Geometry) -> Vec<(NodeId, Vecto
         let local = to_directions(&joint.joint.basis(), &geometry.frames[entry.joint.0]);
         let on_second = local.transpose() * preload;
         let sides = joint.between.iter().zip([-on_second, on_second]);
-        wrenches.extend(sides.filter_map(|(node, wrench)| Some(((*node)?, wrench))));
+        wrenches.extend(sides.filter_map(|(node, wrench)| Some((entry.joint, ((*node)?, wrench)))));
     }
     wrenches
 }

@@ -83,11 +83,20 @@ impl Restraint {
             let wrenches = moved.flatten().map(|&k| (k, &acting.nodes[k]));
             if let Some(largest) = working(motion, model, geometry, self.size, wrenches) {
                 let (node, _) = acting.nodes[largest];
-                return Err(SolveError::LoadOnFreeMotion {
-                    node: model.node_name(node),
-                    body: model.nodes()[node.0].body,
-                    load: Some(largest).filter(|k| set == 0 && *k < model.loads().len()),
-                    motion: motion.describe(model),
+                let body = model.nodes()[node.0].body;
+                let motion = motion.describe_at(model, geometry);
+                return Err(match acting.preloaded(largest) {
+                    Some(joint) => SolveError::PreloadOnFreeMotion {
+                        joint: model.joints()[joint.0].name.clone(),
+                        body,
+                        motion,
+                    },
+                    None => SolveError::LoadOnFreeMotion {
+                        node: model.node_name(node),
+                        body,
+                        load: Some(largest).filter(|k| set == 0 && *k < model.loads().len()),
+                        motion,
+                    },
                 });
             }
         }

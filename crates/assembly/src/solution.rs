@@ -86,6 +86,26 @@ impl Solution {
             .collect()
     }
 
+    /// The solution under the loads of a case in place of the model's own: the same in all that no
+    /// load changes. `None` where there is no case of this name.
+    pub fn of_case(&self, name: &str) -> Option<Self> {
+        let case = self.cases.iter().find(|case| case.name == name)?;
+        let State {
+            output,
+            displacements,
+            joint_wrenches,
+            segments,
+        } = case.state.clone();
+        let mut solution = Self {
+            displacements,
+            joint_wrenches,
+            segments,
+            ..self.clone()
+        };
+        solution.output.displacement = output;
+        Some(solution)
+    }
+
     /// Displacements of the inner nodes of a segment divided into n elements: node k of 1 to
     /// n − 1 lies at k/n of the way from its first node to its second. Six components each, global
     /// axes (m, rad). They are exact, loads along the segment included; time grows with n alone.

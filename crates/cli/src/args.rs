@@ -74,6 +74,8 @@ Examples:
                                              For ParaView
   hyperstat solve portal.ron --why           What is soft, and which dimension should grow
   hyperstat solve portal.ron --why --along z
+  hyperstat solve portal.ron --why --case push
+                                             The same under the loads of a case
   hyperstat solve portal.ron --why --modes 3
                                              What changes the frequencies, too
   hyperstat solve paper.ron --job delta --pose 12
@@ -196,6 +198,9 @@ pub(crate) struct Solve {
         allow_hyphen_values = true
     )]
     pub(crate) along: Along,
+    /// Case of the mechanism or the job that `--why` is asked about [default: the loads of no case]
+    #[arg(long, value_name = "NAME", requires = "why")]
+    pub(crate) case: Option<String>,
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
@@ -277,8 +282,8 @@ pub(crate) struct Plot {
     /// Lines: the column along the lower axis [default: pose]
     #[arg(long, value_name = "COLUMN", requires = "lines")]
     pub(crate) over: Option<String>,
-    /// Deformed: the case of the mechanism or the job [default: the loads of no case]
-    #[arg(long, value_name = "NAME", requires = "deformed")]
+    /// Deformed, budget: the case of the mechanism or the job [default: the loads of no case]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["map", "lines", "trajectory", "mode"])]
     pub(crate) case: Option<String>,
     /// Deformed: mark the points of the independent solver too, and tell the largest difference
     #[arg(long, requires = "deformed", conflicts_with = "case")]

@@ -1,18 +1,21 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
+use std::borrow::Cow;
+use std::path::Path;
+
 use hyperstat_assembly::{
     BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
     SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Along, Design, Input, Job, Location, Mechanism, PoseError, Registry};
+use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
 use hyperstat_reference::ReferenceSolution;
 
 use crate::args;
 use crate::drawing;
 use crate::drives::MissingDrives;
 use crate::error::CliError;
-use crate::report::{FrequencyReport, SolveReport, Why};
+use crate::report::{Asked, FrequencyReport, SolveReport, Why};
 use crate::verification::Verification;
 
 /// A mechanism in one configuration, ready to be solved.
@@ -129,6 +132,30 @@ impl Case {
         self.free_output(&solution).map_or(Ok(solution), Err)
     }
 
+    /// Its solution, or that under the loads of a case by the name that `--case` gives; `file` is what
+    /// it was loaded from.
+    pub(crate) fn under<'s>(
+        &self,
+        solution: &'s Solution,
+        case: Option<&str>,
+        file: &Path,
+    ) -> Result<Cow<'s, Solution>, CliError> {
+        let Some(name) = case else {
+            return Ok(Cow::Borrowed(solution));
+        };
+        let found = solution.of_case(name).map(Cow::Owned);
+        found.ok_or_else(|| CliError::UnknownCase {
+            of: match self.job() {
+                Some((job, _)) => format!("job `{job}`"),
+                None => file.display().to_string(),
+            },
+            case: name.into(),
+            known: (solution.cases.iter())
+                .map(|case| case.name.clone())
+                .collect(),
+        })
+    }
+
     /// The error of the mechanism having no such result, with its place in the file.
     pub(crate) fn unsolvable(&self, error: SolveError) -> CliError {
         self.source().unsolvable(&self.model, error)
@@ -198,9 +225,9 @@ impl Case {
             .map_err(|error| self.unsolvable(error))
     }
 
-    /// What is soft and why, along a direction.
-    pub(crate) fn why(&self, solution: &Solution, along: Along) -> Result<Why, CliError> {
-        Why::new(self, solution, along).map_err(|error| self.unsolvable(error))
+    /// What is soft and why: the answer to a question about this solution.
+    pub(crate) fn why(&self, solution: &Solution, asked: Asked<'_>) -> Result<Why, CliError> {
+        Why::new(self, solution, asked).map_err(|error| self.unsolvable(error))
     }
 
     /// The mechanism file that it is from, where it is from one.
@@ -340,7 +367,8 @@ impl Source<'_> {
                 let body = model.body(body);
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
-            SolveError::Misfit { joints } => self.misfit(model, joints),
+            SolveError::Misfit { joints } => self.joint(model, joints.first()),
+            SolveError::PreloadOnFreeMotion { joint, .. } => self.joint(model, Some(joint)),
             SolveError::LoadOnFreeMotion {
                 load: Some(load), ..
             } => self.load(*load),
@@ -348,7 +376,8 @@ impl Source<'_> {
             _ => self.output(),
         };
         let drives = match &error {
-            SolveError::LoadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
+            SolveError::LoadOnFreeMotion { body, .. }
+            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
             _ => MissingDrives::default(),
         };
         CliError::Unsolvable {
@@ -362,9 +391,9 @@ impl Source<'_> {
         self.at(|mechanism| mechanism.locate_body(body))
     }
 
-    /// Place of the first of the joints whose misfits do not fit.
-    fn misfit(&self, model: &Model, joints: &[String]) -> Location {
-        let named = |joint: &Connection| joints.first() == Some(&joint.name);
+    /// Place of a joint by its name; of the output, where none is named.
+    fn joint(&self, model: &Model, name: Option<&String>) -> Location {
+        let named = |joint: &Connection| name == Some(&joint.name);
         match model.joints().iter().position(named) {
             Some(place) => self.at(|mechanism| mechanism.locate_joint(JointId(place))),
             None => self.output(),

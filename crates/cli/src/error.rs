@@ -50,6 +50,14 @@ pub(crate) enum CliError {
         design: usize,
         count: usize,
     },
+    /// A `--case` that the mechanism or the job does not hold.
+    #[error("{of} holds no case `{case}`")]
+    UnknownCase {
+        /// The mechanism file, or the job.
+        of: String,
+        case: String,
+        known: Vec<String>,
+    },
     /// A pose that the mechanism cannot take.
     #[error("job `{job}`, pose {pose}: {source}")]
     Pose {
@@ -144,6 +152,10 @@ impl CliError {
             Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
                 Some(format!("its jobs are {}", known.join(", ")))
             }
+            Self::UnknownCase { known, .. } => Some(match &**known {
+                [] => "it has no cases: leave `--case` out".into(),
+                known => format!("its cases are {}", known.join(", ")),
+            }),
             Self::NoSuchPose { count: 1, .. } => Some("leave `--pose` out".into()),
             Self::NoSuchPose { count, .. } => {
                 Some(format!("choose `--pose` from 0 to {}", count - 1))
@@ -154,7 +166,10 @@ impl CliError {
             }
             Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
             Self::Unsolvable {
-                source: SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. },
+                source:
+                    SolveError::Unheld { .. }
+                    | SolveError::LoadOnFreeMotion { .. }
+                    | SolveError::PreloadOnFreeMotion { .. },
                 drives,
                 ..
             } => Some(drives.help()),

@@ -26,7 +26,7 @@ use args::{Cli, Command, Format};
 use atomic::AtomicFile;
 use case::Case;
 use error::CliError;
-use report::{CheckReport, ModesReport, SolveReport, json};
+use report::{Asked, CheckReport, ModesReport, SolveReport, json};
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -75,6 +75,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         case.name_values();
     }
     let solution = case.solve()?;
+    let loaded = case.under(&solution, args.case.as_deref(), &args.input.file)?;
     let verification = if args.verify {
         Some(case.verify(&solution)?)
     } else {
@@ -103,7 +104,11 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         })?;
     }
     if args.why {
-        report.add_why(case.why(&solution, args.along)?);
+        let asked = Asked {
+            case: args.case.as_deref(),
+            along: args.along,
+        };
+        report.add_why(case.why(&loaded, asked)?);
         if let Some(options) = &options {
             case.add_frequencies(options, &mut report)?;
         }

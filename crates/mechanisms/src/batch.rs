@@ -53,7 +53,7 @@ pub struct Job {
 impl Batch {
     /// Reads the value of a batch file.
     pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
-        let fields = Fields::read(fragment, "the batch", &["jobs"], &[])?;
+        let fields = Fields::read(fragment, "the batch", &["jobs"])?;
         let list = fields.required("jobs")?;
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
@@ -66,12 +66,14 @@ impl Batch {
                 "cases",
                 "gravity",
                 "masses",
+                "misfits",
+                "preloads",
                 "figures",
                 "vary",
                 "zip",
                 "modes",
             ];
-            let fields = Fields::read(fragment, "a job", &known, &[])?;
+            let fields = Fields::read(fragment, "a job", &known)?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {

@@ -51,7 +51,7 @@ pub(crate) fn frame(
         let what = format!("member {} of frame `{name}`", k + 1);
         let (own, through) = if member.text().starts_with('(') {
             let known = ["through", "section", "material", "y_axis", "elements"];
-            let own = Fields::read(member, &what, &known, &[])?;
+            let own = Fields::read(member, &what, &known)?;
             let through = own.required("through")?;
             (own, through)
         } else if member.text().starts_with('[') {

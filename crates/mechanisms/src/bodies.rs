@@ -71,7 +71,7 @@ pub(crate) fn read(
             Some(given) => {
                 let temperature: &[&str] = &["temperature"];
                 let known = [known, temperature].concat();
-                Ok(Fields::read(given, owner, &known, &[])?.within(entry.value))
+                Ok(Fields::read(given, owner, &known)?.within(entry.value))
             }
             None => Ok(Fields::none(entry.value, owner)),
         }

@@ -17,13 +17,12 @@ pub(crate) struct Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// Reads a struct with some of the `known` fields. The `reserved` ones are known too, for
-    /// later; `owner` says what the struct is, such as "material `steel`".
+    /// Reads a struct with some of the `known` fields; `owner` says what the struct is, such as
+    /// "material `steel`".
     pub(crate) fn read(
         fragment: Fragment<'a>,
         owner: impl Into<String>,
         known: &[&str],
-        reserved: &[&str],
     ) -> Result<Self, LoadError> {
         let mut fields = Self::none(fragment, owner);
         let expected = match known {
@@ -33,11 +32,6 @@ impl<'a> Fields<'a> {
         let mut names = Vec::<Fragment>::new();
         for (name, value) in fragment.named(&expected)? {
             let owner = &fields.owner;
-            if reserved.contains(&name.text()) {
-                let message = format!("`{}` is reserved and not supported yet", name.text());
-                let help = "leave it out; a later version will take it";
-                return Err(name.error(message).with_help(help));
-            }
             if !known.contains(&name.text()) {
                 return Err(name
                     .error(format!("unknown field `{}` of {owner}", name.text()))

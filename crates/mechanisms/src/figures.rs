@@ -37,6 +37,8 @@ pub enum Figure {
         along: Along,
         /// The pose, from 0.
         pose: usize,
+        /// The case under whose loads; the loads of the base state where there is none.
+        case: Option<String>,
     },
     /// A quantity over a plane of the poses, or over all of their planes.
     Map {
@@ -112,7 +114,7 @@ const KINDS: [(&str, &[&str]); 5] = [
     ("Trajectory", &["scale"]),
     ("Deformed", &["pose", "case", "scale"]),
     ("Mode", &["number", "pose", "scale"]),
-    ("Budget", &["along", "pose"]),
+    ("Budget", &["along", "pose", "case"]),
     ("Map", &["value", "plane"]),
 ];
 
@@ -132,13 +134,14 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
     })?;
     let owner = format!("`{kind}`");
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, names, &[])?,
+        Some(given) => Fields::read(given, owner, names)?,
         None => Fields::none(whole, owner),
     };
     let pose = || {
         let given = fields.get("pose");
         given.map_or(Ok(0), |at| pose(at, known.poses))
     };
+    let case = || fields.get("case").map(|at| case(at, known)).transpose();
     let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
     Ok(match kind {
         "Map" => Figure::Map {
@@ -147,7 +150,7 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
         },
         "Deformed" => Figure::Deformed {
             pose: pose()?,
-            case: fields.get("case").map(|at| case(at, known)).transpose()?,
+            case: case()?,
             scale: scale()?,
         },
         "Mode" => Figure::Mode {
@@ -158,6 +161,7 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
         "Budget" => Figure::Budget {
             along: fields.get("along").map_or(Ok(Along::Displacement), along)?,
             pose: pose()?,
+            case: case()?,
         },
         _ if known.poses < 2 => {
             return Err(whole

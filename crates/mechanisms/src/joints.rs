@@ -10,8 +10,8 @@ use crate::bodies::{GROUND, check_name};
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::{Entry, Fragment};
-use crate::nodes;
 use crate::registry::{Orientation, ParsedJoint, Registry};
+use crate::{names, nodes};
 
 /// Entries of a stiffness matrix that differ by less count as equal, relative to the square root
 /// of the two diagonal entries in their row and column.
@@ -36,7 +36,7 @@ pub(crate) fn read(
         "misfit",
         "preload",
     ];
-    let fields = Fields::read(entry.value, owner, &known, &[])?;
+    let fields = Fields::read(entry.value, owner, &known)?;
 
     let point = fields.required("at")?;
     let point_name = at(point)?;
@@ -86,6 +86,34 @@ pub(crate) fn read(
     Ok(joint)
 }
 
+/// Reads `{ "joint": (x: …) }`, numbers by direction that each joint gets by `set`, in place of what
+/// the model's joints have.
+pub(crate) fn replace(
+    map: Fragment<'_>,
+    owner: &str,
+    model: &mut Model,
+    set: fn(&mut Model, JointId, &Vector6<f64>) -> Result<(), ModelError>,
+) -> Result<(), LoadError> {
+    for entry in model.misfits().to_vec() {
+        let none = set(model, entry.joint, &Vector6::zeros());
+        none.map_err(|error| map.error(error.to_string()))?;
+    }
+    for entry in map.map()? {
+        let mut joints = model.joints().iter();
+        let Some(place) = joints.position(|joint| joint.name == entry.name) else {
+            let known = model.joints().iter().map(|joint| joint.name.as_str());
+            return Err(entry
+                .key
+                .error(format!("unknown joint `{}`", entry.name))
+                .with_help(names::help(&entry.name, "joints", known)));
+        };
+        self::set(entry.value, owner, |values| {
+            set(model, JointId(place), values)
+        })?;
+    }
+    Ok(())
+}
+
 /// Reads numbers by direction and gives them to the model; what it refuses of them, it refuses for
 /// one direction.
 fn set(
@@ -93,7 +121,7 @@ fn set(
     owner: &str,
     set: impl FnOnce(&Vector6<f64>) -> Result<(), ModelError>,
 ) -> Result<(), LoadError> {
-    let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name), &[])?;
+    let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name))?;
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
@@ -212,7 +240,7 @@ fn stiffness(fragment: Fragment<'_>) -> Result<JointStiffness, LoadError> {
 /// Reads stiffnesses by direction: `(x: 1e8, v: 1e5)`.
 pub(crate) fn directions(fragment: Fragment<'_>) -> Result<[Option<f64>; 6], LoadError> {
     let known = Dof::ALL.map(Dof::name);
-    let fields = Fields::read(fragment, "the stiffness", &known, &[])?;
+    let fields = Fields::read(fragment, "the stiffness", &known)?;
     let mut values = [None; 6];
     for (value, name) in values.iter_mut().zip(known) {
         *value = fields.get(name).map(spring).transpose()?;

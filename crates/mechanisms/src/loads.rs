@@ -1,4 +1,5 @@
-//! What acts on a mechanism, in its file or in a job: loads, cases, gravity and masses.
+//! What acts on a mechanism, in its file or in a job: loads, cases, gravity and masses; in a job
+//! misfits and preloads of joints, too.
 
 use hyperstat_assembly::{
     Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId,
@@ -9,15 +10,16 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::nodes;
 use crate::source::Place;
+use crate::{joints, nodes};
 
-/// The fields of a file or a job that say what acts.
-pub(crate) const FIELDS: [&str; 4] = ["loads", "cases", "gravity", "masses"];
+/// The fields of a job that say what acts. Those of a file are the first four: what its joints have
+/// stands with each of them.
+pub(crate) const FIELDS: [&str; 6] = ["loads", "cases", "gravity", "masses", "misfits", "preloads"];
 
 /// Where those fields stand, each if it is given.
 #[derive(Debug, Clone)]
-pub(crate) struct Acting([Option<Place>; 4]);
+pub(crate) struct Acting([Option<Place>; 6]);
 
 impl Acting {
     /// Finds the fields.
@@ -64,6 +66,12 @@ pub(crate) fn read<'a>(
             read_mass(mass, model)?;
         }
     }
+    if let Some(misfits) = field(4) {
+        joints::replace(misfits, "the misfit", model, Model::set_misfit)?;
+    }
+    if let Some(preloads) = field(5) {
+        joints::replace(preloads, "the preload", model, Model::set_preload)?;
+    }
     if let Some(gravity) = field(2) {
         let set = model.set_gravity(gravity.vector()?);
         set.map_err(|error| refused(gravity, error))?;
@@ -98,7 +106,7 @@ fn check_case_name(name: &str, key: Fragment<'_>) -> Result<(), LoadError> {
 }
 
 fn read_mass(fragment: Fragment<'_>, model: &mut Model) -> Result<(), LoadError> {
-    let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"], &[])?;
+    let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"])?;
     let node = nodes::on(model, fields.required("on")?, "a mass")?;
     let mass = fields.number("mass")?;
     let made = match fields.get("inertia") {
@@ -145,7 +153,7 @@ fn read_set(
             "to",
             "frame",
         ];
-        let fields = Fields::read(load, "a load", &known, &[])?;
+        let fields = Fields::read(load, "a load", &known)?;
         let on = fields.required("on")?;
         if known[3..7].iter().any(|name| fields.get(name).is_some()) {
             if let Some(point) = fields.get("force").or(fields.get("moment")) {

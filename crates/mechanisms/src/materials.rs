@@ -40,7 +40,7 @@ impl Profile {
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
     let known = ["young", "poisson", "shear", "density", "expansion", "yield"];
-    let fields = Fields::read(fragment, owner, &known, &[])?;
+    let fields = Fields::read(fragment, owner, &known)?;
     let young = fields.number("young")?;
     let poisson = fields.optional_number("poisson")?;
     let shear = fields.optional_number("shear")?;
@@ -81,7 +81,7 @@ pub(crate) fn profile(fragment: Fragment<'_>, owner: &str) -> Result<Profile, Lo
         _ => return section(fragment, owner).map(Profile::Uniform),
     };
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, &["from", "to"], &[])?.within(fragment),
+        Some(given) => Fields::read(given, owner, &["from", "to"])?.within(fragment),
         None => Fields::none(fragment, owner),
     };
     let end = |name: &str| section(fields.required(name)?, &format!("`{name}` of {owner}"));
@@ -134,7 +134,7 @@ pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, Lo
         }
     };
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, known, &[])?.within(fragment),
+        Some(given) => Fields::read(given, owner, known)?.within(fragment),
         None => Fields::none(fragment, owner),
     };
     let shape = match kind.text() {

@@ -43,7 +43,7 @@ impl Mechanism {
             "masses",
             "output",
         ];
-        let fields = Fields::read(fragment, "the mechanism", &known, &[])?;
+        let fields = Fields::read(fragment, "the mechanism", &known)?;
         let mut model = Model::new(fields.required("name")?.string()?);
         let tables = Tables {
             materials: Table::read(fields.get("materials"), "material", |entry, owner| {
@@ -87,7 +87,7 @@ impl Mechanism {
         })
     }
 
-    /// Puts what a job says of loads, cases, gravity and masses in place of the mechanism's own.
+    /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the mechanism's own.
     pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
         if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
             self.loads = loads;

@@ -17,7 +17,7 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
         return count(fragment).map(ModalOptions::lowest);
     }
     let known = ["count", "mass", "shape", "rotary_inertia"];
-    let fields = Fields::read(fragment, "`modes`", &known, &[])?;
+    let fields = Fields::read(fragment, "`modes`", &known)?;
     let mut options = ModalOptions::lowest(count(fields.required("count")?)?);
     if let Some(mass) = fields.get("mass") {
         options.mass = match word(mass, "kinds of mass", ["Consistent", "Lumped"])? {

@@ -86,7 +86,7 @@ pub(crate) fn read(
 ) -> Result<Box<dyn Prebuilt>, LoadError> {
     let owner = format!("`{}`", kind.name);
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, kind.fields, &[])?.within(whole),
+        Some(given) => Fields::read(given, owner, kind.fields)?.within(whole),
         None => Fields::none(whole, owner),
     };
     (kind.read)(&fields)
@@ -192,7 +192,7 @@ fn material(fragment: Fragment<'_>) -> Result<Material, LoadError> {
 
 fn link(fields: &Fields<'_>, name: &str) -> Result<Link, LoadError> {
     let owner = format!("`{name}`");
-    let link = Fields::read(fields.required(name)?, owner, &["section", "material"], &[])?;
+    let link = Fields::read(fields.required(name)?, owner, &["section", "material"])?;
     Ok(Link {
         section: section(link.required("section")?)?,
         material: material(link.required("material")?)?,

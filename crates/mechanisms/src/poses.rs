@@ -134,7 +134,7 @@ fn grid(
     whole: Fragment<'_>,
     given: &Given<'_>,
 ) -> Result<Poses, LoadError> {
-    let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS, &[])?.within(whole);
+    let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS)?.within(whole);
     let mut axes = [Values::ZERO; 6];
     for (index, (axis, name)) in axes.iter_mut().zip(csv::COLUMNS).enumerate() {
         let position = |c: &PoseCoordinate| c.index() == index && index < 3;

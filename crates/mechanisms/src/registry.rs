@@ -101,7 +101,7 @@ impl Registry {
             None => Fields::none(fragment, owner),
             Some(given) => {
                 check_x_axis(given, kind)?;
-                Fields::read(given, owner, kind.arguments, &[])?.within(fragment)
+                Fields::read(given, owner, kind.arguments)?.within(fragment)
             }
         };
         (kind.reader)(&Arguments { fields })

@@ -190,7 +190,7 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
 }
 
 fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<[Option<Values>; 6], LoadError> {
-    let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS, &[])?.within(whole);
+    let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS)?.within(whole);
     let mut axes = [None; 6];
     for (axis, name) in axes.iter_mut().zip(csv::COLUMNS) {
         let read = |field| Values::read(field, "three values, `(first, last, count)`");

@@ -604,9 +604,27 @@ fn a_preload_on_a_motion_that_nothing_resists_is_refused() {
         .set_preload(axle, &only(Dof::V, 1.0))
         .expect("a preload");
     let refused = solve(&model).expect_err("it spins");
+    assert_eq!(
+        refused.to_string(),
+        "the preload of joint `axle` works on a motion that nothing resists: `wheel` turns about \
+         its own axis (0, 1, 0)"
+    );
+    let wheel = model.body("wheel").expect("a body");
+    assert!(matches!(refused, SolveError::PreloadOnFreeMotion { body, .. } if body == wheel));
+
+    // A load that does more work is the one to blame.
+    let load = Load {
+        node: model.node("wheel", "B").expect("a node"),
+        wrench: only(Dof::V, 5.0),
+        axes: Axes::Global,
+    };
+    let nodes = vec![load];
+    let lines = Vec::new();
+    model.set_loads(LoadSet { nodes, lines }).expect("loads");
+    let refused = solve(&model).expect_err("it spins");
     assert!(matches!(
         refused,
-        SolveError::LoadOnFreeMotion { load: None, .. }
+        SolveError::LoadOnFreeMotion { load: Some(0), .. }
     ));
 }
 

@@ -1,6 +1,8 @@
 //! What is said of outputs that are held, free, or neither; and of bodies that nothing holds.
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, Warning, analyse, solve};
+use hyperstat_assembly::{
+    Connection, JointStiffness, Model, Plan, SolveError, Warning, analyse, solve,
+};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{DofSet, Fixed, Joint, Planar, Revolute, Spherical, frame_from_axis};
 use nalgebra::{Point3, Rotation3, Vector3, Vector6};
@@ -128,6 +130,29 @@ fn a_load_on_a_free_motion_is_refused_and_named() {
         }) => {
             assert_eq!(node, "bar.T");
             assert_eq!(motion, "`bar` turns about (0, 0, 1) through O");
+        }
+        other => panic!("{other:?}"),
+    }
+    // Of another configuration, the points are those of that one.
+    let mut reversed = Model::new("reversed");
+    let points = [("T", Point3::new(0.4, 0.0, 0.0)), ("O", Point3::origin())];
+    reversed.add_rigid("bar", &points).expect("a body");
+    let joint = Connection {
+        between: [None, reversed.node("bar", "O")],
+        ..connection("pivot", Box::new(Revolute))
+    };
+    let frame = frame_from_axis(Some(&Vector3::z()), None).expect("an axis");
+    reversed.add_joint(joint, frame).expect("a joint");
+    let tip = reversed.node("bar", "T").expect("a node");
+    reversed.set_output(tip);
+    let load = Vector6::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    reversed.add_load(tip, load).expect("a load");
+    let mut geometry = reversed.geometry().clone();
+    geometry.positions[tip.0] = Point3::new(0.0, 0.4, 0.0);
+    let plan = Plan::new(&reversed).expect("a plan");
+    match plan.sweep(&reversed, &geometry, &mut plan.workspace()) {
+        Err(SolveError::LoadOnFreeMotion { motion, .. }) => {
+            assert_eq!(motion, "`bar` turns about (0, 0, -1) through O");
         }
         other => panic!("{other:?}"),
     }

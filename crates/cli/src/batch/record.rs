@@ -27,7 +27,11 @@ impl Failure {
     pub(crate) fn status(&self) -> &'static str {
         match self {
             Self::Pose(PoseError::Unreachable { .. }) => "unreachable",
-            Self::Solve(SolveError::Unheld { .. } | SolveError::LoadOnFreeMotion { .. })
+            Self::Solve(
+                SolveError::Unheld { .. }
+                | SolveError::LoadOnFreeMotion { .. }
+                | SolveError::PreloadOnFreeMotion { .. },
+            )
             | Self::Free => "unrestrained",
             Self::Pose(PoseError::Singular { .. }) => "singular",
             Self::Pose(PoseError::Branch { .. }) => "branch",

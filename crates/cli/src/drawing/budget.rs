@@ -101,6 +101,7 @@ mod tests {
         };
         BudgetReport {
             of: "displacement".into(),
+            case: None,
             along,
             total: 1.0,
             parts: Vec::new(),

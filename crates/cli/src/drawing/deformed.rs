@@ -14,24 +14,19 @@ use super::{SECOND, difference, linear};
 /// Pieces in which an elastic curve is drawn, at the least and at the most: four an element.
 const PIECES: [usize; 2] = [24, 240];
 
-/// The mechanism under its loads, or under those of a case by its place in the model's.
+/// The mechanism under its loads.
 ///
 /// # Errors
 /// A segment that cannot be formed, which no segment of a solved model is.
 pub(crate) fn deformed(
     model: &Model,
     solution: &Solution,
-    case: Option<usize>,
     title: String,
     scale: Scale,
 ) -> Result<DeformedFigure, SolveError> {
-    let base = (&*solution.displacements, &*solution.segments);
-    let (displacements, forces) = case.map_or(base, |case| {
-        let state = &solution.cases[case].state;
-        (&*state.displacements, &*state.segments)
-    });
+    let displacements = &*solution.displacements;
     let along = |segment: SegmentId, xi| {
-        let load = forces
+        let load = (solution.segments)
             .get(segment.0)
             .map(|forces: &SegmentForces| &forces.load);
         segment_displacement(model, model.geometry(), displacements, segment, load, xi)

@@ -81,9 +81,9 @@ pub(crate) enum PlotError {
         option: &'static str,
         what: &'static str,
     },
-    /// A direction for a budget that is found already.
-    #[error("{} is solved already, along the direction that it states", .path.display())]
-    Along { path: PathBuf },
+    /// A direction or a case for a budget that is found already.
+    #[error("{} is solved already, along the direction and under the loads that it states", .path.display())]
+    Answered { path: PathBuf, option: &'static str },
     /// JSON that is not of `solve --why`.
     #[error("not the JSON of `hyperstat solve --why`: {message}")]
     NoSolve {
@@ -99,13 +99,6 @@ pub(crate) enum PlotError {
     /// A budget of nothing.
     #[error("{}: the output does not move along this direction: nothing has a share in it", .path.display())]
     NoShares { path: PathBuf },
-    /// A case that the model does not have.
-    #[error("{} holds no case `{name}`", .path.display())]
-    NoCase {
-        path: PathBuf,
-        name: String,
-        known: Vec<String>,
-    },
     /// A mode beyond the last.
     #[error("{} has no mode {number}: it has {count}", .path.display())]
     NoMode {
@@ -145,19 +138,15 @@ impl PlotError {
                     .into(),
             ),
             Self::NoChoice { option, .. } => Some(format!("leave `{option}` out")),
-            Self::Along { .. } => {
-                Some("give `--along` to `hyperstat solve --why`, or draw the mechanism file".into())
-            }
+            Self::Answered { option, .. } => Some(format!(
+                "give `{option}` to `hyperstat solve --why`, or draw the mechanism file"
+            )),
             Self::NoSolve { .. } | Self::NoBudget { .. } => Some(
                 "give what `hyperstat solve FILE.ron --why --format json` prints, or FILE.ron itself"
                     .into(),
             ),
             Self::Free { .. } => Some("lock a drive or make it elastic".into()),
             Self::NoShares { .. } => Some("give another direction with `--along`".into()),
-            Self::NoCase { known, .. } => Some(match &**known {
-                [] => "it has no cases: leave `--case` out".into(),
-                known => format!("its cases are {}", known.join(", ")),
-            }),
             Self::NoMode { count: 0, .. } => {
                 Some("nothing that moves has mass: give the materials a `density`".into())
             }

@@ -8,6 +8,7 @@ use crate::args;
 use crate::case::Case;
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
+use crate::report::Asked;
 
 /// The figure that is asked for.
 pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> {
@@ -42,20 +43,9 @@ fn title(args: &args::Plot, case: &Case, of_case: Option<&str>) -> String {
 fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let model = &case.model;
     let solution = case.solve_held()?;
-    let place = match &args.case {
-        None => None,
-        Some(name) => {
-            let cases = solution.cases.iter().map(|case| &case.name);
-            let place = cases.clone().position(|known| known == name);
-            Some(place.ok_or_else(|| PlotError::NoCase {
-                path: args.file.clone(),
-                name: name.clone(),
-                known: cases.cloned().collect(),
-            })?)
-        }
-    };
+    let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
-    let mut figure = drawing::deformed(model, &solution, place, title, magnified(args.scale))
+    let mut figure = drawing::deformed(model, &loaded, title, magnified(args.scale))
         .map_err(|error| case.unsolvable(error))?;
     if args.verify {
         let reference = case.reference()?;
@@ -85,14 +75,18 @@ fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliErr
 fn budget(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let model = &case.model;
     let solution = case.solve_held()?;
-    let along = args.along.unwrap_or(Along::Displacement);
-    let budget = crate::report::budget(model, &solution, along);
+    let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
+    let asked = Asked {
+        case: args.case.as_deref(),
+        along: args.along.unwrap_or(Along::Displacement),
+    };
+    let budget = crate::report::budget(model, &loaded, asked);
     let budget = budget.map_err(|error| case.unsolvable(error))?;
     let budget = budget.ok_or_else(|| PlotError::Free {
         path: args.file.clone(),
     })?;
     let output = model.output().map(|node| model.node_name(node));
-    let title = title(args, case, None);
+    let title = title(args, case, asked.case);
     let figure = drawing::budget(&budget, &output.unwrap_or_default(), title);
     Ok(Drawing::Budget(figure.ok_or_else(|| {
         PlotError::NoShares {

@@ -38,8 +38,16 @@ fn given<'de, D: Deserializer<'de>>(
 /// The figure of the budget.
 pub(super) fn figure(args: &args::Plot) -> Result<Plotted, PlotError> {
     let path = || args.file.clone();
-    if args.along.is_some() {
-        return Err(PlotError::Along { path: path() });
+    for (option, given) in [
+        ("--along", args.along.is_some()),
+        ("--case", args.case.is_some()),
+    ] {
+        if given {
+            return Err(PlotError::Answered {
+                path: path(),
+                option,
+            });
+        }
     }
     let text = fs::read_to_string(&args.file).map_err(|source| PlotError::Read {
         path: path(),
@@ -68,7 +76,9 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, PlotError> {
     let budget = budget.ok_or_else(|| PlotError::Free { path: path() })?;
     let name = solved.job.as_ref().unwrap_or(&solved.name);
     let title = args.title.clone();
-    let title = title.unwrap_or_else(|| drawing::title(name, solved.design, solved.pose, None));
+    let title = title.unwrap_or_else(|| {
+        drawing::title(name, solved.design, solved.pose, budget.case.as_deref())
+    });
     let figure = drawing::budget(&budget, &solved.output.node, title);
     Ok(Plotted {
         drawing: Drawing::Budget(figure.ok_or_else(|| PlotError::NoShares { path: path() })?),

@@ -27,7 +27,7 @@ pub(crate) use modes::ModesReport;
 pub(crate) use sensitivities::FrequencyReport;
 pub(crate) use solve::SolveReport;
 pub(crate) use table::{Table, number};
-pub(crate) use why::{BudgetReport, Sum, Why, budget};
+pub(crate) use why::{Asked, BudgetReport, Sum, Why, budget};
 
 /// The name of a mechanism and, where it is from a batch, of which job, design and pose.
 fn title(name: &str, job: Option<&str>, design: Option<usize>, pose: Option<usize>) -> String {

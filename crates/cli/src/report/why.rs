@@ -30,11 +30,22 @@ pub(crate) struct Why {
     misfits: Option<Vec<MisfitEffectReport>>,
 }
 
+/// What is asked about.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    /// Name of the case whose solution it is; `None`: of the loads of no case.
+    pub(crate) case: Option<&'a str>,
+    pub(crate) along: Along,
+}
+
 /// Where the displacement of the output, or its compliance, comes from.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct BudgetReport {
     /// `displacement` under the loads, or `compliance` where there is none.
     pub(crate) of: String,
+    /// The case under whose loads, where it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) case: Option<String>,
     /// The unit wrench along which.
     pub(crate) along: [f64; 6],
     pub(crate) total: f64,
@@ -99,13 +110,13 @@ struct VirtualWork {
     moment: f64,
 }
 
-/// The budget of the output of a solved mechanism along a direction; `None` where it moves freely.
+/// The budget of the output of a solved mechanism; `None` where it moves freely.
 pub(crate) fn budget(
     model: &Model,
     solution: &Solution,
-    along: Along,
+    asked: Asked<'_>,
 ) -> Result<Option<BudgetReport>, SolveError> {
-    let question = Question::new(model, solution, along);
+    let question = Question::new(model, solution, asked);
     let answer = |question: Question<'_>| Ok(question.budget(&Influence::new(model)?));
     question.map(answer).transpose()
 }
@@ -113,6 +124,7 @@ pub(crate) fn budget(
 /// What is asked about: an output that is held, and a direction.
 struct Question<'a> {
     model: &'a Model,
+    case: Option<&'a str>,
     solution: &'a Solution,
     compliance: &'a Matrix6<f64>,
     measures: Option<Measures>,
@@ -122,7 +134,7 @@ struct Question<'a> {
 }
 
 impl<'a> Question<'a> {
-    fn new(model: &'a Model, solution: &'a Solution, along: Along) -> Option<Self> {
+    fn new(model: &'a Model, solution: &'a Solution, asked: Asked<'a>) -> Option<Self> {
         let output = &solution.output;
         let compliance = output.compliance.as_ref()?;
         let reference = model
@@ -131,7 +143,7 @@ impl<'a> Question<'a> {
         let measures = output.stiffness.as_ref().zip(reference);
         let measures = measures.and_then(|(k, at)| Measures::new(k, compliance, &at, None));
         let moved = Budget::direction_of(&output.displacement);
-        let direction = match along {
+        let direction = match asked.along {
             Along::Wrench(wrench) => Vector6::from(wrench),
             Along::Displacement => moved.unwrap_or_else(|| {
                 // Without loads: where a force moves the output most.
@@ -145,6 +157,7 @@ impl<'a> Question<'a> {
         };
         Some(Self {
             model,
+            case: asked.case,
             solution,
             compliance,
             measures,
@@ -161,7 +174,10 @@ impl<'a> Question<'a> {
             let budget = influence.compliance_budget(self.compliance, &self.direction);
             ("compliance", budget)
         };
-        BudgetReport::new(self.model, of, &budget)
+        BudgetReport {
+            case: self.case.map(Into::into),
+            ..BudgetReport::new(self.model, of, &budget)
+        }
     }
 
     /// Relative change of what is asked about per relative change of a parameter.
@@ -176,8 +192,12 @@ impl<'a> Question<'a> {
 
 impl Why {
     /// Finds out why the output of a solved mechanism gives along a direction.
-    pub(crate) fn new(case: &Case, solution: &Solution, along: Along) -> Result<Self, SolveError> {
-        let Some(question) = Question::new(&case.model, solution, along) else {
+    pub(crate) fn new(
+        case: &Case,
+        solution: &Solution,
+        asked: Asked<'_>,
+    ) -> Result<Self, SolveError> {
+        let Some(question) = Question::new(&case.model, solution, asked) else {
             return Ok(Self {
                 budget: None,
                 measures: None,
@@ -260,6 +280,7 @@ impl BudgetReport {
         let by_deformation = budget.by_deformation().into_iter();
         Self {
             of: of.into(),
+            case: None,
             along: numbers(&budget.along),
             total: budget.total,
             parts: budget.parts.iter().map(part).collect(),
@@ -295,8 +316,12 @@ impl BudgetReport {
         let part: Vec<_> = part.iter().map(|c| number(*c)).collect();
         let (what, unit) = self.quantity();
         let about = if self.turns() { "about" } else { "along" };
+        let under = self.case.as_ref().map_or_else(
+            || "The".into(),
+            |case| format!("Under the loads of case `{case}` the"),
+        );
         let mut body = format!(
-            "  The output has a {what} of {} {unit} {about} ({}). It comes from\n",
+            "  {under} output has a {what} of {} {unit} {about} ({}). It comes from\n",
             number(self.total),
             part.join(", ")
         );

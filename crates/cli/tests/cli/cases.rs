@@ -111,3 +111,98 @@ fn cases_are_columns_after_the_stiffness() {
     assert_near(value("rest.dz"), -weight, 1e-11, weight);
     assert_near(value("push.dz"), -(weight + push), 1e-11, weight + push);
 }
+
+/// A sag by weight goes with d⁻², one by a force with d⁻⁴; both with 1/E. Only the case has the force.
+#[test]
+fn why_a_case_gives() {
+    let bench = Bench::new("cases-why");
+    bench.file("bar.ron", &bar(GRAVITY));
+    let why = |more: &[&str]| {
+        let asked = ["solve", "bar.ron", "--why", "--format", "json"];
+        bench
+            .hyperstat(&[&asked, more].concat())
+            .ends_with(0)
+            .json()
+    };
+    let [weight, push] = sags();
+    for (report, case, sags) in [
+        (why(&[]), serde_json::Value::Null, [weight, 0.0]),
+        (why(&["--case", "rest"]), "rest".into(), [weight, 0.0]),
+        (why(&["--case", "push"]), "push".into(), [weight, push]),
+    ] {
+        let budget = &report["budget"];
+        assert_eq!(budget["case"], case);
+        assert_eq!(budget["of"], "displacement");
+        let sag = sags[0] + sags[1];
+        assert_near(budget["total"].as_f64().expect("a total"), sag, 1e-11, sag);
+        let parts = budget["parts"].as_array().expect("parts").iter();
+        let shares: f64 = parts.filter_map(|part| part["share"].as_f64()).sum();
+        assert_near(shares, 1.0, 1e-11, 1.0);
+        let sensitivities = report["sensitivities"].as_array().expect("a list");
+        let relative = |name: &str| {
+            let found = sensitivities.iter().find(|s| s["parameter"] == name);
+            found.expect(name)["relative"].as_f64().expect("a number")
+        };
+        let by_diameter = -(2.0 * sags[0] + 4.0 * sags[1]) / sag;
+        assert_near(relative("sections.rod.diameter"), by_diameter, 1e-9, 1.0);
+        assert_near(relative("materials.steel.young"), -1.0, 1e-9, 1.0);
+        // The report itself is the one without `--case`.
+        let own = numbers(&report["output"]["displacement"]);
+        assert_near(own[2], -weight, 1e-11, weight);
+    }
+    let asked = ["solve", "bar.ron", "--why", "--case", "push"];
+    let text = bench.hyperstat(&asked).ends_with(0);
+    let told = "Under the loads of case `push` the output has a deflection of";
+    assert!(text.out().contains(told), "{}", text.out());
+
+    bench
+        .hyperstat(&["solve", "bar.ron", "--why", "--case", "pull"])
+        .ends_with(2)
+        .says(&["bar.ron holds no case `pull`", "its cases are push, rest"]);
+    bench
+        .hyperstat(&["solve", "bar.ron", "--case", "push"])
+        .ends_with(2)
+        .says(&["--why"]);
+}
+
+/// `plot`, a job's figure and the JSON of `solve --why` draw one budget of a case.
+#[test]
+fn the_budget_of_a_case_is_drawn() {
+    let bench = Bench::new("cases-budget");
+    bench.file("bar.ron", &bar(GRAVITY));
+    bench.file(
+        "batch.ron",
+        r#"(jobs: [(name: "bar", mechanism: File("bar.ron"), figures: [Budget(case: "push")])])"#,
+    );
+    bench
+        .hyperstat(&["run", "batch.ron", "--out", "out"])
+        .ends_with(0);
+    let asked = ["batch.ron", "--case", "push"];
+    let solve = [&["solve"], &asked[..], &["--why", "--format", "json"]].concat();
+    bench.file("why.json", bench.hyperstat(&solve).ends_with(0).out());
+    let plot = [&["plot"], &asked[..], &["--budget", "--out", "plotted"]].concat();
+    bench.hyperstat(&plot).ends_with(0);
+    bench
+        .hyperstat(&["plot", "why.json", "--budget", "--out", "read"])
+        .ends_with(0);
+    let job = bench.read("out/bar-budget.svg");
+    assert!(job.contains("case push"), "{job}");
+    assert_eq!(job, bench.read("plotted.svg"));
+    assert_eq!(job, bench.read("read.svg"));
+    bench
+        .hyperstat(&["plot", "why.json", "--budget", "--case", "push"])
+        .ends_with(2)
+        .says(&["is solved already", "give `--case` to"]);
+    bench
+        .hyperstat(&["plot", "bar.ron", "--budget", "--case", "pull"])
+        .ends_with(2)
+        .says(&["bar.ron holds no case `pull`", "its cases are push, rest"]);
+    bench
+        .hyperstat(&["plot", "batch.ron", "--deformed", "--case", "pull"])
+        .ends_with(2)
+        .says(&["job `bar` holds no case `pull`", "its cases are push, rest"]);
+    bench
+        .hyperstat(&["plot", "bar.ron", "--mode", "1", "--case", "push"])
+        .ends_with(2)
+        .says(&["--case"]);
+}

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::support::{Bench, assert_near, numbers};
+use crate::support::{Bench, assert_near, delta_batch, numbers};
 
 const LENGTH: f64 = 0.8;
 const DIAMETER: f64 = 0.02;
@@ -202,5 +202,103 @@ fn a_delta_with_a_long_rod() {
             "`{line}` in\n{}",
             text.out()
         );
+    }
+}
+
+/// A job gives the joints of a prebuilt mechanism misfits and preloads: over the workspace as by the
+/// same mechanism written out, and as by the independent solver.
+#[test]
+fn joints_of_a_prebuilt_mechanism_have_misfits_and_preloads() {
+    let bench = Bench::new("misfits-prebuilt");
+    let poses = "List([(0.0, 0.0, 0.5), (-0.2, -0.2, 0.5), (0.1, 0.05, 0.6)])";
+    let acting = "misfits: { \"Ba1\": (x: 1e-4), \"C2\": (u: 2e-4) }, \
+                  preloads: { \"A1\": (v: 3.0), \"Ca3\": (v: 0.5) },
+                  cases: { \"idle\": [] },";
+    let drives = "drive_stiffness: 1e5, base_radius";
+    let text = delta_batch("long", poses, acting).replace("base_radius", drives);
+    bench.file("long.ron", &text);
+    bench
+        .hyperstat(&["run", "long.ron", "--out", "out"])
+        .ends_with(0);
+    let table = bench.read("out/long.csv");
+    let mut lines = table.lines();
+    let heads: Vec<_> = lines.next().expect("heads").split(',').collect();
+    let dx = heads.iter().position(|head| *head == "dx").expect("a dx");
+    for (pose, line) in lines.enumerate() {
+        let pose = pose.to_string();
+        let chosen = ["long.ron", "--pose", &pose];
+        let json = ["--format", "json", "--verify"];
+        let solve = [&["solve"], &chosen[..], &json].concat();
+        let report = bench.hyperstat(&solve).ends_with(0).json();
+        assert_eq!(
+            report["verification"]["disagreements"],
+            serde_json::json!([])
+        );
+        let misfit = numbers(&report["joints"]["Ba1"]["misfit"]);
+        assert_eq!(misfit, [1e-4, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let preload = numbers(&report["joints"]["A1"]["preload"]);
+        assert_eq!(preload, [0.0, 0.0, 0.0, 0.0, 3.0, 0.0]);
+        let export = [&["export"], &chosen[..], &["--out", "written.ron"]].concat();
+        bench.hyperstat(&export).ends_with(0);
+        let written = bench.hyperstat(&[&["solve", "written.ron"], &json[..]].concat());
+        let written = written.ends_with(0).json();
+        let cells: Vec<f64> = (line.split(',').skip(dx).take(6))
+            .map(|cell| cell.parse().expect("a number"))
+            .collect();
+        let moved = numbers(&report["output"]["displacement"]);
+        let found = numbers(&written["output"]["displacement"]);
+        let idle = numbers(&report["cases"]["idle"]["output"]["displacement"]);
+        let written_idle = numbers(&written["cases"]["idle"]["output"]["displacement"]);
+        let size = moved.iter().fold(0.0_f64, |size, u| size.max(u.abs()));
+        for k in 0..6 {
+            assert_near(cells[k], moved[k], 1e-11, size);
+            assert_near(found[k], moved[k], 1e-11, size);
+            assert_near(written_idle[k], idle[k], 1e-11, size);
+        }
+        assert!(idle.iter().any(|u| u.abs() > 1e-6), "{idle:?}");
+    }
+}
+
+/// What a job gives stands in place of all that the joints of its file have.
+#[test]
+fn a_jobs_misfits_replace_those_of_the_file() {
+    let bench = Bench::new("misfits-replaced");
+    bench.file("bar.ron", &bar("misfit: (z: -2e-4)"));
+    let job = |name: &str, misfits: &str| {
+        format!(r#"(name: "{name}", mechanism: File("bar.ron"), {misfits})"#)
+    };
+    let [kept, none, other] = [
+        job("kept", ""),
+        job("none", "misfits: {}"),
+        job("other", r#"misfits: { "wall": (z: 1e-4) }"#),
+    ];
+    bench.file("batch.ron", &format!("(jobs: [{kept}, {none}, {other}])"));
+    for (job, moved) in [("kept", -1e-4), ("none", 0.0), ("other", 5e-5)] {
+        let solve = ["solve", "batch.ron", "--job", job, "--format", "json"];
+        let report = bench.hyperstat(&solve).ends_with(0).json();
+        let found = numbers(&report["output"]["displacement"]);
+        assert_near(found[2], moved, 1e-11, 1e-4);
+    }
+}
+
+/// A preload along a motion that nothing resists is told as one, at its joint.
+#[test]
+fn a_preload_that_nothing_bears_is_told_with_its_joint() {
+    let bench = Bench::new("misfits-free-preload");
+    let none = "stiffness: (x: 0.0, y: 0.0, z: 0.0, u: 0.0, v: 0.0, w: 0.0)";
+    let text = bar(none).replace(
+        "\"bar\"), kind: Fixed),",
+        "\"bar\"), kind: Fixed, stiffness: (x: 0.0), preload: (x: 10.0)),",
+    );
+    bench.file("slides.ron", &text);
+    for command in ["solve", "check"] {
+        bench
+            .hyperstat(&[command, "slides.ron"])
+            .ends_with(2)
+            .says(&[
+                "slides.ron:8:9",
+                "the preload of joint `wall` works on a motion that nothing resists: `bar` moves",
+                "hold the ",
+            ]);
     }
 }

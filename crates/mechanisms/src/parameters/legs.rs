@@ -10,7 +10,7 @@ use crate::prebuilt::{CarriageSide, FootJoint, Rails, TelescopicLeg};
 /// The field `leg`.
 pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadError> {
     let known = ["cylinder", "piston", "cylinder_length", "lengths"];
-    let fields = Fields::read(fields.required("leg")?, "`leg`", &known, &[])?;
+    let fields = Fields::read(fields.required("leg")?, "`leg`", &known)?;
     let leg = TelescopicLeg {
         cylinder: link(&fields, "cylinder")?,
         piston: link(&fields, "piston")?,
@@ -29,7 +29,7 @@ pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadE
 /// The field `rails`.
 pub(super) fn rails(fields: &Fields<'_>) -> Result<Rails, LoadError> {
     let known = ["radius", "tilt", "travel", "carriage"];
-    let fields = Fields::read(fields.required("rails")?, "`rails`", &known, &[])?;
+    let fields = Fields::read(fields.required("rails")?, "`rails`", &known)?;
     let rails = Rails {
         radius: fields.number("radius")?,
         tilt: fields.optional_number("tilt")?.unwrap_or_default(),

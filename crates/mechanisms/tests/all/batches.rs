@@ -227,7 +227,7 @@ fn figures_of_cases_modes_and_budgets() {
     let batch = delta(&format!(
         "poses: List([(0, 0, 0.5), (0, 0, 0.6)]), {cases}, figures: [
             Deformed(case: \"push\"), Mode, Mode(number: 3, pose: 1, scale: 0.5), Budget,
-            Budget(along: rx, pose: 1), Budget(along: (0, 3, -4)),
+            Budget(along: rx, pose: 1), Budget(along: (0, 3, -4)), Budget(case: \"push\"),
         ]"
     ));
     let mode = |number, pose, scale| Figure::Mode {
@@ -235,7 +235,11 @@ fn figures_of_cases_modes_and_budgets() {
         pose,
         scale,
     };
-    let budget = |along, pose| Figure::Budget { along, pose };
+    let budget = |along, pose| Figure::Budget {
+        along,
+        pose,
+        case: None,
+    };
     let wanted = [
         Figure::Deformed {
             pose: 0,
@@ -247,6 +251,11 @@ fn figures_of_cases_modes_and_budgets() {
         budget(Along::Displacement, 0),
         budget(Along::Wrench([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]), 1),
         budget(Along::Wrench([0.0, 0.6, -0.8, 0.0, 0.0, 0.0]), 0),
+        Figure::Budget {
+            along: Along::Displacement,
+            pose: 0,
+            case: Some("push".into()),
+        },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
 }

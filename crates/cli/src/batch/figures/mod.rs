@@ -5,14 +5,14 @@ mod trajectory;
 use std::path::Path;
 
 use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Solution};
-use hyperstat_mechanisms::{Along, Figure, Job, Scale};
+use hyperstat_mechanisms::{Figure, Job, Scale};
 
 use super::summary::Summary;
 use crate::case::{Source, job_model};
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
 use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
-use crate::report;
+use crate::report::{self, Asked};
 pub(crate) use trajectory::Trajectory;
 
 /// That the job's maps are of quantities that its table, with these columns, will hold, and that it
@@ -73,7 +73,17 @@ pub(crate) fn draw(
                 pose,
                 scale,
             } => mode(job, *number, *pose, figure_scale(*scale)),
-            Figure::Budget { along, pose } => budget(job, *along, *pose),
+            Figure::Budget { along, pose, case } => {
+                let case = case.as_deref();
+                budget(
+                    job,
+                    Asked {
+                        case,
+                        along: *along,
+                    },
+                    *pose,
+                )
+            }
             Figure::Map { value, plane } => map(table, value, *plane).map_err(|error| {
                 let help = error
                     .help()
@@ -98,10 +108,14 @@ pub(crate) fn draw(
     Ok(())
 }
 
-/// The model at a pose with its solution; `None` where it has none, or the output moves freely.
-fn solved(job: &Job, pose: usize) -> Option<(Model, Solution)> {
+/// The model at a pose with its solution, under the loads of a case where one is named; `None`
+/// where it has none, or the output moves freely.
+fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Model, Solution)> {
     let model = job_model(job, pose).ok()?;
-    let solution = hyperstat_assembly::solve(&model).ok()?;
+    let mut solution = hyperstat_assembly::solve(&model).ok()?;
+    if let Some(name) = case {
+        solution = solution.of_case(name)?;
+    }
     let held = solution.output.free_motions.is_empty();
     held.then_some((model, solution))
 }
@@ -118,13 +132,9 @@ fn deformed(
     case: Option<&str>,
     scale: hyperstat_figures::Scale,
 ) -> Option<Drawing> {
-    let (model, solution) = solved(job, pose)?;
-    let place = match case {
-        None => None,
-        Some(name) => Some(solution.cases.iter().position(|case| case.name == name)?),
-    };
+    let (model, solution) = solved(job, pose, case)?;
     let title = title(job, pose, case);
-    let mut figure = drawing::deformed(&model, &solution, place, title, scale).ok()?;
+    let mut figure = drawing::deformed(&model, &solution, title, scale).ok()?;
     if case.is_none()
         && let Ok(reference) = hyperstat_reference::solve(&model)
     {
@@ -154,13 +164,14 @@ fn mode(
         .map_err(|error| error.to_string())
 }
 
-fn budget(job: &Job, along: Along, pose: usize) -> Result<Drawing, String> {
-    let (model, solution) = solved(job, pose).ok_or(NO_RESULT)?;
-    let budget = report::budget(&model, &solution, along)
+fn budget(job: &Job, asked: Asked<'_>, pose: usize) -> Result<Drawing, String> {
+    let (model, solution) = solved(job, pose, asked.case).ok_or(NO_RESULT)?;
+    let budget = report::budget(&model, &solution, asked)
         .map_err(|error| error.to_string())?
         .ok_or(NO_RESULT)?;
     let output = model.output().map(|node| model.node_name(node));
-    drawing::budget(&budget, &output.unwrap_or_default(), title(job, pose, None))
+    let title = title(job, pose, asked.case);
+    drawing::budget(&budget, &output.unwrap_or_default(), title)
         .map(Drawing::Budget)
         .ok_or_else(|| "the output does not move along this direction".into())
 }
