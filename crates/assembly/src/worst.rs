@@ -7,7 +7,7 @@ use nalgebra::Vector6;
 
 use crate::cluster::{SegmentBeam, segment_beam};
 use crate::model::{BodyId, Model, SegmentId};
-use crate::solution::{SegmentForces, Solution};
+use crate::solution::{SegmentForces, Solution, State};
 
 /// The point of a body with the largest von Mises stress, of normal and torsional stress (Eq. 47);
 /// the shear forces' own stress is not in it.
@@ -36,19 +36,31 @@ impl Solution {
     /// where all its materials have a yield strength, else of the largest von Mises stress. `None`
     /// for a body without beams, and where no section has stresses.
     pub fn worst_point(&self, model: &Model, body: BodyId) -> Option<WorstPoint> {
-        let segments = &model.bodies()[body.0].segments;
-        let points: Vec<_> = (segments.iter())
-            .filter_map(|id| worst_of(model, *id, &self.segments[id.0]))
-            .collect();
-        let by_utilisation = points.iter().all(|point| point.utilisation.is_some());
-        let measure = |point: &WorstPoint| match point.utilisation {
-            Some(utilisation) if by_utilisation => utilisation,
-            _ => point.von_mises,
-        };
-        points
-            .into_iter()
-            .reduce(|a, b| if measure(&b) > measure(&a) { b } else { a })
+        worst_of_body(model, body, &self.segments)
     }
+}
+
+impl State {
+    /// The worst point of a body in this state, as [`Solution::worst_point`] says.
+    pub fn worst_point(&self, model: &Model, body: BodyId) -> Option<WorstPoint> {
+        worst_of_body(model, body, &self.segments)
+    }
+}
+
+/// The worst point of a body, where these are the forces of all segments.
+fn worst_of_body(model: &Model, body: BodyId, forces: &[SegmentForces]) -> Option<WorstPoint> {
+    let segments = &model.bodies()[body.0].segments;
+    let points: Vec<_> = (segments.iter())
+        .filter_map(|id| worst_of(model, *id, &forces[id.0]))
+        .collect();
+    let by_utilisation = points.iter().all(|point| point.utilisation.is_some());
+    let measure = |point: &WorstPoint| match point.utilisation {
+        Some(utilisation) if by_utilisation => utilisation,
+        _ => point.von_mises,
+    };
+    points
+        .into_iter()
+        .reduce(|a, b| if measure(&b) > measure(&a) { b } else { a })
 }
 
 /// The worst point of a segment.

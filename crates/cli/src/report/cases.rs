@@ -3,6 +3,7 @@
 use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, SolveError, State};
 use serde::Serialize;
 
+use super::forces::{BodyReport, bodies, write_worst};
 use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
 use super::{
     DISPLACEMENT, Entries, Table, WRENCH, displacement_table, heads, inner_displacements_of,
@@ -16,6 +17,7 @@ pub(super) struct CaseReport {
     displacements: Entries<[f64; 6]>,
     joints: Entries<JointReport>,
     segments: Vec<SegmentReport>,
+    bodies: Entries<BodyReport>,
 }
 
 #[derive(Debug, Serialize)]
@@ -52,6 +54,7 @@ impl CaseReport {
                     SegmentReport::new(model, SegmentId(k), segment, forces)
                 })
                 .collect(),
+            bodies: bodies(model, |body| state.worst_point(model, body)),
         }
     }
 
@@ -88,5 +91,6 @@ impl CaseReport {
             );
             section(text, &title("largest stresses of segments [Pa]"), stresses);
         }
+        write_worst(&self.bodies, &title("worst point"), text);
     }
 }

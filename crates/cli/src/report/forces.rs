@@ -1,7 +1,7 @@
 //! Forces along segments and the worst point of every body.
 
 use hyperstat_assembly::{
-    BodyId, Model, SegmentForces, SegmentId, Solution, section_wrench, stations,
+    BodyId, Model, SegmentForces, SegmentId, WorstPoint, section_wrench, stations,
 };
 use serde::Serialize;
 
@@ -54,12 +54,15 @@ pub(super) fn section_forces(
     stations.filter_map(at).collect()
 }
 
-/// What is found of every body.
-pub(super) fn bodies(model: &Model, solution: &Solution) -> Entries<BodyReport> {
+/// What is found of every body, by its worst point.
+pub(super) fn bodies(
+    model: &Model,
+    worst_point: impl Fn(BodyId) -> Option<WorstPoint>,
+) -> Entries<BodyReport> {
     let bodies = model.bodies().iter().enumerate();
     bodies
         .map(|(k, body)| {
-            let worst = solution.worst_point(model, BodyId(k)).map(|found| {
+            let worst = worst_point(BodyId(k)).map(|found| {
                 let ends = model.segments()[found.segment.0].ends;
                 WorstReport {
                     segment: ends.map(|node| model.nodes()[node.0].point.clone()),
@@ -77,8 +80,8 @@ pub(super) fn bodies(model: &Model, solution: &Solution) -> Entries<BodyReport> 
         .collect()
 }
 
-/// The worst points as a table, the worst first.
-pub(super) fn write_worst(bodies: &Entries<BodyReport>, text: &mut String) {
+/// The worst points as a table, the worst first; `title` begins its heading.
+pub(super) fn write_worst(bodies: &Entries<BodyReport>, title: &str, text: &mut String) {
     let named = bodies.0.iter();
     let mut worst: Vec<_> = named
         .filter_map(|(name, body)| Some((name, body.worst.as_ref()?)))
@@ -126,8 +129,10 @@ pub(super) fn write_worst(bodies: &Entries<BodyReport>, text: &mut String) {
     }
     section(
         text,
-        "Worst point of every body: place along the segment (0 to 1), point of the section [m], \
-         stresses [Pa]",
+        &format!(
+            "{title} of every body: place along the segment (0 to 1), point of the section [m], \
+             stresses [Pa]"
+        ),
         table,
     );
 }

@@ -164,7 +164,7 @@ impl SolveReport {
                 .collect(),
             verification,
             modes: None,
-            bodies: bodies(model, solution),
+            bodies: bodies(model, |body| solution.worst_point(model, body)),
             why: None,
             frequency_sensitivities: Vec::new(),
             cases: cases(model, solution),
@@ -234,7 +234,7 @@ impl SolveReport {
 
         self.write_joints(&mut text);
         self.write_segments(&mut text);
-        write_worst(&self.bodies, &mut text);
+        write_worst(&self.bodies, "Worst point", &mut text);
         for (name, case) in &self.cases.0 {
             case.write(name, &mut text);
         }

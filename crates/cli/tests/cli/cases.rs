@@ -82,6 +82,36 @@ fn weight_acts_in_every_case() {
     assert_near(inner(&report["cases"]["push"]), -both, 1e-10, both);
 }
 
+/// σ = M r/I at the wall, with M = F L + w L²/2.
+#[test]
+fn every_case_has_its_worst_points() {
+    let bench = Bench::new("cases-worst");
+    let limited = bar(GRAVITY).replace("density: 7850.0", "density: 7850.0, yield: 2e8");
+    bench.file("bar.ron", &limited);
+    let report = bench
+        .hyperstat(&["solve", "bar.ron", "--format", "json"])
+        .ends_with(0)
+        .json();
+    let inertia = PI * DIAMETER.powi(4) / 64.0;
+    let per_length = 7850.0 * PI * DIAMETER.powi(2) / 4.0 * 9.81;
+    let own = per_length * LENGTH * LENGTH / 2.0;
+    for (of, moment) in [
+        (&report, own),
+        (&report["cases"]["push"], own + FORCE * LENGTH),
+        (&report["cases"]["rest"], own),
+    ] {
+        let worst = &of["bodies"]["bar"]["worst"];
+        let stress = moment * DIAMETER / (2.0 * inertia);
+        assert_near(worst["von_mises"].as_f64().unwrap(), stress, 1e-11, stress);
+        let utilisation = worst["utilisation"].as_f64().unwrap();
+        assert_near(utilisation, stress / 2e8, 1e-11, 1.0);
+        assert_eq!(worst["at"], 0.0);
+    }
+    let tables = bench.hyperstat(&["solve", "bar.ron"]).ends_with(0);
+    let heading = "Case `push`: worst point of every body: ";
+    assert!(tables.out().contains(heading), "{}", tables.out());
+}
+
 #[test]
 fn cases_are_columns_after_the_stiffness() {
     let bench = Bench::new("cases-run");
