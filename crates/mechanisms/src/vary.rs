@@ -61,6 +61,15 @@ impl Variation {
         let mut axes = Vec::<Axis>::new();
         for entry in map.map()? {
             let span = paths::find(root, entry.key)?.span();
+            if let Some(field) = replacing(fields, &entry.name) {
+                return Err(entry
+                    .key
+                    .error(format!(
+                        "the job's own `{field}` replaces `{}` of the file: varying it would change nothing",
+                        entry.name
+                    ))
+                    .with_help(format!("leave `{field}` out of the job, or vary another value")));
+            }
             let within = |a: &Range<usize>, b: &Range<usize>| a.start >= b.start && a.end <= b.end;
             let overlaps = |axis: &&Axis| within(&axis.span, &span) || within(&span, &axis.span);
             if let Some(other) = axes.iter().find(overlaps) {
@@ -208,6 +217,21 @@ impl Axis {
             }
         }
     }
+}
+
+/// The field of the job that is taken in place of what stands at a path of its mechanism file.
+fn replacing(fields: &Fields<'_>, path: &str) -> Option<&'static str> {
+    let mut parts = path.split('.');
+    let field = match (parts.next()?, parts.nth(1)) {
+        ("loads", _) => "loads",
+        ("cases", _) => "cases",
+        ("gravity", _) => "gravity",
+        ("masses", _) => "masses",
+        ("joints", Some("misfit")) => "misfits",
+        ("joints", Some("preload")) => "preloads",
+        _ => return None,
+    };
+    fields.get(field).map(|_| field)
 }
 
 impl AxisValues {
