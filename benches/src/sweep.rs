@@ -49,7 +49,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Multiplications with an addition of the factorization of a pose in the lanes; zero where
-    /// the mechanism goes one by one.
+    /// nothing is left to be factored, and where the mechanism goes one by one.
     pub fn factor_operations(&self) -> usize {
         self.lanes.factor_operations()
     }

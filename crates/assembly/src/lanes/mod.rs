@@ -171,8 +171,8 @@ impl Lanes {
         self.one_by_one
     }
 
-    /// Multiplications, each with an addition, that a pose's factorization takes; zero where the
-    /// mechanism goes one by one.
+    /// Multiplications, each with an addition, that a pose's factorization takes; zero where chains
+    /// leave nothing to be factored, and where the mechanism goes one by one.
     pub fn factor_operations(&self) -> usize {
         let engine = self.engine.as_ref();
         engine.map_or(0, |engine| engine.program.fronts.operations())

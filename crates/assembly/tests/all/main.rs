@@ -2,5 +2,6 @@
 
 mod misfit;
 mod output;
+mod parts;
 mod semidefinite;
 mod states;

@@ -11,6 +11,8 @@ use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape}
 use hyperstat_joints::{DofSet, Fixed, Prismatic, Revolute};
 use nalgebra::{Point3, Rotation3, Vector3, Vector6};
 
+use crate::parts::flat;
+
 const YOUNG: f64 = 2.1e11;
 const DENSITY: f64 = 7850.0;
 const EXPANSION: f64 = 1.2e-5;
@@ -20,14 +22,6 @@ fn steel() -> Material {
     Material::new(YOUNG, Elasticity::Poisson(0.3), Some(DENSITY))
         .and_then(|steel| steel.with_expansion(EXPANSION))
         .expect("a material")
-}
-
-fn flat() -> Section {
-    let shape = SectionShape::Rectangle {
-        width: 0.02,
-        height: 0.03,
-    };
-    Section::new(shape, None, None).expect("a section")
 }
 
 fn joint(model: &mut Model, name: &str, between: [Option<NodeId>; 2], stiffness: JointStiffness) {

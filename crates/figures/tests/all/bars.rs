@@ -4,6 +4,8 @@
 use hyperstat_figures::{Bar, BarFigure, BarGroup, FigureError, Quantity};
 use resvg::usvg::roxmltree::{Document, Node};
 
+use crate::drawn::{points, texts};
+
 /// 200 µm, of which one part takes 10 % away.
 fn figure() -> BarFigure {
     let group = |name: &str, bars: &[(&str, f64)]| BarGroup {
@@ -31,16 +33,6 @@ fn figure() -> BarFigure {
     }
 }
 
-fn points(node: Node<'_, '_>) -> Vec<[f64; 2]> {
-    let list = node.attribute("points").unwrap();
-    let numbers: Vec<f64> = list
-        .split([' ', ','])
-        .filter(|number| !number.is_empty())
-        .map(|number| number.parse().unwrap())
-        .collect();
-    numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
-}
-
 /// Left and right end and middle height of every bar of a colour, in tenths of a pixel.
 fn bars(document: &Document<'_>, color: &str) -> Vec<[f64; 3]> {
     let is_bar = |n: &Node<'_, '_>| n.has_tag_name("polygon") && n.attribute("fill") == Some(color);
@@ -54,18 +46,6 @@ fn bars(document: &Document<'_>, color: &str) -> Vec<[f64; 3]> {
             };
             let [[left, right], [above, below]] = [ends(0), ends(1)];
             [left, right, 0.5 * (above + below)]
-        })
-        .collect()
-}
-
-/// All text with its place, in tenths of a pixel.
-fn texts(document: &Document<'_>) -> Vec<(String, [f64; 2])> {
-    let texts = document.descendants().filter(|n| n.has_tag_name("text"));
-    let at = |node: &Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse().unwrap();
-    texts
-        .map(|node| {
-            let text = node.text().unwrap_or_default().trim().to_string();
-            (text, [at(&node, "x"), at(&node, "y")])
         })
         .collect()
 }

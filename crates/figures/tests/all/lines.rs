@@ -4,6 +4,8 @@
 use hyperstat_figures::{Diagram, FigureError, LineFigure, Quantity, Series};
 use resvg::usvg::roxmltree::Document;
 
+use crate::drawn::points;
+
 /// A parabola of 400 µm and its negative over 0 to 0.2 m, and a straight stiffness.
 fn figure() -> LineFigure {
     let at: Vec<f64> = (0..=20).map(|k| 0.01 * f64::from(k)).collect();
@@ -38,16 +40,7 @@ fn lines(svg: &str, color: &str) -> Vec<Vec<[f64; 2]>> {
     let of_color = document
         .descendants()
         .filter(|n| n.has_tag_name("polyline") && n.attribute("stroke") == Some(color));
-    let points = of_color.map(|node| {
-        let list = node.attribute("points").unwrap();
-        let numbers: Vec<f64> = list
-            .split([' ', ','])
-            .filter(|number| !number.is_empty())
-            .map(|number| number.parse().unwrap())
-            .collect();
-        numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
-    });
-    points.collect()
+    of_color.map(points).collect()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The figures from data.
 
 mod bars;
+mod drawn;
 mod figures;
 mod lines;
 mod maps;

@@ -2,7 +2,9 @@
 //! again, and data that cannot be drawn.
 
 use hyperstat_figures::{FigureError, MapFigure, MapPanel, Quantity, Samples};
-use resvg::usvg::roxmltree::{Document, Node};
+use resvg::usvg::roxmltree::Document;
+
+use crate::drawn::{points, texts};
 
 /// A grid of n×n points over a square of half side 0.2.
 fn ticks(n: u32) -> Vec<f64> {
@@ -39,27 +41,6 @@ fn figure(panels: Vec<MapPanel>) -> MapFigure {
 /// A cone of 2 MN/m at the origin, less 5 MN/m per m away from it.
 fn cone(x: f64, y: f64) -> Option<f64> {
     Some(2e6 - 5e6 * x.hypot(y))
-}
-
-fn points(node: Node<'_, '_>) -> Vec<[f64; 2]> {
-    let list = node.attribute("points").unwrap();
-    let numbers: Vec<f64> = list
-        .split([' ', ','])
-        .filter(|number| !number.is_empty())
-        .map(|number| number.parse().unwrap())
-        .collect();
-    numbers.chunks(2).map(|pair| [pair[0], pair[1]]).collect()
-}
-
-fn texts(document: &Document<'_>) -> Vec<(String, [f64; 2])> {
-    let texts = document.descendants().filter(|n| n.has_tag_name("text"));
-    let at = |node: &Node<'_, '_>, name: &str| node.attribute(name).unwrap().parse().unwrap();
-    texts
-        .map(|node| {
-            let text = node.text().unwrap_or_default().trim().to_string();
-            (text, [at(&node, "x"), at(&node, "y")])
-        })
-        .collect()
 }
 
 /// The frame of the first panel: the closed line of five points that is drawn first.
