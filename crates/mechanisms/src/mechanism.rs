@@ -87,7 +87,8 @@ impl Mechanism {
         })
     }
 
-    /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the mechanism's own.
+    /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the
+    /// mechanism's own.
     pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
         if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
             self.loads = loads;

@@ -209,6 +209,10 @@ impl Program {
             gone,
             ..
         } = parts.joined(&screws, &components, |place| inputs.at(geometry, place));
+        // Loads on an idle motion of what only the ground holds show in nothing that is found here.
+        if !elements.iter().all(Element::moves) {
+            return None;
+        }
         let screws: Vec<Screw> = screws
             .into_iter()
             .filter(|screw| !gone[screw.coordinate])
@@ -296,6 +300,17 @@ impl Element {
             Kind::Chain(chain) => chain.releases.len(),
             _ => 0,
         }
+    }
+
+    /// Whether anything moves it, or loads within could work on an idle motion of its own.
+    pub fn counts(&self) -> bool {
+        let has_idle = matches!(&self.kind, Kind::Chain(chain) if !chain.idle.is_empty());
+        self.moves() || (has_idle && self.is_loaded())
+    }
+
+    /// Whether anything moves it.
+    pub fn moves(&self) -> bool {
+        self.nodes.iter().any(NodeMotion::moves)
     }
 
     /// Whether loads act on what lies within it.

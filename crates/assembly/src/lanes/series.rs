@@ -42,6 +42,8 @@ impl Series {
             });
             let strange: Vec<usize> = strange.collect();
             if strange.is_empty() {
+                // What nothing moves any more stands between parts of the ground.
+                series.elements.retain(Element::counts);
                 return series;
             }
             self.private.retain(|c| !strange.contains(c));
@@ -178,10 +180,8 @@ impl Series {
             let mut nodes = vec![own.nodes[own_end].clone(), next.nodes[next_end].clone()];
             drop_shared(&mut nodes);
             let chain = chain.followed_by(following, [own_end, next_end]);
-            if nodes.iter().any(NodeMotion::moves) {
-                let kind = Kind::Chain(chain);
-                self.elements.insert(low, Element { kind, nodes });
-            }
+            let kind = Kind::Chain(chain);
+            self.elements.insert(low, Element { kind, nodes });
         }
         for coordinate in component.clone() {
             self.gone[coordinate] = true;

@@ -2,7 +2,7 @@
 //! kernel against a dense factorization.
 
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
-use hyperstat_joints::{Dof, DofSet, Fixed, Revolute, frame_from_axis};
+use hyperstat_joints::{Dof, DofSet, Fixed, Revolute, Spherical, frame_from_axis};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -141,6 +141,58 @@ fn every_register_gives_what_the_one_by_one_path_gives() {
             assert_agree(result, &one);
         }
         assert_eq!(lanes.one_by_one(), 0);
+    }
+}
+
+/// A bar between two ball joints on the ground, with nothing else: it has no part in the output,
+/// and a moment about it is refused as in a sweep.
+#[test]
+fn a_bar_that_only_the_ground_holds_is_left_out() {
+    for (moment, is_parallel) in [
+        (None, true),
+        (Some([0.0, 1.0]), false),
+        (Some([1.0, 0.0]), false),
+    ] {
+        let mut model = portal();
+        let points = [
+            ("from", Point3::new(2.0, 0.0, 0.0)),
+            ("to", Point3::new(2.4, 0.0, 0.0)),
+        ];
+        let steel = Material::new(2.1e11, Elasticity::Poisson(0.3), None).expect("steel");
+        let round = SectionShape::Circle { diameter: 0.02 };
+        let round = Section::new(round, None, None).expect("a round bar");
+        model
+            .add_beam("bar", &points, &steel, &round, None, 1)
+            .expect("a bar");
+        for (name, _) in points {
+            let ball = Connection {
+                name: format!("{name}-ball"),
+                between: [None, model.node("bar", name)],
+                joint: Box::new(Spherical),
+                locked: DofSet::EMPTY,
+                stiffness: JointStiffness::default(),
+            };
+            model
+                .add_joint(ball, Rotation3::identity())
+                .expect("a ball");
+        }
+        if let Some([about, across]) = moment {
+            let wrench = Vector6::new(0.0, 0.0, 0.0, about, across, 0.0);
+            let node = model.node("bar", "to").expect("an end");
+            model.add_load(node, wrench).expect("a load");
+        }
+        let plan = Plan::new(&model).expect("a plan");
+        let mut lanes = plan.lanes(&model);
+        assert_eq!(lanes.is_parallel(), is_parallel, "{moment:?}");
+        let results = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+        let expected = plan.sweep(&model, model.geometry(), &mut plan.workspace());
+        for found in results {
+            match (found.expect("a filled lane"), &expected) {
+                (Ok(found), Ok(one)) => assert_agree(&found, one),
+                (Err(found), Err(one)) => assert_eq!(found.to_string(), one.to_string()),
+                (found, one) => panic!("{found:?}, not {one:?}"),
+            }
+        }
     }
 }
 
