@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hyperstat_assembly::{JointStiffness, Member, Model, solve};
+use hyperstat_assembly::{JointStiffness, Member, Model, Tapering, solve};
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::Universal;
 use hyperstat_mechanisms::{Registry, mechanism_from_str};
@@ -34,7 +34,7 @@ fn a_tapered_console_follows_its_closed_form() {
             ([0, 1], d1, d2)
         };
         let tapered = Member {
-            taper: Some(circle(to)),
+            taper: Some(Tapering::whole(circle(to))),
             ..member(ends, &steel(), &circle(from))
         };
         model

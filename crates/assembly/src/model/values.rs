@@ -11,7 +11,7 @@ pub enum ValuePlace {
     Dimension {
         /// The segment.
         segment: SegmentId,
-        /// Whether the section is the one at the second end of a segment that tapers.
+        /// Whether the section is the one that the segment's change of section ends with.
         second: bool,
         /// The dimension.
         dimension: &'static str,
@@ -30,15 +30,24 @@ pub enum ValuePlace {
         /// The direction.
         direction: Dof,
     },
+    /// The mass of a node.
+    Mass {
+        /// Its place among [`Model::masses`].
+        mass: usize,
+    },
 }
 
 impl Model {
-    /// All dimensions, constants and stiffnesses of segments and joints, with their places.
+    /// All dimensions and constants of segments, stiffnesses of joints and masses of nodes, with
+    /// their places.
     pub fn values(&self) -> Vec<(ValuePlace, f64)> {
         let mut values = Vec::new();
         for (k, own) in self.segments.iter().enumerate() {
             let segment = SegmentId(k);
-            let ends = [(false, Some(&own.section)), (true, own.taper.as_ref())];
+            let ends = [
+                (false, Some(&own.section)),
+                (true, own.taper.as_ref().map(|t| &t.to)),
+            ];
             for (second, section) in ends {
                 let dimensions = section.into_iter().flat_map(|s| s.dimensions());
                 values.extend(dimensions.map(|(dimension, value)| {
@@ -66,6 +75,8 @@ impl Model {
                 Some((ValuePlace::Stiffness { joint, direction }, value))
             }));
         }
+        let masses = self.masses.iter().enumerate();
+        values.extend(masses.map(|(mass, own)| (ValuePlace::Mass { mass }, own.mass.mass())));
         values
     }
 
