@@ -56,7 +56,10 @@ pub(crate) fn of_file(
     for joint in (0..model.joints().len()).map(JointId) {
         *counts.entry(alike(model, joint)).or_insert(0) += 1;
     }
-    for (place, _) in model.values() {
+    let values = model.values().into_iter().map(|(place, _)| place);
+    let masses = (0..model.masses().len()).filter(|_| masses);
+    let places = values.chain(masses.map(|mass| ValuePlace::Mass { mass }));
+    for place in places.collect::<Vec<_>>() {
         let path = match place {
             ValuePlace::Dimension {
                 segment: SegmentId(segment),
@@ -68,23 +71,24 @@ pub(crate) fn of_file(
                     (Some(_), false) => "from.",
                     (Some(_), true) => "to.",
                 };
-                format!("sections.{}.{end}{dimension}", given[segment].section)
+                let own = given.get(segment);
+                own.map(|own| format!("sections.{}.{end}{dimension}", own.section))
             }
             ValuePlace::Constant {
                 segment: SegmentId(segment),
                 constant,
-            } => format!("materials.{}.{constant}", given[segment].material),
-            ValuePlace::Stiffness { joint, direction } => {
-                if counts.get(&alike(model, joint)) != Some(&1) {
-                    continue;
-                }
-                let name = &model.joints()[joint.0].name;
-                format!("joints.{name}.stiffness.{}", letter(direction))
+            } => {
+                let own = given.get(segment);
+                own.map(|own| format!("materials.{}.{constant}", own.material))
             }
-            ValuePlace::Mass { mass } if masses => format!("masses.{mass}.mass"),
-            ValuePlace::Mass { .. } => continue,
+            ValuePlace::Stiffness { joint, direction } => {
+                let name = &model.joints()[joint.0].name;
+                let single = counts.get(&alike(model, joint)) == Some(&1);
+                single.then(|| format!("joints.{name}.stiffness.{}", letter(direction)))
+            }
+            ValuePlace::Mass { mass } => Some(format!("masses.{mass}.mass")),
         };
-        if paths.contains(&path) {
+        if let Some(path) = path.filter(|path| paths.contains(path)) {
             model.name_value(place, path);
         }
     }

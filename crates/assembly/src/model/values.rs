@@ -38,8 +38,7 @@ pub enum ValuePlace {
 }
 
 impl Model {
-    /// All dimensions and constants of segments, stiffnesses of joints and masses of nodes, with
-    /// their places.
+    /// All dimensions, constants and stiffnesses of segments and joints, with their places.
     pub fn values(&self) -> Vec<(ValuePlace, f64)> {
         let mut values = Vec::new();
         for (k, own) in self.segments.iter().enumerate() {
@@ -75,8 +74,6 @@ impl Model {
                 Some((ValuePlace::Stiffness { joint, direction }, value))
             }));
         }
-        let masses = self.masses.iter().enumerate();
-        values.extend(masses.map(|(mass, own)| (ValuePlace::Mass { mass }, own.mass.mass())));
         values
     }
 

@@ -122,10 +122,14 @@ fn every_path_is_one_that_vary_takes() {
     };
     let jobs: Vec<_> = paths.iter().enumerate().map(job).collect();
     bench.file("batch.ron", &format!("(jobs: [{}])", jobs.join(", ")));
-    bench.hyperstat(&["run", "batch.ron", "--out", "out"]).ends_with(0);
+    bench
+        .hyperstat(&["run", "batch.ron", "--out", "out"])
+        .ends_with(0);
     for (k, (path, _, relative)) in paths.iter().enumerate() {
         let table = bench.read(&format!("out/j{k}.csv"));
-        let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let mut lines = table
+            .lines()
+            .map(|line| line.split(',').collect::<Vec<_>>());
         let header = lines.next().unwrap();
         let rows: Vec<_> = lines.collect();
         for (column, relative) in ["dz", "f1", "f2"].iter().zip(relative) {
