@@ -71,7 +71,7 @@ fn absorbed_joints_inside_tapered_runs_agree_with_the_independent_solver() {
         .map(|ends| member(ends, &steel(), &rectangle(0.02, 0.05)))
         .into();
     for tapered in &mut members {
-        tapered.taper = Some(rectangle(0.06, 0.03));
+        tapered.taper = Some(Tapering::whole(rectangle(0.06, 0.03)));
     }
     model.add_elastic("run", &points, &members).expect("a body");
     model
