@@ -1,5 +1,7 @@
 //! One mechanism, as a file describes it.
 
+use std::collections::HashSet;
+
 use hyperstat_assembly::{BodyId, JointId, Model};
 use hyperstat_elements::{Material, Section};
 use nalgebra::Point3;
@@ -25,6 +27,7 @@ pub struct Mechanism {
     output: Place,
     materials: Vec<(String, Material)>,
     sections: Vec<(String, [Section; 2])>,
+    unused_points: Vec<String>,
 }
 
 impl Mechanism {
@@ -72,6 +75,10 @@ impl Mechanism {
         model.set_output(nodes::on(&model, output, "the output")?);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
+        let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        let points = tables.points.entries().map(|(name, _)| name);
+        let unused = points.filter(|name| !used.contains(name));
+        let unused_points = unused.map(Into::into).collect();
         Ok(Self {
             model,
             bodies,
@@ -84,6 +91,7 @@ impl Mechanism {
             sections: (tables.sections.entries())
                 .map(|(name, profile)| (name.to_owned(), profile.ends()))
                 .collect(),
+            unused_points,
         })
     }
 
@@ -104,6 +112,11 @@ impl Mechanism {
     /// The sections by their names in the file: what each is at its two ends.
     pub fn sections(&self) -> &[(String, [Section; 2])] {
         &self.sections
+    }
+
+    /// The points of the file that no body runs through, in its order.
+    pub fn unused_points(&self) -> &[String] {
+        &self.unused_points
     }
 
     /// Place of a body's name.

@@ -54,13 +54,15 @@ pub(super) fn name(case: &Case, named: Option<&str>, parameter: &Parameter) -> S
             of(names, constant, || body_names(model, bodies))
         }
         Parameter::Joint { direction, joints } => {
-            let direction = direction.map_or("stiffness", letter);
-            match joints.as_slice() {
-                [one] if case.mechanism().is_some() && direction != "stiffness" => {
+            let of = joint_names(model, joints);
+            match (direction.map(letter), joints.as_slice()) {
+                (Some(direction), [one]) if case.mechanism().is_some() => {
                     let joint = &model.joints()[one.0].name;
                     format!("joints.{joint}.stiffness.{direction}")
                 }
-                _ => format!("stiffness {direction} of {}", joint_names(model, joints)),
+                (Some(direction), _) => format!("stiffness {direction} of {of}"),
+                // A full matrix, or the compliance of the joint's own kind.
+                (None, _) => format!("stiffness of {of}"),
             }
         }
         Parameter::Mass { mass, inertia } => {
