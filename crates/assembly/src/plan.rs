@@ -530,7 +530,11 @@ fn check_loops(topology: &Topology) -> Result<(), SolveError> {
         let height = component.closings.iter().map(rigid).sum::<usize>();
         let count = component.coordinates.len();
         if height > 0 {
-            room::check(LOOPS, room::matrix(count, height.max(count)), MOST_ELIMINATED)?;
+            room::check(
+                LOOPS,
+                room::matrix(count, height.max(count)),
+                MOST_ELIMINATED,
+            )?;
         }
     }
     Ok(())

@@ -402,7 +402,7 @@ fn equilibrium(
 /// curve between the displacements of its ends, under the load between them (`None`: no load).
 ///
 /// # Errors
-/// A segment that cannot be formed.
+/// A segment that cannot be formed; a segment, geometry or displacements of another model.
 pub fn segment_displacement(
     model: &Model,
     geometry: &Geometry,
@@ -423,6 +423,7 @@ pub(crate) fn inner_displacements(
     segment: SegmentId,
     load: &BeamLoad,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
+    model.check_segment(segment)?;
     let elements = model.segments()[segment.0].elements;
     let places = (1..elements).map(|k| k as f64 / elements as f64);
     curve(model, geometry, displacements, segment, Some(load), places)
@@ -437,6 +438,11 @@ fn curve(
     load: Option<&BeamLoad>,
     places: impl IntoIterator<Item = f64>,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
+    model.check_segment(segment)?;
+    model.check_size(geometry)?;
+    if displacements.len() != model.nodes().len() {
+        return Err(SolveError::ForeignModel);
+    }
     let load = load.filter(|load| **load != BeamLoad::none());
     let (beam, frame, _) = segment_beam(model, geometry, segment)?;
     let to_local = frame.inverse();

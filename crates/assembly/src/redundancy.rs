@@ -137,7 +137,10 @@ mod tests {
     fn a_plane_loop_is_redundant_out_of_its_plane_only() {
         let model = parallelogram();
         let redundant = redundant_constraints(&model);
-        assert_eq!(redundant.len(), analyse(&model).expect("a small model").overconstraint);
+        assert_eq!(
+            redundant.len(),
+            analyse(&model).expect("a small model").overconstraint
+        );
         assert_eq!(redundant.len(), 3);
         // y of a joint's frame is z here, u and w tilt out of the plane.
         let mut taking_part: Vec<String> = redundant.iter().flat_map(|r| r.names(&model)).collect();

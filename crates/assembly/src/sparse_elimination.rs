@@ -473,7 +473,10 @@ mod tests {
         assert_eq!(found.rank(), 2);
         assert!(found.doubtful.is_some());
         let without = SparseElimination::without_doubtful(rows, 2);
-        assert_eq!(without.null_space().expect("few entries"), [vec![(0, 1.0), (1, 1.0)]]);
+        assert_eq!(
+            without.null_space().expect("few entries"),
+            [vec![(0, 1.0), (1, 1.0)]]
+        );
     }
 
     #[test]

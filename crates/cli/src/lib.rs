@@ -162,7 +162,12 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
         }
         Err(error) => (None, Some(error)),
     };
-    let report = CheckReport::new(&case, kinematics.as_ref(), solution.as_ref(), error.as_ref());
+    let report = CheckReport::new(
+        &case,
+        kinematics.as_ref(),
+        solution.as_ref(),
+        error.as_ref(),
+    );
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

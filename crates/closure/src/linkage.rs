@@ -89,7 +89,7 @@ impl Linkage {
             .map(|k| JointMotion::new(model, k, centre))
             .collect::<Result<Vec<_>, _>>()?;
         let count = model.bodies().len();
-        let coordinates = joints.iter().map(|joint| joint.free()).sum();
+        let coordinates: usize = joints.iter().map(JointMotion::free).sum();
         // All but those of the tree, which has a joint a body, close loops.
         let conditions = 6 * joints.len().saturating_sub(count);
         if coordinates > MOST || conditions > MOST {

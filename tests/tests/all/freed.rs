@@ -85,9 +85,8 @@ fn counts(model: &Model) -> (usize, usize, Vec<Vec<String>>, usize, usize) {
 fn assert_counts_as(kind: impl Joint + Clone + 'static) {
     let free = kind.free();
     let name = kind.kind().to_string();
-    let built_in = loop_of_three(&|at| {
-        connection(at, Box::new(kind.clone()), JointStiffness::default())
-    });
+    let built_in =
+        loop_of_three(&|at| connection(at, Box::new(kind.clone()), JointStiffness::default()));
     let freed = loop_of_three(&|at| connection(at, Box::new(Fixed), zeros(free)));
     assert_eq!(counts(&freed), counts(&built_in), "{name}");
     // Of a full matrix, zeros on the diagonal free; what is left is elastic, a constraint as well.

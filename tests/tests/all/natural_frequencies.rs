@@ -376,7 +376,9 @@ fn inertia_turns_with_its_body() {
     }
     let plan = ModalPlan::new(&model, &options).unwrap();
     let swept = plan.frequencies(&geometry).unwrap();
-    model.set_geometry(geometry).expect("a geometry of this model");
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let moved = modes(&model, &options).unwrap();
     for (k, mode) in own.modes.iter().enumerate() {
         for other in [swept[k], moved.modes[k].frequency] {

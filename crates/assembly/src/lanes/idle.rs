@@ -5,8 +5,8 @@ use nalgebra::{DVector, Vector6};
 use crate::kinematics::node_twist;
 use crate::model::{Geometry, Model, NodeId};
 use crate::plan::Plan;
-use crate::room::{self, MOST_NUMBERS};
 use crate::restraint::{Restraint, largest_minor, scaled};
+use crate::room::{self, MOST_NUMBERS};
 use crate::topology::Topology;
 
 use super::parts::Placed;

@@ -288,7 +288,11 @@ impl ModalPlan {
         let held = (!diagnose && !plan.has_idle).then(|| system(None));
         let mut system = match held {
             Some(Ok(system)) => system,
-            _ => system(Some(&Restraint::new(&self.divided, &geometry, plan.output)?))?,
+            _ => system(Some(&Restraint::new(
+                &self.divided,
+                &geometry,
+                plan.output,
+            )?))?,
         };
         let mut modes: Vec<Found> = system.moving().take(count).map(Found::at_rest).collect();
         let mut complete = true;

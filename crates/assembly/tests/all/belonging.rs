@@ -4,7 +4,7 @@
 use hyperstat_assembly::{
     Axes, BodyId, Connection, Geometry, JointId, JointStiffness, LANES, LineLoad, Load, LoadCase,
     LoadSet, ModalOptions, ModalPlan, Model, ModelError, NodeId, Plan, SegmentId, SolveError,
-    analyse, solve,
+    analyse, modes, section_wrench, segment_displacement, solve,
 };
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{DofSet, Fixed, Joint};
@@ -37,7 +37,9 @@ fn bar_and_plate(length: f64, apart: f64) -> Model {
     let joints = [("foot", [None, foot]), ("head", [end, plate])];
     for (name, between) in joints {
         let frame = Rotation3::identity();
-        model.add_joint(weld(name, between), frame).expect("a joint");
+        model
+            .add_joint(weld(name, between), frame)
+            .expect("a joint");
     }
     let tip = model.node("plate", "T").expect("a node");
     model.set_output(tip);
@@ -75,7 +77,10 @@ fn a_pose_that_takes_a_joint_apart_is_refused() {
     let mut parted = model.geometry().clone();
     parted.positions[model.node("plate", "P").expect("a node").0].y += 0.1;
     let is_apart = |error: SolveError| {
-        assert!(matches!(error, SolveError::Model(ModelError::Apart { .. })), "{error}");
+        assert!(
+            matches!(error, SolveError::Model(ModelError::Apart { .. })),
+            "{error}"
+        );
     };
     let one = plan.sweep(&model, &parted, &mut plan.workspace());
     is_apart(one.expect_err("apart"));
@@ -151,7 +156,10 @@ fn ids_of_another_model_are_refused() {
     assert_eq!(added, Err(node.clone()));
     let plan = Plan::new(&model).expect("a plan");
     let respond = plan.respond(&model, &[on_node]);
-    assert_eq!(respond.expect_err("foreign"), SolveError::Model(node.clone()));
+    assert_eq!(
+        respond.expect_err("foreign"),
+        SolveError::Model(node.clone())
+    );
     // What is only looked up is not there.
     assert_eq!(model.node_of(BodyId(99), "A"), None);
     assert_eq!(model.body_frame(BodyId(99)), None);
@@ -161,7 +169,10 @@ fn ids_of_another_model_are_refused() {
 
     let mut heavy = model.clone();
     heavy.add_mass(NodeId(99), RigidMass::point(1.0).expect("a mass"));
-    assert_eq!(solve(&heavy).expect_err("foreign"), SolveError::Model(node.clone()));
+    assert_eq!(
+        solve(&heavy).expect_err("foreign"),
+        SolveError::Model(node.clone())
+    );
     let geometry = heavy.geometry().clone();
     assert_eq!(heavy.set_geometry(geometry), Err(node.clone()));
     let mut elsewhere = model.clone();
@@ -231,7 +242,9 @@ fn plans_serve_models_that_are_like_theirs() {
         locked: DofSet::EMPTY,
         stiffness: JointStiffness::default(),
     };
-    welded.add_joint(third, Rotation3::identity()).expect("a joint");
+    welded
+        .add_joint(third, Rotation3::identity())
+        .expect("a joint");
     let mut elsewhere = model.clone();
     elsewhere.set_output(model.node("bar", "B").expect("a node"));
     for other in [&welded, &elsewhere] {
@@ -241,7 +254,10 @@ fn plans_serve_models_that_are_like_theirs() {
         let swept = plan.sweep(other, geometry, &mut plan.workspace());
         assert_eq!(swept.expect_err("another model"), SolveError::ForeignModel);
         let respond = plan.respond(other, &[]);
-        assert_eq!(respond.expect_err("another model"), SolveError::ForeignModel);
+        assert_eq!(
+            respond.expect_err("another model"),
+            SolveError::ForeignModel
+        );
         let mut lanes = plan.lanes(other);
         let found = plan.sweep_lanes(other, &mut lanes, [true; LANES]);
         let found = found.map(|found| found.expect("a result").expect_err("another model"));
@@ -254,6 +270,34 @@ fn plans_serve_models_that_are_like_theirs() {
     let found = plan.sweep_lanes(&unloaded, &mut lanes, [true; LANES]);
     let found = found.map(|found| found.expect("a result").expect_err("another model"));
     assert_eq!(found, [const { SolveError::ForeignModel }; LANES]);
+}
+
+/// Segments and bodies of another model are none of a solution's.
+#[test]
+fn results_are_asked_of_their_own_model() {
+    let model = bar_and_plate(0.5, 0.0);
+    let solution = solve(&model).expect("a solution");
+    let far = SegmentId(99);
+    assert!(solution.inner_displacements(&model, SegmentId(0)).is_ok());
+    solution
+        .inner_displacements(&model, far)
+        .expect_err("foreign");
+    assert!(solution.worst_point(&model, BodyId(0)).is_some());
+    assert!(solution.worst_point(&model, BodyId(99)).is_none());
+    let forces = &solution.segments[0];
+    assert!(section_wrench(&model, far, forces, 0.5).is_none());
+    let curve = |displacements, segment| {
+        let geometry = model.geometry();
+        segment_displacement(&model, geometry, displacements, segment, None, 0.5)
+    };
+    assert!(curve(&solution.displacements, SegmentId(0)).is_ok());
+    curve(&solution.displacements, far).expect_err("foreign");
+    curve(&solution.displacements[1..], SegmentId(0)).expect_err("too few");
+    let modes = modes(&model, &ModalOptions::lowest(1)).expect("a mode");
+    let mode = &modes.modes[0];
+    assert!(mode.segment_displacement(&model, SegmentId(0), 0.5).is_ok());
+    mode.segment_displacement(&model, far, 0.5)
+        .expect_err("foreign");
 }
 
 #[test]

@@ -39,7 +39,14 @@ fn model(section: &Section) -> Model {
 fn sections_that_cannot_be_are_told_once_with_their_bodies() {
     let bodies = || vec!["first".to_string(), "second".into()];
     let torsion = model(&general(1e-9, 2e-9, 4e-9, None)).doubts();
-    let [Doubt::Torsion { bodies: found, torsion, polar }] = &torsion[..] else {
+    let [
+        Doubt::Torsion {
+            bodies: found,
+            torsion,
+            polar,
+        },
+    ] = &torsion[..]
+    else {
         panic!("{torsion:?}");
     };
     assert_eq!((found, *torsion), (&bodies(), 4e-9));
@@ -53,14 +60,23 @@ fn sections_that_cannot_be_are_told_once_with_their_bodies() {
     };
     assert_eq!(shear, [expected]);
     let words = shear[0].to_string();
-    assert!(words.contains("`shear_y` of bodies `first`, `second`"), "{words}");
+    assert!(
+        words.contains("`shear_y` of bodies `first`, `second`"),
+        "{words}"
+    );
     // A circle's torsion constant is the sum, here typed to three digits.
     let circle = general(1.886e-9, 1.886e-9, 3.78e-9, Some(1e-4));
     assert_eq!(model(&circle).doubts(), []);
     let shapes = [
         SectionShape::Circle { diameter: 0.01 },
-        SectionShape::Rectangle { width: 0.02, height: 0.02 },
-        SectionShape::Tube { outer: 0.02, inner: 0.019 },
+        SectionShape::Rectangle {
+            width: 0.02,
+            height: 0.02,
+        },
+        SectionShape::Tube {
+            outer: 0.02,
+            inner: 0.019,
+        },
     ];
     for shape in shapes {
         let section = Section::new(shape, None, None).expect("a section");
@@ -84,7 +100,13 @@ fn inertia_that_no_body_has_is_told() {
     assert_eq!((node.as_str(), moments[2]), ("plate.A", 5.0));
     // A thin plate reaches the bound; a point, a rod and a sphere lie within it; a plane model gives
     // one moment alone.
-    for right in [[1.0, 1.0, 2.0], [0.0; 3], [0.0, 1.0, 1.0], [2.0; 3], [0.0, 0.0, 3.0]] {
+    for right in [
+        [1.0, 1.0, 2.0],
+        [0.0; 3],
+        [0.0, 1.0, 1.0],
+        [2.0; 3],
+        [0.0, 0.0, 3.0],
+    ] {
         assert_eq!(with(right), [], "{right:?}");
     }
     // The same turned by 45° about z: principal moments 1, 1 and 5 again.
@@ -98,12 +120,17 @@ fn inertia_that_no_body_has_is_told() {
 fn gravity_on_what_has_no_mass_is_told() {
     let mut model = model(&general(1e-9, 2e-9, 1e-9, None));
     assert_eq!(model.doubts(), []);
-    model.set_gravity(Vector3::new(0.0, 0.0, -9.81)).expect("gravity");
+    model
+        .set_gravity(Vector3::new(0.0, 0.0, -9.81))
+        .expect("gravity");
     let bodies = vec!["plate".to_string()];
     let weightless = Doubt::Weightless { bodies };
     assert_eq!(model.doubts(), std::slice::from_ref(&weightless));
     let words = weightless.to_string();
-    assert!(words.contains("body `plate` has no mass: give it `masses`"), "{words}");
+    assert!(
+        words.contains("body `plate` has no mass: give it `masses`"),
+        "{words}"
+    );
     for mass in [2.0, 0.0] {
         let mut held = model.clone();
         let on = held.node("plate", "B").expect("a node");

@@ -3,9 +3,7 @@
 
 use std::time::Instant;
 
-use hyperstat_assembly::{
-    Connection, JointStiffness, Model, SolveError, analyse, solve,
-};
+use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, analyse, solve};
 use hyperstat_joints::{DofSet, Fixed, Joint, Revolute, frame_from_axis};
 use nalgebra::{Point3, Rotation3, Vector3, Vector6};
 
@@ -45,7 +43,9 @@ fn grid(columns: usize, rows: usize) -> Model {
         }
     }
     weld(&mut model, "0_0", "W");
-    let last = model.node(&name(columns - 1, rows - 1), "N").expect("a node");
+    let last = model
+        .node(&name(columns - 1, rows - 1), "N")
+        .expect("a node");
     model.set_output(last);
     model
 }
@@ -58,7 +58,9 @@ fn weld(model: &mut Model, body: &str, at: &str) {
         locked: DofSet::EMPTY,
         stiffness: JointStiffness::default(),
     };
-    model.add_joint(joint, Rotation3::identity()).expect("a weld");
+    model
+        .add_joint(joint, Rotation3::identity())
+        .expect("a weld");
 }
 
 /// Rigid bodies one after another, on hinges about z, locked or not.
@@ -77,7 +79,11 @@ fn chain(count: usize, locked: bool) -> Model {
             name: format!("j{k}"),
             between: [before.flatten(), model.node(&body, "A")],
             joint: Box::new(Revolute) as Box<dyn Joint>,
-            locked: if locked { Revolute.free() } else { DofSet::EMPTY },
+            locked: if locked {
+                Revolute.free()
+            } else {
+                DofSet::EMPTY
+            },
             stiffness: JointStiffness::default(),
         };
         model.add_joint(joint, z).expect("a hinge");
@@ -93,7 +99,10 @@ fn is_too_large(error: &SolveError) {
     };
     assert!(numbers > limit);
     let message = error.to_string();
-    assert!(message.contains("too large") && message.contains(&limit.to_string()), "{message}");
+    assert!(
+        message.contains("too large") && message.contains(&limit.to_string()),
+        "{message}"
+    );
 }
 
 #[test]

@@ -18,8 +18,8 @@ use super::misfits::write_misfits;
 use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
-    displacement_table, doubts, heads, inner_displacements, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    displacement_table, doubts, heads, inner_displacements, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;

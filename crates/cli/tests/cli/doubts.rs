@@ -51,11 +51,16 @@ fn what_can_hardly_be_meant_is_a_warning_once() {
             assert_eq!(text.out().matches(words).count(), 1, "{words}");
         }
     }
-    let json = bench.hyperstat(&["check", "m.ron", "--format", "json"]).json();
+    let json = bench
+        .hyperstat(&["check", "m.ron", "--format", "json"])
+        .json();
     let notes = Value::from(vec!["no body runs through the points `D`, `E`"]);
     assert_eq!(json["notes"], notes);
     let text = bench.hyperstat(&["check", "m.ron"]);
-    assert!(text.out().contains("Notes\n  - no body runs through the points `D`, `E`\n"));
+    assert!(
+        text.out()
+            .contains("Notes\n  - no body runs through the points `D`, `E`\n")
+    );
 }
 
 /// A stiffness of 0 frees: a bar on a `Fixed` with `w: 0.0` and on a pad of zeros is a hinged bar.
@@ -83,11 +88,17 @@ fn a_stiffness_of_zero_counts_as_a_freedom() {
         bench.file("m.ron", &file(kind));
         let check = bench.hyperstat(&["check", "m.ron", "--format", "json"]);
         let json = check.ends_with(2).json();
-        assert_eq!((&json["mobility"], &json["overconstraint"]), (&1.into(), &0.into()));
+        assert_eq!(
+            (&json["mobility"], &json["overconstraint"]),
+            (&1.into(), &0.into())
+        );
         assert_eq!(json["redundant_constraints"], Value::Array(Vec::new()));
         let solve = ["solve", "m.ron", "--format", "json", "--allow-free"];
         let json = bench.hyperstat(&solve).ends_with(0).json();
-        assert_eq!((&json["mobility"], &json["overconstraint"]), (&1.into(), &0.into()));
+        assert_eq!(
+            (&json["mobility"], &json["overconstraint"]),
+            (&1.into(), &0.into())
+        );
     }
 }
 
@@ -129,10 +140,17 @@ fn a_rigid_row_has_a_displacement() {
     output: ("bar", "B"),
 )"#,
     );
-    bench.file("b.ron", r#"(jobs: [(name: "job", mechanism: File("m.ron"))])"#);
-    bench.hyperstat(&["run", "b.ron", "--out", "out"]).ends_with(1);
+    bench.file(
+        "b.ron",
+        r#"(jobs: [(name: "job", mechanism: File("m.ron"))])"#,
+    );
+    bench
+        .hyperstat(&["run", "b.ron", "--out", "out"])
+        .ends_with(1);
     let table = bench.read("out/job.csv");
-    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let mut lines = table
+        .lines()
+        .map(|line| line.split(',').collect::<Vec<_>>());
     let (names, row) = (lines.next().unwrap(), lines.next().unwrap());
     let cell = |name: &str| row[names.iter().position(|n| *n == name).unwrap()];
     assert_eq!(cell("status"), "rigid");

@@ -45,14 +45,25 @@ fn batch(fields: &str) -> String {
 fn a_mechanism_without_a_free_joint_has_one_pose() {
     let bench = Bench::new("extremes-no-free-joint");
     bench.file("m.ron", &cantilever("m", "beam", "B"));
-    bench.file("b.ron", &batch("poses: List([(0.5, 0.0, 0.0), (0.5, 0.0, 0.1)])"));
-    bench.hyperstat(&["run", "b.ron", "--out", "out"]).ends_with(1);
+    bench.file(
+        "b.ron",
+        &batch("poses: List([(0.5, 0.0, 0.0), (0.5, 0.0, 0.1)])"),
+    );
+    bench
+        .hyperstat(&["run", "b.ron", "--out", "out"])
+        .ends_with(1);
     let table = bench.read("out/job.csv");
-    let rows: Vec<_> = table.lines().skip(1).map(|row| row.split(',').nth(7)).collect();
+    let rows: Vec<_> = table
+        .lines()
+        .skip(1)
+        .map(|row| row.split(',').nth(7))
+        .collect();
     assert_eq!(rows, [Some("ok"), Some("unreachable")]);
     bench.hyperstat(&["check", "b.ron"]).ends_with(0);
     bench.hyperstat(&["solve", "b.ron"]).ends_with(0);
-    bench.hyperstat(&["check", "b.ron", "--pose", "1"]).ends_with(2);
+    bench
+        .hyperstat(&["check", "b.ron", "--pose", "1"])
+        .ends_with(2);
     bench.hyperstat(&["export", "b.ron"]).ends_with(0);
 }
 
@@ -67,12 +78,18 @@ fn names_of_2_to_the_16_characters_are_names() {
         let solve = ["solve", "m.ron", "--why", "--modes", "1", "--all-nodes"];
         let out = bench.hyperstat(&solve).ends_with(0);
         assert!(out.out().contains(&long));
-        bench.hyperstat(&["solve", "m.ron", "--format", "json"]).ends_with(0);
+        bench
+            .hyperstat(&["solve", "m.ron", "--format", "json"])
+            .ends_with(0);
         bench.hyperstat(&["export", "m.ron"]).ends_with(0);
         bench.file("b.ron", &batch(""));
-        bench.hyperstat(&["run", "b.ron", "--out", "out", "--summary"]).ends_with(0);
+        bench
+            .hyperstat(&["run", "b.ron", "--out", "out", "--summary"])
+            .ends_with(0);
         for kind in ["--deformed", "--budget"] {
-            bench.hyperstat(&["plot", "m.ron", kind, "--out", "figure"]).ends_with(0);
+            bench
+                .hyperstat(&["plot", "m.ron", kind, "--out", "figure"])
+                .ends_with(0);
         }
     }
 }
@@ -101,9 +118,16 @@ fn nothing_at_all_is_told() {
                  cases: {}, masses: [], output: (\"a\", \"A\"),";
     bench.file("m.ron", &mechanism("m", point));
     bench.hyperstat(&["check", "m.ron"]).ends_with(0);
-    bench.hyperstat(&["solve", "m.ron", "--verify"]).ends_with(0);
-    bench.hyperstat(&["plot", "m.ron", "--deformed"]).ends_with(0);
-    for jobs in ["(jobs: [])", "(jobs: [(name: \"j\", mechanism: File(\"m.ron\"), poses: List([]))])"] {
+    bench
+        .hyperstat(&["solve", "m.ron", "--verify"])
+        .ends_with(0);
+    bench
+        .hyperstat(&["plot", "m.ron", "--deformed"])
+        .ends_with(0);
+    for jobs in [
+        "(jobs: [])",
+        "(jobs: [(name: \"j\", mechanism: File(\"m.ron\"), poses: List([]))])",
+    ] {
         bench.file("b.ron", jobs);
         let outcome = bench.hyperstat(&["run", "b.ron", "--out", "out"]);
         assert!([0, 2].contains(&outcome.status()), "{}", outcome.err());
@@ -129,16 +153,27 @@ fn very_many_loads_points_masses_and_cases() {
     bench.file("m.ron", &mechanism("m", &fields));
     let check = bench.hyperstat(&["check", "m.ron"]).ends_with(0);
     assert!(check.out().contains("`q0`") && check.out().contains("and 65528 more"));
-    let json = bench.hyperstat(&["solve", "m.ron", "--format", "json"]).ends_with(0).json();
+    let json = bench
+        .hyperstat(&["solve", "m.ron", "--format", "json"])
+        .ends_with(0)
+        .json();
     // F L³ / 3 E I, as of one force.
-    let expected = -65.536 * 0.125 / (3.0 * 2.1e11 * std::f64::consts::PI * 0.02_f64.powi(4) / 64.0);
+    let expected =
+        -65.536 * 0.125 / (3.0 * 2.1e11 * std::f64::consts::PI * 0.02_f64.powi(4) / 64.0);
     let found = json["output"]["displacement"][2].as_f64().unwrap();
-    assert!((found / expected - 1.0).abs() < 1e-10, "{found}, not {expected}");
+    assert!(
+        (found / expected - 1.0).abs() < 1e-10,
+        "{found}, not {expected}"
+    );
     let mut cases = String::new();
     for k in 0..MANY {
-        let _ = write!(cases, "\"c{k}\": [(on: (\"beam\", \"B\"), force: (0.0, 0.0, -{k}.0))],");
+        let _ = write!(
+            cases,
+            "\"c{k}\": [(on: (\"beam\", \"B\"), force: (0.0, 0.0, -{k}.0))],"
+        );
     }
-    let with_cases = cantilever("m", "beam", "B").replace("loads:", &format!("cases: {{ {cases} }}, loads:"));
+    let with_cases =
+        cantilever("m", "beam", "B").replace("loads:", &format!("cases: {{ {cases} }}, loads:"));
     bench.file("m.ron", &with_cases);
     bench.hyperstat(&["check", "m.ron"]).ends_with(0);
 }
@@ -150,7 +185,9 @@ fn very_many_poses_and_designs() {
     bench.file("m.ron", &cantilever("m", "beam", "B"));
     let poses = "(0.5, 0.0, 0.0),".repeat(MANY);
     bench.file("b.ron", &batch(&format!("poses: List([{poses}])")));
-    bench.hyperstat(&["run", "b.ron", "--out", "out"]).ends_with(0);
+    bench
+        .hyperstat(&["run", "b.ron", "--out", "out"])
+        .ends_with(0);
     assert_eq!(bench.read("out/job.csv").lines().count(), MANY + 1);
 }
 
@@ -161,15 +198,26 @@ fn very_many_rigid_bodies_are_refused_with_the_limit() {
     let (mut points, mut bodies, mut joints) = (String::new(), String::new(), String::new());
     // A plane grid of 50 × 30 squares, hinged to each other.
     for (x, y) in (0..50).flat_map(|x| (0..30).map(move |y| (x, y))) {
-        let _ = write!(points, "\"h{x}_{y}\": ({x}.5, {y}.0, 0.0), \"v{x}_{y}\": ({x}.0, {y}.5, 0.0),");
+        let _ = write!(
+            points,
+            "\"h{x}_{y}\": ({x}.5, {y}.0, 0.0), \"v{x}_{y}\": ({x}.0, {y}.5, 0.0),"
+        );
         let mut own = format!("\"h{x}_{y}\", \"v{x}_{y}\"");
         if x > 0 {
             let _ = write!(own, ", \"h{}_{y}\"", x - 1);
-            let _ = write!(joints, "\"h{x}_{y}\": (at: \"h{0}_{y}\", between: (\"b{0}_{y}\", \"b{x}_{y}\"), kind: Revolute(axis: (0.0, 0.0, 1.0))),", x - 1);
+            let _ = write!(
+                joints,
+                "\"h{x}_{y}\": (at: \"h{0}_{y}\", between: (\"b{0}_{y}\", \"b{x}_{y}\"), kind: Revolute(axis: (0.0, 0.0, 1.0))),",
+                x - 1
+            );
         }
         if y > 0 {
             let _ = write!(own, ", \"v{x}_{}\"", y - 1);
-            let _ = write!(joints, "\"v{x}_{y}\": (at: \"v{x}_{0}\", between: (\"b{x}_{0}\", \"b{x}_{y}\"), kind: Revolute(axis: (0.0, 0.0, 1.0))),", y - 1);
+            let _ = write!(
+                joints,
+                "\"v{x}_{y}\": (at: \"v{x}_{0}\", between: (\"b{x}_{0}\", \"b{x}_{y}\"), kind: Revolute(axis: (0.0, 0.0, 1.0))),",
+                y - 1
+            );
         }
         let _ = write!(bodies, "\"b{x}_{y}\": Rigid(points: [{own}]),");
     }
@@ -182,11 +230,16 @@ fn very_many_rigid_bodies_are_refused_with_the_limit() {
     for command in ["solve", "check"] {
         let outcome = bench.hyperstat(&[command, "m.ron"]).ends_with(2);
         let err = outcome.err();
-        assert!(err.contains("too large") && err.contains("33554432"), "{err}");
+        assert!(
+            err.contains("too large") && err.contains("33554432"),
+            "{err}"
+        );
         assert!(err.contains("weld rigid bodies"), "{err}");
     }
     bench.file("b.ron", &batch(""));
-    bench.hyperstat(&["run", "b.ron", "--out", "out"]).ends_with(2);
+    bench
+        .hyperstat(&["run", "b.ron", "--out", "out"])
+        .ends_with(2);
 }
 
 /// A panic, here of a kind of joint from outside, ends with 70 and says that it is a bug.

@@ -236,12 +236,17 @@ fn what_cannot_move_stays_at_home() {
     let closure = LoopClosure::new(&b.0).expect("a linkage");
     assert_eq!(closure.output_mobility(), 0);
     let home = closure.home();
-    let stays = closure.reach(&home, &Target::Output([None; 6])).expect("at home");
+    let stays = closure
+        .reach(&home, &Target::Output([None; 6]))
+        .expect("at home");
     assert_eq!(closure.pose(&stays), Ok([0.3, 0.0, 0.1, 0.0, 0.0, 0.0]));
     placed(&closure, [0.3, 0.0, 0.1]).expect("at home");
     driven(&closure, &[]).expect("at home");
     let error = placed(&closure, [0.3, 0.1, 0.1]).expect_err("it cannot move");
-    assert!(matches!(error, ClosureError::CannotFollow { .. }), "{error}");
+    assert!(
+        matches!(error, ClosureError::CannotFollow { .. }),
+        "{error}"
+    );
     // A loop that cannot move, too.
     b.joint("second", "B", ["ground", "bar"], Fixed, z, false);
     let closure = LoopClosure::new(&b.0).expect("a linkage");
@@ -259,9 +264,15 @@ fn what_is_of_another_mechanism_is_refused() {
     let foreign = Err(ClosureError::ForeignConfiguration);
     assert_eq!(closure.reach(&home, &Target::Drives(&[])), foreign);
     assert_eq!(closure.pose(&home), Err(ClosureError::ForeignConfiguration));
-    assert_eq!(closure.misfit(&home), Err(ClosureError::ForeignConfiguration));
+    assert_eq!(
+        closure.misfit(&home),
+        Err(ClosureError::ForeignConfiguration)
+    );
     let mut moved = model.geometry().clone();
-    assert_eq!(closure.write(&home, &mut moved), Err(ClosureError::ForeignConfiguration));
+    assert_eq!(
+        closure.write(&home, &mut moved),
+        Err(ClosureError::ForeignConfiguration)
+    );
     assert_eq!(closure.value(&home, a, Dof::V), None);
     assert_eq!(other.value(&home, a, Dof::V), Some(0.0));
     // A clone is the same mechanism.
@@ -272,7 +283,9 @@ fn what_is_of_another_mechanism_is_refused() {
     assert_eq!(driven(&closure, &ids), Err(joint));
     assert_eq!(closure.value(&closure.home(), JointId(99), Dof::V), None);
     moved.positions.pop();
-    let error = closure.write(&closure.home(), &mut moved).expect_err("another size");
+    let error = closure
+        .write(&closure.home(), &mut moved)
+        .expect_err("another size");
     assert!(error.to_string().contains("the geometry holds"), "{error}");
     let mut nowhere = model.clone();
     nowhere.set_output(NodeId(99));
@@ -295,6 +308,9 @@ fn a_chain_too_long_is_refused() {
     }
     b.output("b0", "p1");
     let error = LoopClosure::new(&b.0).expect_err("too large");
-    assert!(error.to_string().contains("65536 joint coordinates"), "{error}");
+    assert!(
+        error.to_string().contains("65536 joint coordinates"),
+        "{error}"
+    );
     assert!(error.to_string().contains("at most 2000"), "{error}");
 }

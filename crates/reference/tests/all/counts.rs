@@ -289,7 +289,9 @@ fn models_that_cannot_be_solved() {
     let mut geometry = model.geometry().clone();
     let (b, c) = (node(&model, "rod", "B"), node(&model, "rod", "C"));
     geometry.positions[b.0] = geometry.positions[c.0];
-    model.set_geometry(geometry).expect("a geometry of this model");
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let body = "rod".into();
     let expected = ReferenceError::Segment { body, segment: 0 };
     assert_eq!(solve(&model).unwrap_err(), expected);
@@ -325,7 +327,12 @@ fn models_that_are_not_one_whole_are_refused() {
     geometry.positions[node(&model, "rod", "B").0].z += 0.1;
     model.set_geometry(geometry).unwrap();
     let error = solve(&model).unwrap_err();
-    assert!(error.to_string().contains("joint `b` joins `left.B` and `rod.B`"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("joint `b` joins `left.B` and `rod.B`"),
+        "{error}"
+    );
 
     let mut model = rod_between_balls();
     let [first, second] = ["left", "rod"].map(|body| node(&model, body, "B"));

@@ -122,7 +122,9 @@ fn typed_coordinates_do_not_hold_a_mechanism() {
     for case in cases() {
         let what = case.mechanism.kind().to_owned();
         let mut model = file(&case);
-        model.set_geometry(typed(model.geometry(), 7)).expect("a geometry of this model");
+        model
+            .set_geometry(typed(model.geometry(), 7))
+            .expect("a geometry of this model");
         let closure = LoopClosure::new(&model).expect("a linkage");
         let there = pose(&case, 0.5);
         let asked = asked(&case, &there);

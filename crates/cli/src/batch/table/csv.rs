@@ -179,7 +179,10 @@ mod tests {
         append(&mut text, &row);
         let numbers = "1.0,0.0,2.0,0.0,0.0,0.5";
         let stiffness = ",".repeat(21);
-        assert!(text.ends_with(&format!(",rigid,{numbers}{stiffness},3.0,\n")), "{text}");
+        assert!(
+            text.ends_with(&format!(",rigid,{numbers}{stiffness},3.0,\n")),
+            "{text}"
+        );
         assert_eq!(
             text.matches(',').count() + 1,
             columns(&two_further()).count()
