@@ -19,6 +19,7 @@ mod directions;
 mod dissection;
 mod elimination;
 mod error;
+mod form;
 mod influence;
 mod jacobian;
 mod kinematics;
@@ -37,6 +38,7 @@ mod plan;
 mod recover;
 mod redundancy;
 mod restraint;
+mod room;
 mod sensitivity;
 mod solution;
 mod solve;
@@ -54,7 +56,7 @@ pub use modal::{
     BeamMass, FrequencySensitivity, ModalOptions, ModalPlan, ModalSensitivities, Mode, Modes, modes,
 };
 pub use model::{
-    Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
+    Axes, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
     NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };

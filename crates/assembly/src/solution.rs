@@ -70,7 +70,8 @@ impl State {
         model: &Model,
         segment: SegmentId,
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
-        let load = &self.segments[segment.0].load;
+        let forces = self.segments.get(segment.0);
+        let load = &forces.ok_or(SolveError::ForeignModel)?.load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
     }
 }
@@ -119,7 +120,8 @@ impl Solution {
         model: &Model,
         segment: SegmentId,
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
-        let load = &self.segments[segment.0].load;
+        let forces = self.segments.get(segment.0);
+        let load = &forces.ok_or(SolveError::ForeignModel)?.load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
     }
 }

@@ -12,7 +12,7 @@ use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, evaluate, node_displacement};
 use crate::plan::{Plan, Workspace};
-use crate::recover::recover;
+use crate::recover::{check_recovery, recover};
 use crate::restraint::{Restraint, scaled};
 use crate::solution::{CaseSolution, Output, Solution, State, Warning};
 
@@ -61,12 +61,14 @@ pub fn solve(model: &Model) -> Result<Solution, SolveError> {
 }
 
 impl Plan {
-    /// Everything about the model's own configuration. The model has the topology that the plan
-    /// was made for.
+    /// Everything about the model's own configuration. The model is the one that the plan was made
+    /// for, or one with the same bodies, joints and output.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`solve`]; [`SolveError::ForeignModel`].
     pub fn solve(&self, model: &Model) -> Result<Solution, SolveError> {
+        model.check()?;
+        self.check_model(model)?;
         let geometry = model.geometry();
         let acting = Acting::of_model(model, geometry)?;
         let solved = self.solve_all(model, geometry, &acting)?;
@@ -97,8 +99,13 @@ impl Plan {
     /// model's loads, weight and temperatures. One factorization serves all of them.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`Plan::solve`]; loads on what is not of the model.
     pub fn respond(&self, model: &Model, sets: &[LoadSet]) -> Result<Vec<State>, SolveError> {
+        model.check()?;
+        self.check_model(model)?;
+        for set in sets {
+            model.check_loads(set)?;
+        }
         let geometry = model.geometry();
         let acting: Result<Vec<_>, _> = sets
             .iter()
@@ -129,13 +136,14 @@ impl Plan {
     /// model the plan was made for, `workspace` to this plan.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`solve`]; a model, geometry or workspace that is not of this plan.
     pub fn sweep(
         &self,
         model: &Model,
         geometry: &Geometry,
         workspace: &mut Workspace,
     ) -> Result<PoseResult, SolveError> {
+        self.check(model, geometry, workspace)?;
         let acting = Acting::of_model(model, geometry)?;
         match self.sweep_pose(model, geometry, &acting, workspace) {
             Ok(result) => Ok(result),
@@ -154,7 +162,8 @@ impl Plan {
         acting: &[Acting],
         workspace: &mut Workspace,
     ) -> Result<Solved, Fault> {
-        let restraint = Restraint::new(model, geometry, self.output);
+        check_recovery(self, model)?;
+        let restraint = Restraint::new(model, geometry, self.output)?;
         restraint.check_loads(model, geometry, acting)?;
         evaluate(self, model, geometry, acting, workspace)?;
         let pins = restraint.pins(self, model, geometry, workspace);
@@ -223,7 +232,7 @@ impl Plan {
                 });
             }
         }
-        let restraint = Restraint::new(model, geometry, self.output);
+        let restraint = Restraint::new(model, geometry, self.output)?;
         restraint.check_loads(model, geometry, acting)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         // A sweep has no place for a warning: what does not settle is refused.

@@ -35,7 +35,8 @@ Exit status:
   0  done
   1  a run finished in which some pose has no result
   2  the input cannot be used
-  3  an output could not be written";
+  3  an output could not be written
+ 70  a bug in hyperstat: please report it";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
@@ -95,7 +96,8 @@ DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no resul
   unreachable    the mechanism cannot take this pose
   singular       a part of the mechanism could take any of many places in this pose
   unrestrained   something moves freely there, or a load works on a free motion
-  rigid          the output is rigidly held in some direction: it has no finite stiffness
+  rigid          the output is rigidly held in some direction: it has no finite stiffness; its
+                 displacement stands in the row
   failed         the numbers could not be found
 A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
 one for every path that varies, with its value. A job with `modes: N` has its natural frequencies

@@ -295,7 +295,7 @@ pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, PoseError> {
     let mut model = job.model()?;
     let mut geometry = model.geometry().clone();
     job.place(pose, &mut geometry)?;
-    model.set_geometry(geometry);
+    model.set_geometry(geometry)?;
     Ok(model)
 }
 
@@ -304,7 +304,7 @@ fn design_model(design: &Design, pose: usize) -> Result<Model, PoseError> {
     let mut model = design.model()?;
     let mut geometry = model.geometry().clone();
     design.place(pose, &mut geometry)?;
-    model.set_geometry(geometry);
+    model.set_geometry(geometry)?;
     Ok(model)
 }
 

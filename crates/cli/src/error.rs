@@ -182,6 +182,15 @@ impl CliError {
                     .into(),
             ),
             Self::Unsolvable {
+                source: SolveError::TooLarge { .. },
+                ..
+            } => Some(
+                "weld rigid bodies that move as one into one body, make links elastic (`Beam`), or \
+                 joints (`stiffness`): loops and chains of rigid bodies alone are eliminated as dense \
+                 matrices"
+                    .into(),
+            ),
+            Self::Unsolvable {
                 source: SolveError::Misfit { .. },
                 ..
             } => Some(

@@ -17,6 +17,7 @@ mod vtu;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -33,8 +34,26 @@ use report::{Asked, CheckReport, ModesReport, SolveReport, json};
 ///
 /// Results go to standard output, errors to standard error. The exit status is 0 where all is
 /// done, 1 where a run finished in which some pose has no result, 2 where the input cannot be
-/// used (the command line itself too), 3 where an output could not be written.
+/// used (the command line itself too), 3 where an output could not be written. A panic ends here,
+/// with a message that it is a bug, and the status 70.
 pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
+    // Nothing of what a panic may leave half done is used again.
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_commands(args, registry)));
+    outcome.unwrap_or_else(|_| {
+        // Nothing is left to be told where standard error is closed.
+        let _ = io::stderr().write_all(BUG.as_bytes());
+        ExitCode::from(70)
+    })
+}
+
+/// What is said after the message of a panic.
+const BUG: &str = "\
+error: this is a bug in hyperstat, or in a kind of joint that was added to it; it is not your fault
+  = help: please report it to where you have hyperstat from, with the lines above, the command, and
+          the files that it reads
+";
+
+fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
     let cli = match Cli::try_parse_from(args) {
         Ok(cli) => cli,
         Err(error) => {
@@ -135,7 +154,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
             return Err(error);
         }
     };
-    let kinematics = hyperstat_assembly::analyse(&case.model);
+    let kinematics = hyperstat_assembly::analyse(&case.model).ok();
     let (solution, error) = match case.solve() {
         Ok(solution) => {
             let error = case.free_output(&solution);
@@ -143,7 +162,12 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
         }
         Err(error) => (None, Some(error)),
     };
-    let report = CheckReport::new(&case, &kinematics, solution.as_ref(), error.as_ref());
+    let report = CheckReport::new(
+        &case,
+        kinematics.as_ref(),
+        solution.as_ref(),
+        error.as_ref(),
+    );
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

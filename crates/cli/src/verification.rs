@@ -213,7 +213,7 @@ fn disagreements(model: &Model, solution: &Solution, reference: &ReferenceSoluti
 
 /// Bodies that move without energy, drives locked: their displacements are not defined.
 fn bodies_that_move(model: &Model) -> Vec<BodyId> {
-    let motions = hyperstat_assembly::analyse(model).motions;
+    let motions = hyperstat_assembly::analyse(model).map_or(Vec::new(), |k| k.motions);
     let twists = motions.into_iter().flat_map(|motion| motion.twists);
     twists.map(|(body, _)| body).collect()
 }

@@ -1,5 +1,7 @@
 //! One mechanism, as a file describes it.
 
+use std::collections::HashSet;
+
 use hyperstat_assembly::{BodyId, JointId, Model};
 use nalgebra::Point3;
 
@@ -29,6 +31,7 @@ pub struct Mechanism {
     given: Vec<Given>,
     /// Whether the masses are the file's own.
     own_masses: bool,
+    unused_points: Vec<String>,
 }
 
 impl Mechanism {
@@ -77,6 +80,10 @@ impl Mechanism {
         model.set_output(nodes::on(&model, output, "the output")?);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
+        let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        let points = tables.points.entries().map(|(name, _)| name);
+        let unused = points.filter(|name| !used.contains(name));
+        let unused_points = unused.map(Into::into).collect();
         Ok(Self {
             model,
             bodies,
@@ -86,6 +93,7 @@ impl Mechanism {
             root: fragment.place(),
             given,
             own_masses: true,
+            unused_points,
         })
     }
 
@@ -110,6 +118,11 @@ impl Mechanism {
     pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
         let root = Fragment::at(&self.root);
         value_names::of_file(root, replaced, &self.given, self.own_masses, model);
+    }
+
+    /// The points of the file that no body runs through, in its order.
+    pub fn unused_points(&self) -> &[String] {
+        &self.unused_points
     }
 
     /// Place of a body's name.

@@ -9,6 +9,7 @@ mod designs;
 mod equilibrium;
 mod frame3dd_example_b;
 mod frame3dd_self_weight;
+mod freed;
 mod lanes_agree;
 mod large_mechanisms;
 mod lattices;

@@ -80,7 +80,9 @@ fn a_sweep_finds_what_solve_finds_in_every_state() {
         let pose = moved(&model, &rotation, &Vector3::new(0.3, -0.2, 0.5));
         let pose = pose.geometry().clone();
         let mut there = model.clone();
-        there.set_geometry(pose.clone());
+        there
+            .set_geometry(pose.clone())
+            .expect("a geometry of this model");
         let found = plan.sweep(&model, &pose, &mut plan.workspace());
         let (found, expected) = match (found, solve(&there)) {
             (Ok(found), Ok(expected)) => (found, expected),

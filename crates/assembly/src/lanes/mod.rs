@@ -55,6 +55,9 @@ const TRUSTED: f64 = 5e-13;
 /// One thread's poses and buffers; made by [`Plan::lanes`].
 #[derive(Debug)]
 pub struct Lanes {
+    /// The plan and the model that they were made for.
+    plan: u64,
+    model: [u64; 2],
     geometries: Vec<Geometry>,
     workspace: Workspace,
     arch: Arch,
@@ -82,22 +85,27 @@ impl WithSimd for Width {
 }
 
 impl Plan {
-    /// Poses and buffers for one thread, for a model of the topology that the plan was made for.
-    /// The poses are in the model's configuration.
+    /// Poses and buffers for one thread, for a model of the topology that the plan was made for; one
+    /// that is not goes nowhere ([`SolveError::ForeignModel`] at every pose). The poses are in the
+    /// model's configuration.
     pub fn lanes(&self, model: &Model) -> Lanes {
         self.lanes_on(model, Arch::new())
     }
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let taken =
-            model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
+        let taken = model.has_plain_loads()
+            && model.misfits().is_empty()
+            && model.cases().is_empty()
+            && self.check_model(model).is_ok();
         let program = taken.then(|| Program::new(self, model, model.geometry()));
         let engine = program.flatten().map(|program| {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
         Lanes {
+            plan: self.id,
+            model: model.revisions(),
             geometries: vec![model.geometry().clone(); LANES],
             workspace: self.workspace(),
             arch,
@@ -109,8 +117,8 @@ impl Plan {
     /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
     /// where `filled` says so: what [`Plan::sweep`] finds, to 1e-11 of the stiffness's scale
     /// (`√(K_ii K_jj)`) and of the largest component of the displacement, its components times
-    /// `√K_ii`. `model` and `lanes` belong to this plan. In a sweep the nodes of a joint stay at one
-    /// point.
+    /// `√K_ii`. `lanes` were made by this plan for `model`, as it is now; the nodes of a joint stay at
+    /// one point; anything else is an error.
     pub fn sweep_lanes(
         &self,
         model: &Model,
@@ -118,15 +126,33 @@ impl Plan {
         filled: [bool; LANES],
     ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
         let mut results = [const { None }; LANES];
+        let foreign = if lanes.plan != self.id {
+            Some(SolveError::ForeignWorkspace)
+        } else {
+            (lanes.model != model.revisions()).then_some(SolveError::ForeignModel)
+        };
+        if let Some(error) = foreign {
+            return filled.map(|filled| filled.then(|| Err(error.clone())));
+        }
+        let mut taken = filled;
+        for (pose, taken) in taken.iter_mut().enumerate().filter(|(_, taken)| **taken) {
+            if let Err(error) = model.check_geometry(&lanes.geometries[pose], self.one_point) {
+                results[pose] = Some(Err(error.into()));
+                *taken = false;
+            }
+        }
         if let Some(engine) = &mut lanes.engine {
             let width = engine.buffers.width;
             for first in (0..LANES).step_by(width) {
                 let range = first..(first + width).min(LANES);
-                if !filled[range.clone()].contains(&true) {
+                if !taken[range.clone()].contains(&true) {
                     continue;
                 }
                 for (lane, pose) in range.clone().enumerate() {
                     let geometry = &lanes.geometries[pose];
+                    if model.check_size(geometry).is_err() {
+                        continue;
+                    }
                     let inputs = &mut engine.buffers.inputs;
                     engine.program.inputs.read(geometry, inputs, width, lane);
                 }
@@ -135,14 +161,14 @@ impl Plan {
                     buffers: &mut engine.buffers,
                 });
                 for (lane, pose) in range.enumerate() {
-                    if filled[pose] {
+                    if taken[pose] {
                         results[pose] = engine.result(lane).map(Ok);
                     }
                 }
             }
         }
         for (pose, result) in results.iter_mut().enumerate() {
-            if filled[pose] && result.is_none() {
+            if taken[pose] && result.is_none() {
                 lanes.one_by_one += 1;
                 let geometry = &lanes.geometries[pose];
                 *result = Some(self.sweep(model, geometry, &mut lanes.workspace));

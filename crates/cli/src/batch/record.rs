@@ -19,7 +19,15 @@ pub(crate) enum Failure {
     Free,
     /// The output is held rigidly in some direction.
     #[error("the output is rigidly held in some direction: it has no finite stiffness")]
-    Rigid,
+    Rigid(Box<Held>),
+}
+
+/// What is known of an output that is rigidly held in some direction.
+#[derive(Debug, Clone)]
+pub(crate) struct Held {
+    pub(crate) displacement: Vector6<f64>,
+    /// As of [`Found`].
+    pub(crate) further: Vec<Option<f64>>,
 }
 
 impl Failure {
@@ -35,7 +43,7 @@ impl Failure {
             | Self::Free => "unrestrained",
             Self::Pose(PoseError::Singular { .. }) => "singular",
             Self::Pose(PoseError::Branch { .. }) => "branch",
-            Self::Rigid => "rigid",
+            Self::Rigid(_) => "rigid",
             Self::Pose(_) | Self::Solve(_) => "failed",
         }
     }
@@ -50,6 +58,15 @@ pub(crate) struct Record {
 }
 
 impl Record {
+    /// The displacement of the output and the numbers of further columns, where they are known.
+    pub(crate) fn known(&self) -> Option<(&Vector6<f64>, &[Option<f64>])> {
+        match &self.result {
+            Ok(found) => Some((&found.displacement, &found.further)),
+            Err(Failure::Rigid(held)) => Some((&held.displacement, &held.further)),
+            Err(_) => None,
+        }
+    }
+
     /// The word for the outcome in a table.
     pub(crate) fn status(&self) -> &'static str {
         match &self.result {
@@ -69,14 +86,12 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// Displacement, then the upper triangle of the stiffness by rows.
-    pub(crate) fn numbers(&self) -> [f64; NUMBERS] {
-        let mut numbers = [0.0; NUMBERS];
+    /// The upper triangle of the stiffness by rows.
+    pub(crate) fn upper(&self) -> [f64; UPPER] {
+        let mut numbers = [0.0; UPPER];
         let upper = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
-        let stiffness = upper.map(|place| self.stiffness[place]);
-        let found = self.displacement.iter().copied().chain(stiffness);
-        for (number, value) in numbers.iter_mut().zip(found) {
-            *number = value;
+        for (number, place) in numbers.iter_mut().zip(upper) {
+            *number = self.stiffness[place];
         }
         numbers
     }
@@ -112,17 +127,27 @@ fn frequencies(job: &Job) -> impl Iterator<Item = String> {
     (1..=count).map(|k| format!("f{k}"))
 }
 
+/// Numbers in the upper triangle of the stiffness.
+pub(crate) const UPPER: usize = 21;
 /// Six components of the displacement and the upper triangle of the stiffness.
-pub(crate) const NUMBERS: usize = 6 + 21;
+pub(crate) const NUMBERS: usize = 6 + UPPER;
 
 impl TryFrom<PoseResult> for Found {
     type Error = Failure;
 
     fn try_from(result: PoseResult) -> Result<Self, Failure> {
-        Ok(Self {
-            displacement: result.displacement.ok_or(Failure::Free)?,
-            stiffness: result.stiffness.ok_or(Failure::Rigid)?,
-            further: result.cases.iter().flatten().copied().map(Some).collect(),
-        })
+        let displacement = result.displacement.ok_or(Failure::Free)?;
+        let further = result.cases.iter().flatten().copied().map(Some).collect();
+        match result.stiffness {
+            Some(stiffness) => Ok(Self {
+                stiffness,
+                displacement,
+                further,
+            }),
+            None => Err(Failure::Rigid(Box::new(Held {
+                displacement,
+                further,
+            }))),
+        }
     }
 }

@@ -129,7 +129,7 @@ fn axes(model: &Model, place: usize, joint: &Connection) -> Vec<Axis> {
         return Vec::new();
     };
     let frame = model.geometry().frames[place];
-    let free = joint.joint.free();
+    let free = joint.released();
     let free_of = |dofs: [Dof; 3]| -> Vec<usize> {
         let is_free = |axis: &usize| free.contains(dofs[*axis]);
         (0..3).filter(is_free).collect()

@@ -166,6 +166,11 @@ fn redundancies(model: &Model) -> Vec<Vec<String>> {
     redundant.iter().map(|group| group.names(model)).collect()
 }
 
+/// What a model says that can hardly be meant, in words.
+fn doubts(model: &Model) -> impl Iterator<Item = String> {
+    model.doubts().into_iter().map(|doubt| doubt.to_string())
+}
+
 /// A heading and what stands under it, with an empty line before.
 fn section(text: &mut String, heading: &str, body: impl std::fmt::Display) {
     // Writing to a String cannot fail.

@@ -18,8 +18,8 @@ use super::misfits::write_misfits;
 use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
-    displacement_table, heads, inner_displacements, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    displacement_table, doubts, heads, inner_displacements, list, matrix_table, numbers,
+    redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -160,6 +160,7 @@ impl SolveReport {
                 })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
+                .chain(doubts(model))
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .collect(),
             verification,

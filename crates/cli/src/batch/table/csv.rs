@@ -7,7 +7,7 @@ use std::path::Path;
 use hyperstat_mechanisms::Value;
 
 use crate::atomic::AtomicFile;
-use crate::batch::record::{Columns, NUMBERS};
+use crate::batch::record::{Columns, NUMBERS, UPPER};
 use crate::batch::sweep::{Chunk, Row};
 
 /// A CSV file being written.
@@ -47,17 +47,25 @@ fn append(text: &mut String, row: &Row<'_>) {
     append_numbers(text, &record.pose);
     text.push(',');
     text.push_str(record.status());
-    match &record.result {
-        Ok(found) => {
-            append_numbers(text, &found.numbers());
-            for number in &found.further {
-                match number {
-                    Some(number) => append_numbers(text, &[*number]),
-                    None => text.push(','),
-                }
+    let further = match record.known() {
+        Some((displacement, further)) => {
+            append_numbers(text, displacement.as_slice());
+            match &record.result {
+                Ok(found) => append_numbers(text, &found.upper()),
+                Err(_) => text.extend(std::iter::repeat_n(',', UPPER)),
             }
+            further
         }
-        Err(_) => text.extend(std::iter::repeat_n(',', NUMBERS + row.further)),
+        None => {
+            text.extend(std::iter::repeat_n(',', NUMBERS));
+            &[]
+        }
+    };
+    for k in 0..further.len().max(row.further) {
+        match further.get(k).copied().flatten() {
+            Some(number) => append_numbers(text, &[number]),
+            None => text.push(','),
+        }
     }
     if let Some((number, values)) = row.design {
         let _ = write!(text, ",{number}");
@@ -99,7 +107,7 @@ mod tests {
     use nalgebra::{Matrix6, Vector6};
 
     use super::append;
-    use crate::batch::record::{Columns, Failure, Found, Record};
+    use crate::batch::record::{Columns, Failure, Found, Held, Record};
     use crate::batch::sweep::Row;
     use crate::batch::table::columns;
 
@@ -151,6 +159,34 @@ mod tests {
                 assert_eq!(number(&name), found.stiffness[(row, column)]);
             }
         }
+    }
+
+    #[test]
+    fn a_rigidly_held_output_has_a_displacement_and_no_stiffness() {
+        let held = Held {
+            displacement: Vector6::new(1.0, 0.0, 2.0, 0.0, 0.0, 0.5),
+            further: vec![Some(3.0)],
+        };
+        let record = Record {
+            pose: [0.0; 6],
+            result: Err(Failure::Rigid(Box::new(held))),
+        };
+        let mut text = String::new();
+        let row = Row {
+            further: 2,
+            ..row(0, &record)
+        };
+        append(&mut text, &row);
+        let numbers = "1.0,0.0,2.0,0.0,0.0,0.5";
+        let stiffness = ",".repeat(21);
+        assert!(
+            text.ends_with(&format!(",rigid,{numbers}{stiffness},3.0,\n")),
+            "{text}"
+        );
+        assert_eq!(
+            text.matches(',').count() + 1,
+            columns(&two_further()).count()
+        );
     }
 
     #[test]

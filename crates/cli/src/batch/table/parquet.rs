@@ -31,14 +31,17 @@ pub(crate) struct Parquet {
     group: Group,
 }
 
+/// Columns of the displacement, the first of the numbers.
+const DISPLACEMENT: usize = 6;
+
 /// The rows that are not written yet, by columns.
 #[derive(Default)]
 struct Group {
     pose: Vec<i64>,
     coordinates: [Vec<f64>; 6],
     status: Vec<ByteArray>,
-    /// 1 where a row has numbers, 0 where it has none.
-    levels: Vec<i16>,
+    /// 1 where a row has a displacement and a stiffness, 0 where it has none.
+    levels: [Vec<i16>; 2],
     /// Of the rows that have them.
     numbers: [Vec<f64>; NUMBERS],
     /// Of the rows that have them, as well.
@@ -133,8 +136,10 @@ impl Parquet {
             write::<DoubleType>(&mut writer, column, None)?;
         }
         write::<ByteArrayType>(&mut writer, &group.status, None)?;
-        for column in &group.numbers {
-            write::<DoubleType>(&mut writer, column, Some(&group.levels))?;
+        let [displaced, stiff] = &group.levels;
+        for (k, column) in group.numbers.iter().enumerate() {
+            let levels = if k < DISPLACEMENT { displaced } else { stiff };
+            write::<DoubleType>(&mut writer, column, Some(levels))?;
         }
         for column in &group.further {
             write::<DoubleType>(&mut writer, &column.numbers, Some(&column.levels))?;
@@ -174,15 +179,21 @@ impl Group {
             }
             let status = self.status(record.status());
             self.status.push(status);
-            self.levels.push(i16::from(record.result.is_ok()));
+            let known = record.known();
+            let [displaced, stiff] = &mut self.levels;
+            displaced.push(i16::from(known.is_some()));
+            stiff.push(i16::from(record.result.is_ok()));
             for (k, column) in self.further.iter_mut().enumerate() {
-                let found = record.result.as_ref().ok();
-                let number = found.and_then(|found| found.further.get(k).copied().flatten());
+                let number = known.and_then(|(_, further)| further.get(k).copied().flatten());
                 column.levels.push(i16::from(number.is_some()));
                 column.numbers.extend(number);
             }
+            let displacement = known.into_iter().flat_map(|(displacement, _)| displacement);
+            for (column, value) in self.numbers.iter_mut().zip(displacement) {
+                column.push(*value);
+            }
             if let Ok(found) = &record.result {
-                for (column, value) in self.numbers.iter_mut().zip(found.numbers()) {
+                for (column, value) in self.numbers[DISPLACEMENT..].iter_mut().zip(found.upper()) {
                     column.push(value);
                 }
             }
@@ -202,7 +213,7 @@ impl Group {
         self.pose.clear();
         self.coordinates.iter_mut().for_each(Vec::clear);
         self.status.clear();
-        self.levels.clear();
+        self.levels.iter_mut().for_each(Vec::clear);
         self.numbers.iter_mut().for_each(Vec::clear);
         for column in &mut self.further {
             column.levels.clear();
