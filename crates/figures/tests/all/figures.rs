@@ -21,6 +21,7 @@ fn trajectory() -> TrajectoryFigure {
         commanded: (0..=20).map(|k| [part(k), 0.0, 0.5 * part(k)]).collect(),
         second: Some(SecondMethod {
             name: "other method".into(),
+            at: (0..=20).collect(),
             displacement: displacement.clone(),
             difference: 0.0105,
         }),

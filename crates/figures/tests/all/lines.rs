@@ -11,14 +11,18 @@ fn figure() -> LineFigure {
     let at: Vec<f64> = (0..=20).map(|k| 0.01 * f64::from(k)).collect();
     let series = |name: &str, of: &dyn Fn(f64) -> f64| Series {
         name: name.into(),
+        at: at.clone(),
         values: at.iter().map(|x| Some(of(*x))).collect(),
     };
     LineFigure {
         title: "path".into(),
         subtitle: "dz and more.".into(),
         over: Quantity::new("x", "m"),
+        categories: Vec::new(),
         diagrams: vec![
             Diagram {
+                name: "dz, dx".into(),
+                legend: String::new(),
                 unit: "m".into(),
                 series: vec![
                     series("dz", &|x| 1e-2 * x * x),
@@ -26,11 +30,12 @@ fn figure() -> LineFigure {
                 ],
             },
             Diagram {
+                name: "k33".into(),
+                legend: String::new(),
                 unit: "N/m".into(),
                 series: vec![series("k33", &|x| 1e6 * (1.0 + x))],
             },
         ],
-        at,
     }
 }
 

@@ -1,7 +1,7 @@
 //! Maps: contours and colours where the field says, marks of what is missing, the same bytes
 //! again, and data that cannot be drawn.
 
-use hyperstat_figures::{FigureError, MapFigure, MapPanel, Quantity, Samples};
+use hyperstat_figures::{ColorScale, FigureError, MapFigure, MapPanel, Quantity, Samples};
 use resvg::usvg::roxmltree::Document;
 
 use crate::drawn::{points, texts};
@@ -34,6 +34,8 @@ fn figure(panels: Vec<MapPanel>) -> MapFigure {
         subtitle: "k33: a stiffness; z = 0.5 m.".into(),
         axes: ["x", "y"].map(|name| Quantity::new(name, "m")),
         quantity: Quantity::new("k33", "N/m"),
+        limits: None,
+        scale: ColorScale::Auto,
         panels,
     }
 }
