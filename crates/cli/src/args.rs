@@ -142,7 +142,7 @@ found from others:
   rotational_stiffness_min, …_max, …_x …   the same against a moment alone
 A column of a load case is written with the case's name: push.dz, push.deflection.
 Poses on a grid become a heat map with contours, others coloured dots; poses without a result stay
-white and are marked.
+white and are marked. Lines over what varies: a curve for each value of what else varies.
 
 Of a mechanism file, or of a job of a batch file: --deformed, --mode, --budget. It is solved as by
 `solve`. What `solve --why --format json` printed does for --budget too.
@@ -152,6 +152,7 @@ Standard output gets the names of the files, and a caption.
 Examples:
   hyperstat plot out/delta-map.csv --map k33 --plane z=0.5 --out map
   hyperstat plot out/delta-map.csv --map stiffness_min       Every plane, side by side
+  hyperstat plot out/delta-map.csv --map deflection --limits 1e-4,1e-3 --scale log
   hyperstat plot out/path.csv --lines dx,dy,dz,drx
   hyperstat plot out/path.csv --lines deflection --over x
   hyperstat plot out/designs.csv --lines stiffness_min --over rod.section.diameter --pose 3
@@ -374,9 +375,7 @@ fn scale(text: &str) -> Result<Scale, String> {
         ("linear", _) => Ok(Scale::Linear),
         ("log", _) => Ok(Scale::Log),
         (_, Ok(factor)) if factor.is_finite() && factor > 0.0 => Ok(Scale::Factor(factor)),
-        _ => Err(
-            "expected a factor above zero, such as 200, or of a map `log` or `linear`".into(),
-        ),
+        _ => Err("expected a factor above zero, such as 200, or of a map `log` or `linear`".into()),
     }
 }
 

@@ -249,9 +249,10 @@ impl LineFigure {
                 true => APART * ((k as f64 + 0.5) / count - 0.5),
                 false => 0.0,
             };
-            let points = series.at.iter().zip(&series.values).map(|(x, y)| {
-                y.map(|y| axes.at([x * across.factor + aside, y * upright.factor]))
-            });
+            let points =
+                series.at.iter().zip(&series.values).map(|(x, y)| {
+                    y.map(|y| axes.at([x * across.factor + aside, y * upright.factor]))
+                });
             let points: Vec<_> = points.collect();
             let dotted = by_category || points.len() <= DOTTED;
             for run in points.split(Option::is_none) {

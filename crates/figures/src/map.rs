@@ -130,13 +130,18 @@ impl MapFigure {
         } else {
             format!("{name} from {} to {}.", told(least), told(most))
         };
-        if Colors::new(self).is_ok_and(|colors| colors.logarithmic) {
-            caption += " Logarithmic colours.";
-        }
-        if let Some([low, high]) = self.limits
-            && (least < low || most > high)
-        {
-            caption += &format!(" Colours from {} to {}.", told(low), told(high));
+        let logarithmic = Colors::new(self).is_ok_and(|colors| colors.logarithmic);
+        let kind = if logarithmic {
+            "Logarithmic colours"
+        } else {
+            "Colours"
+        };
+        match self.limits {
+            Some([low, high]) => {
+                caption += &format!(" {kind} from {} to {}.", told(low), told(high));
+            }
+            None if logarithmic => caption += &format!(" {kind}."),
+            None => {}
         }
         if count < all {
             let missing = all - count;

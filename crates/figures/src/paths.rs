@@ -109,7 +109,9 @@ mod tests {
     fn a_thinned_line_keeps_ends_and_extremes_of_every_column() {
         // 100 000 points over 600 pixels, up and down by 200 pixels.
         let height = |k: usize| 200.0 * (0.7 * k as f64).sin() + (k % 7) as f64;
-        let line: Vec<_> = (0..100_000).map(|k| [0.006 * k as f64, height(k)]).collect();
+        let line: Vec<_> = (0..100_000)
+            .map(|k| [0.006 * k as f64, height(k)])
+            .collect();
         let thin = thinned(&line);
         assert!(thin.len() <= 4 * 2401, "{}", thin.len());
         assert_eq!((thin[0], thin[thin.len() - 1]), (line[0], line[99_999]));
@@ -136,7 +138,13 @@ mod tests {
                 t => [0.0, 40.0 - t],
             })
             .collect();
-        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        let corners = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [0.0, 10.0],
+            [0.0, 0.0],
+        ];
         assert_eq!(straightened(&square), corners);
         let circle: Vec<_> = (0..1000)
             .map(|k| [0.01 * f64::from(k)].map(|t| [50.0 * f64::cos(t), 50.0 * f64::sin(t)])[0])

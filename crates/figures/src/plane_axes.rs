@@ -224,7 +224,10 @@ fn wrapped(text: &str, room: f64) -> Vec<String> {
             _ => lines.push(word.into()),
         }
     }
-    lines.into_iter().map(|line| line.trim_end().into()).collect()
+    lines
+        .into_iter()
+        .map(|line| line.trim_end().into())
+        .collect()
 }
 
 #[cfg(test)]
@@ -237,7 +240,10 @@ mod tests {
         assert_eq!(wrapped(label, 1000.0), [label]);
         let lines = wrapped(label, 120.0);
         assert_eq!(lines, ["Tube(outer:", "0.018, inner:", "0.014)"]);
-        assert_eq!(wrapped("a b c d e f g h", 1.0), ["a", "b", "c", "d e f g h"]);
+        assert_eq!(
+            wrapped("a b c d e f g h", 1.0),
+            ["a", "b", "c", "d e f g h"]
+        );
         assert!(wrapped("", 10.0).is_empty());
     }
 

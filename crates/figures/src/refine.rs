@@ -138,7 +138,11 @@ mod tests {
     use super::*;
 
     /// Values over a grid of n×n points from −1 to 1, and the grid made finer.
-    fn refined(n: usize, parts: usize, of: impl Fn(f64, f64) -> Option<f64>) -> (Vec<f64>, Refined) {
+    fn refined(
+        n: usize,
+        parts: usize,
+        of: impl Fn(f64, f64) -> Option<f64>,
+    ) -> (Vec<f64>, Refined) {
         let ticks: Vec<f64> = (0..n)
             .map(|k| -1.0 + 2.0 * k as f64 / (n - 1) as f64)
             .collect();
@@ -170,7 +174,11 @@ mod tests {
         // Steep, with a spike and a pit: what an ordinary bicubic overshoots.
         let field = |x: f64, y: f64| {
             let spike = if x.hypot(y) < 0.1 { 50.0 } else { 0.0 };
-            let pit = if (x - 0.5).hypot(y + 0.5) < 0.1 { -30.0 } else { 0.0 };
+            let pit = if (x - 0.5).hypot(y + 0.5) < 0.1 {
+                -30.0
+            } else {
+                0.0
+            };
             (6.0 * (x - 0.3 * y)).tanh() + spike + pit
         };
         let (n, parts) = (9, 6);
@@ -180,7 +188,12 @@ mod tests {
         for j in 0..n - 1 {
             for i in 0..n - 1 {
                 let corner = |i: usize, j: usize| field(ticks[i], ticks[j]);
-                let corners = [corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)];
+                let corners = [
+                    corner(i, j),
+                    corner(i + 1, j),
+                    corner(i, j + 1),
+                    corner(i + 1, j + 1),
+                ];
                 assert_eq!(at(i * parts, j * parts), corners[0]);
                 let least = corners.iter().copied().fold(f64::INFINITY, f64::min);
                 let most = corners.iter().copied().fold(f64::NEG_INFINITY, f64::max);

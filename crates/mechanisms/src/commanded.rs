@@ -43,7 +43,9 @@ impl Poses {
                 .filter_map(|(k, values)| Some(named(k, axis(values.as_ref()?))))
                 .collect(),
             Self::Asked(Targets::Drives { drives, rows }) => {
-                let joints = subject.mechanism().map(|mechanism| mechanism.model.joints());
+                let joints = subject
+                    .mechanism()
+                    .map(|mechanism| mechanism.model.joints());
                 let joints = joints.unwrap_or_default();
                 let drives = drives.iter().enumerate();
                 drives

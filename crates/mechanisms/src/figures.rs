@@ -140,10 +140,7 @@ const KINDS: [(&str, &[&str]); 5] = [
 ];
 
 /// Reads the figures of a job, each with its place: that of the quantity, of a map.
-pub(crate) fn read(
-    list: Fragment<'_>,
-    known: &Known,
-) -> Result<Vec<(Figure, Place)>, LoadError> {
+pub(crate) fn read(list: Fragment<'_>, known: &Known) -> Result<Vec<(Figure, Place)>, LoadError> {
     let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
     list.into_iter().map(|item| figure(item, known)).collect()
 }

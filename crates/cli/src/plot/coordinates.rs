@@ -129,9 +129,10 @@ impl Coordinates {
         }
         let mut seen = HashSet::with_capacity(self.rows);
         (0..self.rows).all(|row| {
-            let place = (coordinates.iter().zip(counts.clone())).try_fold(0, |place, (k, count)| {
-                Some(place * count + self.levels(*k).of_row[row]?)
-            });
+            let place = (coordinates.iter().zip(counts.clone()))
+                .try_fold(0, |place, (k, count)| {
+                    Some(place * count + self.levels(*k).of_row[row]?)
+                });
             place.is_some_and(|place| seen.insert(place))
         })
     }

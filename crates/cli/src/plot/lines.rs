@@ -8,7 +8,6 @@ use hyperstat_figures::{Diagram, LineFigure, MOST_SERIES, Quantity, Series};
 use super::coordinates::Coordinates;
 use super::error::PlotError;
 use super::map::evenly;
-use super::plane::digits;
 use super::quantity::{Drawn, unit};
 use super::rows::{Choice, chosen};
 use super::table::{Column, Table};
@@ -100,7 +99,10 @@ fn diagrams(
         let column = drawn.read(table)?;
         let series = |curve: &Curve, name: &str| Series {
             name: name.into(),
-            at: chosen(&over.at, &curve.rows).into_iter().flatten().collect(),
+            at: chosen(&over.at, &curve.rows)
+                .into_iter()
+                .flatten()
+                .collect(),
             values: chosen(&column, &curve.rows),
         };
         if let [only] = &*curves.all {
@@ -254,14 +256,16 @@ fn others(
     if !coordinates.grid || along.is_none_or(|over| !coordinates.asked.contains(&over)) {
         return Ok(columns);
     }
-    for k in coordinates.asked.iter().copied().filter(|k| Some(*k) != along) {
+    for k in coordinates
+        .asked
+        .iter()
+        .copied()
+        .filter(|k| Some(*k) != along)
+    {
         let coordinate = coordinates.get(k);
         let levels = &coordinate.levels;
         let told = |row: usize| match levels.of_row[row] {
-            Some(level) => {
-                let number = digits(levels.values[level], &levels.values);
-                format!("{number} {}", coordinate.unit)
-            }
+            Some(level) => format!("{} {}", levels.label(level), coordinate.unit),
             None => String::new(),
         };
         let words = (0..rows.len()).map(told).collect();

@@ -148,7 +148,10 @@ impl Map {
                 });
             };
             let values: Vec<_> = given.values.iter().copied().map(Some).collect();
-            let size = given.values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+            let size = given
+                .values
+                .iter()
+                .fold(0.0_f64, |most, v| most.max(v.abs()));
             Levels::new(&values, size).asked(axis, *value)?;
             if self.axes.iter().flatten().any(|along| along == axis) {
                 return Err(PlotError::AlongNormal { axis: axis.clone() });

@@ -46,8 +46,8 @@ fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
     let scale = magnified(args.scale.as_ref())?;
-    let mut figure = drawing::deformed(model, &loaded, title, scale)
-        .map_err(|error| case.unsolvable(error))?;
+    let mut figure =
+        drawing::deformed(model, &loaded, title, scale).map_err(|error| case.unsolvable(error))?;
     if args.verify {
         let reference = case.reference()?;
         drawing::compare(&mut figure, model, &solution, &reference);

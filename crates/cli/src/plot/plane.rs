@@ -60,7 +60,12 @@ impl Levels {
     /// One of the values with the digits it has: six of the largest, or as many as tell it from
     /// the next.
     pub(super) fn label(&self, level: usize) -> String {
-        digits(self.values[level], &self.values)
+        let label = digits(self.values[level], &self.values);
+        // A minus, not a hyphen.
+        match label.strip_prefix('-') {
+            Some(magnitude) => format!("−{magnitude}"),
+            None => label,
+        }
     }
 
     /// The place of the value nearest to what is asked for, where it is near enough to be meant.
@@ -94,9 +99,13 @@ impl Levels {
 
 /// A value with the digits that it has among others of its kind, ascending.
 pub(super) fn digits(value: f64, all: &[f64]) -> String {
-    let largest = all.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest = all
+        .iter()
+        .fold(0.0_f64, |most, value| most.max(value.abs()));
     let steps = all.windows(2).map(|pair| pair[1] - pair[0]);
-    let step = steps.filter(|step| *step > 0.0).fold(f64::INFINITY, f64::min);
+    let step = steps
+        .filter(|step| *step > 0.0)
+        .fold(f64::INFINITY, f64::min);
     let resolution = (1e-5 * largest).min(1e-2 * step);
     if !(resolution > 0.0 && resolution.is_finite()) {
         return format!("{}", value + 0.0);
@@ -140,7 +149,7 @@ mod tests {
         assert_eq!(noise.values.len(), 1);
         let unknown = Levels::new(&[Some(1.0), None, Some(2.0)], 2.0);
         assert_eq!(unknown.of_row, [Some(0), None, Some(1)]);
-        assert!(levels.label(0) == "-0.1" && !levels.even());
+        assert!(levels.label(0) == "−0.1" && !levels.even());
     }
 
     #[test]
@@ -150,7 +159,7 @@ mod tests {
         assert_eq!(label(-0.000_000_000_000_000_077_998_9, 0.5), "0");
         assert_eq!(label(0.1 + 0.2, 0.5), "0.3");
         assert_eq!(label(0.475, 0.5), "0.475");
-        assert_eq!(label(-0.25, 1.0), "-0.25");
+        assert_eq!(label(-0.25, 1.0), "−0.25");
         assert_eq!(label(1234.5, 1234.5), "1234.5");
         let third = digits(1.0 / 3.0, &[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
         assert_eq!(third, "0.33333");

@@ -102,7 +102,9 @@ impl Table {
 
     /// Names of the columns of what varies from design to design.
     pub(super) fn varied(&self) -> &[String] {
-        let first = self.find(DESIGN).map_or(self.names.len(), |place| place + 1);
+        let first = self
+            .find(DESIGN)
+            .map_or(self.names.len(), |place| place + 1);
         self.names.get(first..).unwrap_or_default()
     }
 

@@ -260,7 +260,10 @@ mod tests {
 
     #[test]
     fn logarithmic_ticks_are_round() {
-        assert_eq!(round_factors([0.0726, 5.724]), [0.1, 0.2, 0.5, 1.0, 2.0, 5.0]);
+        assert_eq!(
+            round_factors([0.0726, 5.724]),
+            [0.1, 0.2, 0.5, 1.0, 2.0, 5.0]
+        );
         assert_eq!(round_factors([1.0, 5.0]), [1.0, 2.0, 5.0]);
         let decades = round_factors([1e-6, 1e3]);
         assert_eq!((decades.len(), decades[0], decades[9]), (10, 1e-6, 1e3));

@@ -110,7 +110,9 @@ fn draw_grid(
         for line in &lines {
             canvas.line(line, stroke)?;
         }
-        let longest = lines.iter().max_by(|a, b| paths::length(a).total_cmp(&paths::length(b)));
+        let longest = lines
+            .iter()
+            .max_by(|a, b| paths::length(a).total_cmp(&paths::length(b)));
         if let Some(at) = longest.and_then(|line| label_place(line, &label, axes, &labels)) {
             labels.push((at, label));
         }
