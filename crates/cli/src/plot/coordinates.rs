@@ -183,7 +183,11 @@ impl Coordinates {
     }
 
     /// The two coordinates that a map is along by itself.
-    pub(super) fn axes(&self, free: &[usize], held: &[Option<usize>]) -> [usize; 2] {
+    pub(super) fn axes(
+        &self,
+        free: &[usize],
+        held: &[Option<usize>],
+    ) -> Result<[usize; 2], PlotError> {
         let pairs = free.iter().enumerate().flat_map(|(place, first)| {
             let rest = free[place + 1..].iter();
             rest.map(move |second| [*first, *second])
@@ -196,7 +200,7 @@ impl Coordinates {
             (same, values, std::cmp::Reverse(*pair))
         };
         match pairs.max_by_key(rank) {
-            Some(pair) if self.grid => pair,
+            Some(pair) if self.grid => Ok(pair),
             // Places in space where they differ, else whatever does.
             _ => {
                 let mut others: Vec<usize> = (0..self.len())
@@ -209,9 +213,10 @@ impl Coordinates {
                     let aside = in_space && !self.is_position(*k);
                     (aside, !free.contains(k), self.count(*k) < 2, *k)
                 });
-                let mut pair = [along[0], along[1]];
-                pair.sort_unstable();
-                pair
+                let [first, second, ..] = along[..] else {
+                    return Err(PlotError::AllHeld);
+                };
+                Ok([first.min(second), first.max(second)])
             }
         }
     }

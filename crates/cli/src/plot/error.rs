@@ -65,6 +65,9 @@ pub(crate) enum PlotError {
     /// A plane of a coordinate that nobody asked for.
     #[error("`{axis}` follows from {}: it has no planes", .asked.join(", "))]
     Follows { axis: String, asked: Vec<String> },
+    /// Planes of so many coordinates that none is left.
+    #[error("all coordinates but one are held: there are no two for a map")]
+    AllHeld,
     /// A quantity that a table will not hold.
     #[error("there is no quantity `{name}`")]
     NoQuantity { name: String, help: String },
@@ -177,6 +180,7 @@ impl PlotError {
             Self::Follows { asked, .. } => {
                 Some(format!("choose a plane of {}, or none", asked.join(", ")))
             }
+            Self::AllHeld => Some("leave out some of the planes".into()),
             Self::Scale { of: MAP, .. } => Some("give `log` or `linear`, or leave it out".into()),
             Self::Scale { .. } => Some("give a factor above zero, such as 200".into()),
             Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),

@@ -186,7 +186,7 @@ impl Map {
     ) -> Result<[usize; 2], PlotError> {
         let axes = match &self.axes {
             Some([right, up]) => [coordinates.find(right)?, coordinates.find(up)?],
-            None => coordinates.axes(free, held),
+            None => coordinates.axes(free, held)?,
         };
         match axes.into_iter().find(|k| held[*k].is_some()) {
             Some(k) => Err(PlotError::AlongNormal {

@@ -204,9 +204,13 @@ fn what_is_asked_for_and_not_there_is_told() {
     plot(&["--lines", "status"])
         .ends_with(2)
         .says(&["the column `status` of out/map.csv holds no numbers"]);
-    plot(&["--map", "stiffness_mn"])
+    let held = ["x=0", "y=0", "z=0.45", "rx=0", "ry=0"].map(|plane| ["--plane", plane]);
+    plot(&[&["--map", "k11"], held.as_flattened()].concat())
         .ends_with(2)
-        .says(&["did you mean `stiffness_min`?"]);
+        .says(&["all coordinates but one are held"]);
+    plot(&["--map", "deflecton"])
+        .ends_with(2)
+        .says(&["did you mean `deflection`?"]);
     plot(&["--map", "k11", "--scale", "200"])
         .ends_with(2)
         .says(&["`--scale 200` is none of a map", "`log` or `linear`"]);
@@ -290,10 +294,10 @@ fn a_map_that_a_job_cannot_have_is_told_before_the_first_job() {
             ["there is no quantity `status`", "k11, k12"],
         ),
         (
-            r#"Map(value: "stiffnes_min")"#,
+            r#"Map(value: "deflecton")"#,
             [
-                "there is no quantity `stiffnes_min`",
-                "did you mean `stiffness_min`?",
+                "there is no quantity `deflecton`",
+                "did you mean `deflection`?",
             ],
         ),
         (

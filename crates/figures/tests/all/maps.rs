@@ -284,8 +284,9 @@ fn contours_of_a_coarse_grid_are_smooth() {
     let lines = document
         .descendants()
         .filter(|n| n.has_tag_name("polyline"));
-    let curves: Vec<_> = lines.map(points).filter(|line| line.len() > 60).collect();
-    assert!(curves.len() >= 4, "{}", curves.len());
+    let curves: Vec<_> = lines.map(points).filter(|line| line.len() > 50).collect();
+    // 1.5 MN/m a circle, 1 MN/m an arc at each corner.
+    assert_eq!(curves.len(), 5);
     for curve in &curves {
         let radii: Vec<f64> = curve.iter().map(radius).collect();
         let [least, most] = radii
@@ -297,9 +298,8 @@ fn contours_of_a_coarse_grid_are_smooth() {
         // the cells of 0.05 m would be off by 0.05²/4/2r = 2e-3 m at r = 0.15 m.
         let off = 2.0 * (0.4 / (right - left) + 0.003_f64.powi(2) / 8.0 / least);
         assert!(most - least < 2.0 * off, "{least} {most}");
-        let levels = (0..).map(|k| (2.0 - 0.2 * f64::from(k)) / 20.0);
-        let nearest = levels.take(10).map(|square| (square.sqrt() - most).abs());
-        assert!(nearest.fold(f64::INFINITY, f64::min) < 2.0 * off, "{most}");
+        let near = |square: f64| (square.sqrt() - most).abs() < 2.0 * off;
+        assert!(near(0.025) || near(0.05), "{most}");
     }
 }
 
