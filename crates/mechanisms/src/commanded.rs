@@ -67,8 +67,8 @@ mod tests {
 
     fn commanded(mechanism: &str, poses: &str) -> Vec<(String, usize)> {
         let batch = format!(r#"(jobs: [(name: "a", mechanism: {mechanism}, poses: {poses})])"#);
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-        let batch = batch_from_str(&batch, &folder, &Registry::builtin()).unwrap();
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/a.ron");
+        let batch = batch_from_str(&batch, &path, &Registry::builtin()).unwrap();
         let all = batch.jobs[0].commanded().into_iter();
         all.map(|c| (c.name, c.values.len())).collect()
     }
