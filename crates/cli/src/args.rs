@@ -1,5 +1,6 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -143,7 +144,7 @@ found from others:
   rotational_stiffness_min, …_max, …_x …   the same against a moment alone
 A column of a load case is written with the case's name: push.dz, push.deflection.
 Poses on a grid become a heat map with contours, others coloured dots; poses without a result stay
-white and are marked.
+white and are marked. Lines over what varies: a curve for each value of what else varies.
 
 Of a mechanism file, or of a job of a batch file: --deformed, --mode, --budget. It is solved as by
 `solve`. What `solve --why --format json` printed does for --budget too.
@@ -153,6 +154,7 @@ Standard output gets the names of the files, and a caption.
 Examples:
   hyperstat plot out/delta-map.csv --map k33 --plane z=0.5 --out map
   hyperstat plot out/delta-map.csv --map stiffness_min       Every plane, side by side
+  hyperstat plot out/delta-map.csv --map deflection --limits 1e-4,1e-3 --scale log
   hyperstat plot out/path.csv --lines dx,dy,dz,drx
   hyperstat plot out/path.csv --lines deflection --over x
   hyperstat plot out/designs.csv --lines stiffness_min --over rod.section.diameter --pose 3
@@ -275,12 +277,24 @@ pub(crate) struct Plot {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) kind: PlotKind,
-    /// Map: the plane, such as z=0.5; several where poses differ in more. Without it, all planes
+    /// Map: the plane, such as z=0.5 (or of a drive, A1.v=0.2); several where poses differ in more.
+    /// Without it, all planes
     #[arg(long, value_name = "AXIS=VALUE", value_parser = plane, requires = "map")]
     pub(crate) plane: Vec<(String, f64)>,
-    /// Map: the pose coordinates to the right and up, such as x,z [default: those that vary]
+    /// Map: the coordinates to the right and up, such as x,z (or drives, A1.v,A2.v) [default: two of
+    /// those that the poses were asked for by]
     #[arg(long, value_name = "X,Y", value_parser = axes, requires = "map")]
     pub(crate) axes: Option<[String; 2]>,
+    /// Map: where the colours begin and end, in the SI unit, such as 1e-5,1e-3 [default: the least
+    /// and the largest value]
+    #[arg(
+        long,
+        value_name = "LOW,HIGH",
+        value_parser = limits,
+        requires = "map",
+        allow_hyphen_values = true
+    )]
+    pub(crate) limits: Option<[f64; 2]>,
     /// Lines: the column along the lower axis [default: pose]
     #[arg(long, value_name = "COLUMN", requires = "lines")]
     pub(crate) over: Option<String>,
@@ -293,9 +307,10 @@ pub(crate) struct Plot {
     /// Budget: the direction, as of `solve --why` [default: displacement]
     #[arg(long, value_name = "DIRECTION", requires = "budget", value_parser = along, allow_hyphen_values = true)]
     pub(crate) along: Option<Along>,
-    /// Trajectory, deformed, mode: magnification [default: a round number that shows it]
-    #[arg(long, value_name = "FACTOR", value_parser = factor, conflicts_with_all = ["map", "lines", "budget"])]
-    pub(crate) scale: Option<f64>,
+    /// Trajectory, deformed, mode: magnification [default: a round number that shows it]. Map:
+    /// `log` or `linear` colours [default: log where most values would share a colour]
+    #[arg(long, value_name = "SCALE", value_parser = scale, conflicts_with_all = ["lines", "budget"])]
+    pub(crate) scale: Option<Scale>,
     /// Job of a batch file; may be left out where there is only one
     #[arg(long, value_name = "NAME")]
     pub(crate) job: Option<String>,
@@ -337,23 +352,51 @@ pub(crate) struct PlotKind {
     pub(crate) budget: bool,
 }
 
-/// Reads a magnification.
-fn factor(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err("expected a factor above zero, such as 200".into()),
+/// A magnification, or how colours go with values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Scale {
+    /// Above zero.
+    Factor(f64),
+    Linear,
+    Log,
+}
+
+impl fmt::Display for Scale {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Factor(factor) => write!(f, "{factor}"),
+            Self::Linear => f.write_str("linear"),
+            Self::Log => f.write_str("log"),
+        }
     }
 }
 
-/// Pose coordinates.
-const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+/// Reads a scale.
+fn scale(text: &str) -> Result<Scale, String> {
+    match (text, text.parse::<f64>()) {
+        ("linear", _) => Ok(Scale::Linear),
+        ("log", _) => Ok(Scale::Log),
+        (_, Ok(factor)) if factor.is_finite() && factor > 0.0 => Ok(Scale::Factor(factor)),
+        _ => Err("expected a factor above zero, such as 200, or of a map `log` or `linear`".into()),
+    }
+}
+
+/// Reads `1e-5,1e-3`.
+fn limits(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite());
+    let both = text.split_once(',');
+    match both.and_then(|(low, high)| Some([number(low)?, number(high)?])) {
+        Some([low, high]) if low < high => Ok([low, high]),
+        _ => Err("expected two numbers, the lower one first, such as 1e-5,1e-3".into()),
+    }
+}
 
 /// Reads `z=0.5`.
 fn plane(text: &str) -> Result<(String, f64), String> {
     let wrong = || format!("expected a coordinate and its value, such as z=0.5, found `{text}`");
     let (axis, value) = text.split_once('=').ok_or_else(wrong)?;
     match value.trim().parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok((coordinate(axis)?, value)),
+        Ok(value) if value.is_finite() => Ok((axis.trim().into(), value)),
         _ => Err(wrong()),
     }
 }
@@ -361,19 +404,10 @@ fn plane(text: &str) -> Result<(String, f64), String> {
 /// Reads `x,z`.
 fn axes(text: &str) -> Result<[String; 2], String> {
     match text.split_once(',') {
-        Some((right, up)) if right.trim() != up.trim() => Ok([coordinate(right)?, coordinate(up)?]),
+        Some((right, up)) if right.trim() != up.trim() => {
+            Ok([right.trim().into(), up.trim().into()])
+        }
         _ => Err("expected two coordinates, such as x,z".into()),
-    }
-}
-
-fn coordinate(text: &str) -> Result<String, String> {
-    let text = text.trim();
-    match COORDINATES.contains(&text) {
-        true => Ok(text.into()),
-        false => Err(format!(
-            "`{text}` is no coordinate of a pose: those are {}",
-            COORDINATES.join(", ")
-        )),
     }
 }
 

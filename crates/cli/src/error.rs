@@ -104,13 +104,11 @@ pub(crate) enum CliError {
     /// A table that cannot be drawn, or does not hold what is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// A map of a quantity that the job's table will not hold.
-    #[error("job `{job}`: there is no quantity `{value}` to draw a map of")]
-    UnknownQuantity {
+    /// A map that the job's table will not hold.
+    #[error("{source}")]
+    JobMap {
         location: Box<Location>,
-        job: String,
-        value: String,
-        help: String,
+        source: Box<PlotError>,
     },
     /// A figure that could not be drawn.
     #[error("cannot draw {}: {source}", .path.display())]
@@ -136,7 +134,7 @@ impl CliError {
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
-            | Self::UnknownQuantity { location, .. }
+            | Self::JobMap { location, .. }
             | Self::Export { location, .. } => Some(location),
             _ => None,
         }
@@ -147,7 +145,7 @@ impl CliError {
         match self {
             Self::Load(error) => error.help().map(Into::into),
             Self::Plot(error) => error.help(),
-            Self::UnknownQuantity { help, .. } => Some(help.clone()),
+            Self::JobMap { source, .. } => source.help(),
             Self::NotABatch { option, .. } => Some(format!("leave `{option}` out")),
             Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
                 Some(format!("its jobs are {}", known.join(", ")))

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, ModalOptions, Model};
 
+use crate::commanded::Commanded;
 use crate::design::{Design, Designs, Varied};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
@@ -41,6 +42,8 @@ pub struct Job {
     pub figures: Vec<Figure>,
     /// Natural frequencies to find at every pose.
     pub modes: Option<ModalOptions>,
+    /// Where each figure stands.
+    figure_places: Vec<Place>,
     recipe: Recipe,
     poses: Arc<Poses>,
     /// Where `vary` is given.
@@ -144,6 +147,7 @@ impl Job {
             )?,
             None => Vec::new(),
         };
+        let (figures, figure_places) = figures.into_iter().unzip();
         let modes = fields.get("modes").map(modes::read).transpose()?;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
@@ -156,6 +160,7 @@ impl Job {
         Ok(Self {
             name,
             figures,
+            figure_places,
             modes,
             recipe,
             poses: Arc::new(poses),
@@ -230,6 +235,20 @@ impl Job {
     /// Place of the job's name in the batch file.
     pub fn location(&self) -> Location {
         self.place.location()
+    }
+
+    /// Place of a figure in the batch file, by its number from 0; the job's where there is none.
+    /// That of a map is the place of its quantity.
+    pub fn figure_location(&self, number: usize) -> Location {
+        let place = self.figure_places.get(number);
+        place.unwrap_or(&self.place).location()
+    }
+
+    /// The coordinates that its poses give, each with a value for every pose, in any order: of the
+    /// output's pose, in the order x y z rx ry rz, or of drives. What is not among them follows
+    /// from the mechanism. None where the job has no poses.
+    pub fn commanded(&self) -> Vec<Commanded> {
+        self.poses.commanded(&self.first)
     }
 
     /// [`Design::model`] of the first design.

@@ -12,6 +12,7 @@ mod batch;
 mod beams;
 mod bodies;
 mod brackets;
+mod commanded;
 mod csv;
 mod design;
 mod error;
@@ -46,13 +47,15 @@ mod vary;
 mod write;
 
 pub use batch::{Batch, Job};
+pub use commanded::Commanded;
 pub use design::{Design, Value, Varied};
 pub use error::{LoadError, Location};
-pub use figures::{Along, Figure, Scale};
+pub use figures::{Along, ColorScale, Figure, Scale};
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };
 pub use mechanism::Mechanism;
+pub use names::nearest;
 pub use prebuilt::PoseError;
 pub use registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
 pub use write::{WriteError, write};

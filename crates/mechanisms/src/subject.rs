@@ -246,6 +246,14 @@ impl Subject {
         }
     }
 
+    /// The coordinates that a prebuilt mechanism takes; none of a file.
+    pub(crate) fn coordinates(&self) -> &[PoseCoordinate] {
+        match self {
+            Self::File { .. } => &[],
+            Self::Prebuilt { mechanism, .. } => mechanism.coordinates(),
+        }
+    }
+
     /// The mechanism, where it comes from a file.
     pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
         match self {

@@ -58,7 +58,7 @@ fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
 }
 
 fn prepare_job(job: &Job) -> Result<Sweep<'_>, CliError> {
-    let columns: Vec<_> = table::columns(&Columns::of(job)).collect();
+    let columns = table::numeric(&Columns::of(job));
     figures::check(job, &columns)?;
     Sweep::new(job).map_err(|unsolvable| {
         let (model, error) = *unsolvable;

@@ -45,8 +45,9 @@ fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let solution = case.solve_held()?;
     let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
-    let mut figure = drawing::deformed(model, &loaded, title, magnified(args.scale))
-        .map_err(|error| case.unsolvable(error))?;
+    let scale = magnified(args.scale.as_ref())?;
+    let mut figure =
+        drawing::deformed(model, &loaded, title, scale).map_err(|error| case.unsolvable(error))?;
     if args.verify {
         let reference = case.reference()?;
         drawing::compare(&mut figure, model, &solution, &reference);
@@ -67,7 +68,8 @@ fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliErr
         count: modes.len(),
     })?;
     let title = title(args, case, None);
-    let figure = drawing::mode(&case.model, mode, number, title, magnified(args.scale))
+    let scale = magnified(args.scale.as_ref())?;
+    let figure = drawing::mode(&case.model, mode, number, title, scale)
         .map_err(|error| case.unsolvable(error))?;
     Ok(Drawing::Deformed(figure))
 }

@@ -1,6 +1,7 @@
 //! `hyperstat plot`: figures from the tables that `hyperstat run` writes, of mechanisms, and of what
 //! `hyperstat solve --why` found.
 
+mod coordinates;
 mod error;
 mod lines;
 mod map;
@@ -13,7 +14,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{Scale, TrajectoryFigure};
+use hyperstat_figures::{ColorScale, Scale, TrajectoryFigure};
 use hyperstat_mechanisms::Registry;
 
 use crate::args;
@@ -141,6 +142,9 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             value: value.clone(),
             planes: args.plane.clone(),
             axes: args.axes.clone(),
+            asked: None,
+            limits: args.limits,
+            scale: colors(args.scale.as_ref())?,
             choice: one_design,
             title,
         };
@@ -165,7 +169,7 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         let figure = lines::figure(table, &lines)?;
         (Drawing::Lines(figure), values.join("-"))
     } else {
-        let figure = trajectory(table, one_design, args.scale, title)?;
+        let figure = trajectory(table, one_design, magnified(args.scale.as_ref())?, title)?;
         (Drawing::Trajectory(figure), "trajectory".into())
     };
     Ok(Plotted {
@@ -178,7 +182,7 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
 fn trajectory(
     table: &Table,
     choice: Choice,
-    scale: Option<f64>,
+    scale: Scale,
     title: Option<String>,
 ) -> Result<TrajectoryFigure, PlotError> {
     let names = ["x", "y", "z", "dx", "dy", "dz"];
@@ -189,7 +193,7 @@ fn trajectory(
         commanded: Vec::new(),
         displacement: Vec::new(),
         second: None,
-        scale: magnified(scale),
+        scale,
     };
     for row in choice.rows(table)? {
         let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
@@ -207,8 +211,28 @@ fn trajectory(
 }
 
 /// A magnification from the command line.
-fn magnified(factor: Option<f64>) -> Scale {
-    factor.map_or(Scale::Auto, Scale::Factor)
+fn magnified(scale: Option<&args::Scale>) -> Result<Scale, PlotError> {
+    match scale {
+        None => Ok(Scale::Auto),
+        Some(args::Scale::Factor(factor)) => Ok(Scale::Factor(*factor)),
+        Some(other) => Err(PlotError::Scale {
+            given: other.to_string(),
+            of: error::SHAPE,
+        }),
+    }
+}
+
+/// How the colours of a map go with its values, from the command line.
+fn colors(scale: Option<&args::Scale>) -> Result<ColorScale, PlotError> {
+    match scale {
+        None => Ok(ColorScale::Auto),
+        Some(args::Scale::Linear) => Ok(ColorScale::Linear),
+        Some(args::Scale::Log) => Ok(ColorScale::Log),
+        Some(other) => Err(PlotError::Scale {
+            given: other.to_string(),
+            of: error::MAP,
+        }),
+    }
 }
 
 /// Name of a file without folder and extension.

@@ -2,6 +2,7 @@
 //! words.
 
 use hyperstat_figures::Quantity;
+use hyperstat_mechanisms::nearest;
 use nalgebra::{Cholesky, Matrix3, Matrix6};
 
 use super::error::PlotError;
@@ -73,7 +74,7 @@ impl Drawn {
         Self::named(name, table.names()).ok_or_else(|| PlotError::UnknownColumn {
             path: table.path().into(),
             name: name.into(),
-            help: known(table.names()),
+            help: known(name, table.names()),
         })
     }
 
@@ -213,7 +214,7 @@ fn entry(name: &str) -> Option<[usize; 2]> {
 }
 
 /// The SI unit of a column; empty where it has none or is unknown.
-fn unit(name: &str) -> &'static str {
+pub(super) fn unit(name: &str) -> &'static str {
     if let Some([row, column]) = entry(name) {
         return match (row > 3, column > 3) {
             (false, false) => "N/m",
@@ -228,6 +229,8 @@ fn unit(name: &str) -> &'static str {
         "x" | "y" | "z" if stiffness => "N/m",
         "u" | "v" | "w" | "drive_stiffness" if stiffness => "N·m/rad",
         "x" | "y" | "z" | "dx" | "dy" | "dz" => "m",
+        // Of a drive.
+        "u" | "v" | "w" => "rad",
         "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => "rad",
         "diameter" | "outer" | "inner" | "width" | "height" | "thickness" => "m",
         "young" | "shear" | "yield" => "Pa",
@@ -272,18 +275,23 @@ fn words(name: &str) -> String {
     }
 }
 
-/// What a table with these columns holds, in words.
-pub(crate) fn known(names: &[String]) -> String {
+/// What a table with these columns holds, in words: the quantity that was meant by `name`, or all.
+pub(crate) fn known(name: &str, names: &[String]) -> String {
     let not_drawn = |name: &&String| name.as_str() != "status";
     let columns: Vec<_> = names.iter().filter(not_drawn).map(String::as_str).collect();
     let derived: Vec<_> = (DERIVED.into_iter())
         .filter(|name| Drawn::named(name, names).is_some())
         .collect();
-    format!(
+    let every: Vec<_> = columns.iter().chain(&derived).copied().collect();
+    let all = format!(
         "its columns are {}; found from them are {}",
         columns.join(", "),
         derived.join(", ")
-    )
+    );
+    match nearest(name, &every) {
+        Some(meant) => format!("did you mean `{meant}`? {all}"),
+        None => all,
+    }
 }
 
 #[cfg(test)]
@@ -302,6 +310,8 @@ mod tests {
             ("rod.section.diameter", "m"),
             ("joints.wrist.stiffness.x", "N/m"),
             ("drive_stiffness", "N·m/rad"),
+            ("A1.v", "rad"),
+            ("D1.y", "m"),
             ("elements", ""),
         ] {
             assert_eq!(unit(name), expected, "{name}");

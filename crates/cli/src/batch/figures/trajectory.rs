@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use super::figure_scale;
 use crate::batch::record::Record;
 use crate::case::job_model;
-use crate::drawing::{SECOND, difference, linear};
+use crate::drawing::{SECOND, difference_in, linear};
 
-/// Most poses that a figure shows: more cannot be told apart, and the reference solver is slow.
+/// Most poses that a figure shows: more cannot be told apart.
 const MOST_POSES: usize = 1000;
 
 /// Positions and displacements of a job's output at evenly spaced poses that have a result.
@@ -69,17 +69,21 @@ impl Trajectory {
         }
     }
 
-    /// The reference solver's displacements; `None` where it has no answer at some pose.
+    /// The reference solver's displacements at the poses that the figure marks; `None` where it has
+    /// no answer at some of them. It is slow: at every pose it would take far longer than the sweep.
     fn second(&self, job: &Job) -> Option<SecondMethod> {
-        let solve = |&pose: &usize| {
-            let model = job_model(job, pose).ok()?;
+        let at = TrajectoryFigure::marked(self.poses.len());
+        let solve = |&place: &usize| {
+            let model = job_model(job, self.poses[place]).ok()?;
             let solution = hyperstat_reference::solve(&model).ok()?;
             Some(linear(&solution.displacement?))
         };
-        let displacement: Vec<_> = self.poses.par_iter().map(solve).collect::<Option<_>>()?;
+        let displacement: Vec<_> = at.par_iter().map(solve).collect::<Option<_>>()?;
+        let ours: Vec<_> = at.iter().map(|place| self.displacement[*place]).collect();
         Some(SecondMethod {
             name: SECOND.into(),
-            difference: difference(&self.displacement, &displacement),
+            difference: difference_in(&ours, &displacement, &self.displacement),
+            at,
             displacement,
         })
     }

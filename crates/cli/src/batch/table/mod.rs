@@ -31,6 +31,15 @@ pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     found.chain(design).chain(values)
 }
 
+/// Names of the columns that hold numbers.
+pub(crate) fn numeric(of: &Columns<'_>) -> Vec<String> {
+    let is_text = |name: &String| {
+        let mut varied = of.varied.iter();
+        name == STATUS || varied.any(|varied| varied.path == *name && !varied.numeric)
+    };
+    columns(of).filter(|name| !is_text(name)).collect()
+}
+
 /// A table being written; its file gets its name when it is complete.
 pub(crate) enum Table {
     Csv(csv::Csv),
