@@ -18,6 +18,7 @@ mod magnitudes;
 mod misfits;
 mod natural_frequencies;
 mod parallelogram_closed_form;
+mod precision;
 mod prebuilt_a;
 mod prebuilt_b;
 mod properties;

@@ -121,10 +121,10 @@ pub(crate) fn linear(displacement: &Vector6<f64>) -> [f64; 3] {
 }
 
 /// The largest difference between two lists of displacements over the largest displacement in
-/// either; zero where nothing moves.
-pub(crate) fn difference(ours: &[[f64; 3]], others: &[[f64; 3]]) -> f64 {
+/// either, over `least` where all are smaller; zero where nothing moves.
+pub(crate) fn difference(ours: &[[f64; 3]], others: &[[f64; 3]], least: f64) -> f64 {
     let norm = |v: &[f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
-    let largest = ours.iter().chain(others).map(norm).fold(0.0, f64::max);
+    let largest = ours.iter().chain(others).map(norm).fold(least, f64::max);
     let pairs = ours.iter().zip(others);
     let apart = pairs
         .map(|(a, b)| norm(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
@@ -140,9 +140,10 @@ mod tests {
     fn the_difference_is_relative_to_the_largest_displacement() {
         let ours = [[0.0, 3.0, 4.0], [1.0, 0.0, 0.0]];
         let others = [[0.0, 3.0, 4.0], [1.0, 0.5, 0.0]];
-        assert_eq!(difference(&ours, &others), 0.1);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0; 3]]), 0.0);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]]), 1.0);
+        assert_eq!(difference(&ours, &others, 1.0), 0.1);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0; 3]], 0.0), 0.0);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]], 0.0), 1.0);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]], 4.0), 0.5);
     }
 
     #[test]

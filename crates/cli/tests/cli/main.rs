@@ -5,6 +5,7 @@ mod check;
 mod designs;
 mod diagnosis;
 mod export;
+mod floors;
 mod help;
 mod messages;
 mod misfits;

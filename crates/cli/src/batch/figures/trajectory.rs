@@ -1,5 +1,6 @@
 //! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
 
+use hyperstat_assembly::Floor;
 use hyperstat_figures::{SecondMethod, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job, Scale};
 use rayon::prelude::*;
@@ -77,9 +78,11 @@ impl Trajectory {
             Some(linear(&solution.displacement?))
         };
         let displacement: Vec<_> = self.poses.par_iter().map(solve).collect::<Option<_>>()?;
+        let first = job_model(job, *self.poses.first()?).ok()?;
+        let least = Floor::of(&first).ok()?.least_displacement();
         Some(SecondMethod {
             name: SECOND.into(),
-            difference: difference(&self.displacement, &displacement),
+            difference: difference(&self.displacement, &displacement, least),
             displacement,
         })
     }
