@@ -319,8 +319,14 @@ fn add_beam(model: &Model, segment: &Segment, system: &mut System) {
     let arm = span(&positions[first], &positions[second]);
     let length = norm(arm);
     let (material, section) = (&segment.material, &segment.section);
-    assert!(segment.taper.is_none() && section.iy() == section.iz(), "a round beam");
-    assert!(section.shear_y().is_none() && section.shear_z().is_none(), "no shear");
+    assert!(
+        segment.taper.is_none() && section.iy() == section.iz(),
+        "a round beam"
+    );
+    assert!(
+        section.shear_y().is_none() && section.shear_z().is_none(),
+        "no shear"
+    );
     // The section is round: any axes across it will do.
     let x = arm.map(|c| c / length);
     let mut helper = [ZERO; 3];
@@ -354,8 +360,14 @@ fn add_beam(model: &Model, segment: &Segment, system: &mut System) {
     let near = product(&turn, &transport(arm));
     let rows: Vec<Terms> = (0..6)
         .map(|k| {
-            let far = turn[k].iter().enumerate().map(|(c, v)| (6 * second + c, *v));
-            let near = near[k].iter().enumerate().map(|(c, v)| (6 * first + c, -*v));
+            let far = turn[k]
+                .iter()
+                .enumerate()
+                .map(|(c, v)| (6 * second + c, *v));
+            let near = near[k]
+                .iter()
+                .enumerate()
+                .map(|(c, v)| (6 * first + c, -*v));
             far.chain(near).collect()
         })
         .collect();

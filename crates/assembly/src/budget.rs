@@ -80,7 +80,9 @@ impl Influence<'_> {
     pub fn budget(&self, solution: &Solution, along: &Vector6<f64>) -> Budget {
         let total = solution.output.displacement.dot(along);
         let misfits = self.misfit_parts(along);
-        let rounding = solution.floor.rounding_along(&solution.output.displacement, along);
+        let rounding = solution
+            .floor
+            .rounding_along(&solution.output.displacement, along);
         self.budget_of(&self.state(solution), total, along, misfits, rounding)
     }
 

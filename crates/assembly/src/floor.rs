@@ -193,20 +193,21 @@ impl Floor {
 
 /// Diagonal entries; of the largest of its block (translations, rotations) where one is zero; where the
 /// whole block is, that of the other block, rotations being translations over a length squared;
-/// where both are, `least` of a translation.
+/// where both are rounding beside `least`, that, of a translation.
 fn block_scales(matrix: &Matrix6<f64>, length: f64, least: f64) -> [f64; 6] {
     let most = |kind: usize| (3 * kind..3 * kind + 3).fold(0.0_f64, |m, k| m.max(matrix[(k, k)]));
     let square = length * length;
     let mut blocks = [most(0), most(1)];
     let [linear, angular] = blocks;
+    let rounding = ROUNDING / COMPARED * least;
+    if linear <= rounding && angular <= rounding * square {
+        return std::array::from_fn(|k| if k < 3 { least } else { least * square });
+    }
     if linear <= ZERO * angular / square {
         blocks[0] = angular / square;
     }
     if angular <= ZERO * linear * square {
         blocks[1] = linear * square;
-    }
-    if blocks == [0.0; 2] {
-        blocks = [least, least * square];
     }
     std::array::from_fn(|k| {
         let (own, block) = (matrix[(k, k)], blocks[k / 3]);
@@ -268,7 +269,9 @@ mod tests {
         assert_eq!(block_scales(&turns, 0.1, 1.0)[3..], [1e8 * 0.1 * 0.1; 3]);
         let stands = of([0.0, 0.0, 0.0, 1e5, 1e5, 10.0]);
         assert_eq!(block_scales(&stands, 0.1, 1.0)[..3], [1e5 / (0.1 * 0.1); 3]);
-        let none = block_scales(&Matrix6::zeros(), 2.0, 3.0);
-        assert_eq!(none, [3.0, 3.0, 3.0, 12.0, 12.0, 12.0]);
+        let none = [3.0, 3.0, 3.0, 12.0, 12.0, 12.0];
+        assert_eq!(block_scales(&Matrix6::zeros(), 2.0, 3.0), none);
+        let rounding = of([1e-11, 2e-10, 0.0, 1e-12, 0.0, 0.0]);
+        assert_eq!(block_scales(&rounding, 2.0, 3.0), none);
     }
 }

@@ -52,6 +52,9 @@ impl Plan {
         states: &[State],
     ) -> Result<f64, SolveError> {
         let n = self.unknowns;
+        let Some(State { floor, .. }) = states.first().filter(|_| n > 0) else {
+            return Ok(0.0);
+        };
         let units = &workspace.solutions[n * UNITS.start..n * UNITS.end];
         let loaded = Columns {
             values: &workspace.solutions[n * LOADS..],
@@ -85,11 +88,10 @@ impl Plan {
                 }
             }
         }
-        let Some(State { floor, .. }) = states.first() else {
-            return Ok(0.0);
-        };
         let mut lost = 0.0_f64;
-        if let (Some(stiffness), true) = (&output.stiffness, self.output_is_independent()) {
+        let unfree = output.free_motions.len() < 6;
+        let stiffness = output.stiffness.as_ref().filter(|_| unfree);
+        if let (Some(stiffness), true) = (stiffness, self.output_is_independent()) {
             lost = lost.max(largest(&moved, &floor.stiffness_scales(stiffness)));
         }
         if let Some(compliance) = &output.compliance {
@@ -221,7 +223,10 @@ impl State {
                 most.max(u.fixed_rows::<3>(start).amax())
             })
         };
-        [largest(0).max(least), largest(3).max(least / self.floor.size)]
+        [
+            largest(0).max(least),
+            largest(3).max(least / self.floor.size),
+        ]
     }
 }
 

@@ -247,7 +247,11 @@ mod tests {
 
     /// Forces count as they are, moments over a length.
     fn by(length: f64) -> impl Fn(&Vector6<f64>) -> f64 {
-        move |v| (0..6).fold(0.0, |m: f64, k| m.max(v[k].abs() / if k < 3 { 1.0 } else { length }))
+        move |v| {
+            (0..6).fold(0.0, |m: f64, k| {
+                m.max(v[k].abs() / if k < 3 { 1.0 } else { length })
+            })
+        }
     }
 
     #[test]

@@ -406,7 +406,11 @@ fn matrices_agree(model: &Model) -> Result<bool, TestCaseError> {
     prop_assert_eq!(counts, expected);
     let (output, floor) = (&ours.output, &ours.floor);
     stiffnesses_agree(output.stiffness.as_ref(), theirs.stiffness.as_ref(), floor)?;
-    compliances_agree(output.compliance.as_ref(), theirs.compliance.as_ref(), floor)?;
+    compliances_agree(
+        output.compliance.as_ref(),
+        theirs.compliance.as_ref(),
+        floor,
+    )?;
     if ours.idle.is_empty() && ours.output.free_motions.is_empty() {
         let largest = |u: &[Vector6<f64>]| u.iter().map(|u| u.amax()).fold(1e-9, f64::max);
         let pairs = ours.displacements.iter().zip(&theirs.displacements);

@@ -233,7 +233,9 @@ fn links(
 }
 
 /// Chains of links of about one size, from 1 mm to 100 m.
-pub(super) fn chains_of_one_size(joint: impl Strategy<Value = [f64; 6]>) -> impl Strategy<Value = Model> {
+pub(super) fn chains_of_one_size(
+    joint: impl Strategy<Value = [f64; 6]>,
+) -> impl Strategy<Value = Model> {
     (magnitude(-2.5, 2.0), links(-0.5..0.0, joint)).prop_map(|(size, mut links)| {
         for link in &mut links {
             link.length *= size;
@@ -243,7 +245,9 @@ pub(super) fn chains_of_one_size(joint: impl Strategy<Value = [f64; 6]>) -> impl
 }
 
 /// Chains of links from 1 mm to 100 m, side by side.
-pub(super) fn chains_of_any_size(joint: impl Strategy<Value = [f64; 6]>) -> impl Strategy<Value = Model> {
+pub(super) fn chains_of_any_size(
+    joint: impl Strategy<Value = [f64; 6]>,
+) -> impl Strategy<Value = Model> {
     links(-3.0..2.0, joint).prop_map(|links| chain(&links))
 }
 

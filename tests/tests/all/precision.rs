@@ -4,7 +4,7 @@
 
 use std::cell::RefCell;
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, SolveError, Warning, solve};
+use hyperstat_assembly::{Connection, JointStiffness, Model, Solution, SolveError, Warning, solve};
 use hyperstat_joints::{
     Cylindrical, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
 };
@@ -24,22 +24,25 @@ use super::magnitudes::{
 const CASES: u32 = 200;
 /// Without a warning results are this good.
 const UNSAID: f64 = 1e-10;
+/// Where directions softer than 1e-4 of a link have coordinates of their own, an element's stiffness
+/// holds every direction to 1e4 last bits: with chains of several, ten times that.
+const KEPT: f64 = 1e5 * f64::EPSILON;
 
 /// The largest error of stiffness, compliance and displacements, each by its scale.
-fn error(model: &Model, found: &hyperstat_assembly::Solution, exact: &Extended) -> [f64; 3] {
+fn error(found: &Solution, exact: &Extended) -> f64 {
     let compliance = found.output.compliance.expect("an output that is held");
     let nodes = found.displacements.iter().zip(&exact.displacements);
-    let _ = model;
     let [linear, angular] = vector_differences(nodes, [0.0; 2]);
-    [
+    let matrices = [
         stiffness_difference(&stiffness(found), &exact.stiffness),
         stiffness_difference(&compliance, &exact.compliance),
-        linear.max(angular),
-    ]
+    ];
+    matrices.into_iter().fold(linear.max(angular), f64::max)
 }
 
-fn stated(found: &hyperstat_assembly::Solution) -> f64 {
-    let lost = found.warnings.iter().find_map(|w| match w {
+/// What a solution says of its own error.
+fn stated(found: &Solution) -> f64 {
+    let lost = found.warnings.iter().find_map(|warning| match warning {
         Warning::LostDigits { error } => Some(*error),
         _ => None,
     });
@@ -54,63 +57,43 @@ fn loaded(mut model: Model) -> Model {
     model
 }
 
-fn measure(name: &str, cases: u32, models: impl Strategy<Value = Model>) {
+/// Solves random mechanisms both ways; asserts that in nine of ten cases the error is no larger than
+/// what is stated, and that this is no empty caution: half of all are without a word.
+fn check(cases: u32, models: impl Strategy<Value = Model>) -> Vec<f64> {
     let seen = RefCell::new(Vec::new());
-    let _ = check_all(cases, models, |model| {
+    check_all(cases, models, |model| {
         let model = loaded(model);
         let Some(exact) = extended::solve(&model) else {
             return Ok(false);
         };
-        if std::env::var("FL_DBG").is_ok() { println!("CASE {name}"); }
         match solve(&model) {
-            Ok(found) => {
-                if found.output.stiffness.is_none() || found.output.compliance.is_none() {
-                    return Ok(false);
-                }
-                let errors = error(&model, &found, &exact);
-                if std::env::var("FL_DBG").is_ok() { println!("ERR {errors:?}"); if errors[1] > 4e-10 { for j in model.joints() { println!("J {} {:?}", j.joint.kind(), j.stiffness); } println!("P {:?}\nC {:e}\nX {:e}\nDIFF {:e}", model.geometry().positions, exact.compliance, found.output.compliance.unwrap(), found.output.compliance.unwrap()-exact.compliance); } }
-                seen.borrow_mut().push((errors, stated(&found)));
+            Ok(found) if found.output.stiffness.is_some() && found.output.compliance.is_some() => {
+                seen.borrow_mut()
+                    .push((error(&found, &exact), stated(&found)));
                 Ok(true)
             }
-            Err(SolveError::Singular) => Ok(false),
+            Ok(_) | Err(SolveError::Singular) => Ok(false),
             Err(error) => Err(TestCaseError::fail(format!("only we refuse: {error}"))),
         }
     });
     let seen = seen.into_inner();
-    let beyond: Vec<_> = (seen.iter())
-        .filter(|(errors, stated)| errors.iter().any(|e| *e > *stated))
-        .collect();
-    let warned = seen.iter().filter(|(_, s)| *s > UNSAID).count();
-    let needless = seen
+    assert!(seen.len() > cases as usize / 2, "{} seen", seen.len());
+    let beyond: Vec<_> = seen
         .iter()
-        .filter(|(errors, s)| *s > UNSAID && errors.iter().all(|e| 1000.0 * *e < *s))
-        .count();
-    let worst = (seen.iter()).map(|(e, s)| e.iter().fold(0.0_f64, |m, e| m.max(*e)) / s);
-    let mut worst: Vec<f64> = worst.collect();
-    worst.sort_by(f64::total_cmp);
-    println!(
-        "{name}: {} seen, {} beyond, {warned} warned, {needless} by 1000 too much, worst {:.1e}, \
-         tenth {:.1e}",
-        seen.len(),
-        beyond.len(),
-        worst.last().copied().unwrap_or(0.0),
-        worst.get(9 * worst.len() / 10).copied().unwrap_or(0.0),
-    );
-    for part in 0..3 {
-        let mut errors: Vec<f64> = seen.iter().map(|(e, _)| e[part]).collect();
-        errors.sort_by(f64::total_cmp);
-        let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize];
-        println!("   {part}: median {:.1e} 90 % {:.1e} most {:.1e}", at(0.5), at(0.9), at(1.0));
-    }
-    for (errors, stated) in beyond.iter().take(12) {
-        println!("   {errors:?} stated {stated:.1e}");
-    }
+        .filter(|(error, stated)| error > stated)
+        .collect();
     assert!(
         10 * beyond.len() <= seen.len(),
-        "{name}: {} of {} beyond what is stated",
-        beyond.len(),
+        "of {}: {beyond:?}",
         seen.len()
     );
+    let silent = seen.iter().filter(|(_, stated)| *stated == UNSAID).count();
+    assert!(
+        2 * silent >= seen.len(),
+        "{silent} of {} silent",
+        seen.len()
+    );
+    seen.into_iter().map(|(error, _)| error).collect()
 }
 
 /// A plate on legs that are clamped to the ground, each by a joint of any kind.
@@ -126,8 +109,9 @@ fn plates(pitch: std::ops::Range<f64>) -> impl Strategy<Value = Model> {
     (magnitude(-1.0, 1.0), proptest::collection::vec(leg, 3..6)).prop_map(|(size, legs)| {
         let mut model = Model::new("plate");
         let names: Vec<String> = (0..legs.len()).map(|k| format!("p{k}")).collect();
-        let tops: Vec<Point3<f64>> =
-            (legs.iter()).map(|(_, top, ..)| Point3::from(*top) * size).collect();
+        let tops: Vec<Point3<f64>> = (legs.iter())
+            .map(|(_, top, ..)| Point3::from(*top) * size)
+            .collect();
         let mut points = vec![("O", Point3::new(0.1, 0.2, 0.3) * size)];
         points.extend(names.iter().map(String::as_str).zip(tops.iter().copied()));
         model.add_rigid("plate", &points).expect("a plate");
@@ -173,42 +157,48 @@ fn plates(pitch: std::ops::Range<f64>) -> impl Strategy<Value = Model> {
     })
 }
 
+/// Springs of 1 to 100 N/m beside links of 1e4 to 1e10 N/m: a coordinate of its own for every soft
+/// direction keeps its digits.
 #[test]
 fn chains_with_springs_from_1_to_100() {
-    measure("1..100", CASES, chains_of_one_size(neighbours(0.0, 2.0)));
+    let errors = check(CASES, chains_of_one_size(neighbours(0.0, 2.0)));
+    let worst = errors.into_iter().fold(0.0, f64::max);
+    assert!(worst < KEPT, "{worst:e}");
 }
 
 #[test]
 fn chains_with_springs_about_a_tenth() {
-    measure("0.1", CASES, chains_of_one_size(neighbours(-1.3, -0.7)));
+    let errors = check(CASES, chains_of_one_size(neighbours(-1.3, -0.7)));
+    let worst = errors.into_iter().fold(0.0, f64::max);
+    assert!(worst < KEPT, "{worst:e}");
 }
 
 #[test]
 fn chains_with_springs_of_any_stiffness() {
-    measure("any", CASES, chains_of_one_size(neighbours(-3.0, 12.0)));
+    check(CASES, chains_of_one_size(neighbours(-3.0, 12.0)));
 }
 
 #[test]
 fn chains_with_springs_of_unlike_directions() {
-    measure("unlike", CASES, chains_of_one_size(magnitudes(0.0, 12.0)));
+    check(CASES, chains_of_one_size(magnitudes(0.0, 12.0)));
 }
 
 #[test]
 fn chains_of_small_and_large_links() {
-    measure("sizes", CASES, chains_of_any_size(neighbours(-3.0, 6.0)));
+    check(CASES, chains_of_any_size(neighbours(-3.0, 6.0)));
 }
 
 #[test]
 fn hexapods_with_any_drives() {
-    measure("hexapods", CASES / 8, hexapods(-3.0, 12.0));
+    check(CASES / 8, hexapods(-3.0, 12.0));
 }
 
 #[test]
 fn plates_on_legs() {
-    measure("plates", CASES, plates(-2.0..0.0));
+    check(CASES, plates(-2.0..0.0));
 }
 
 #[test]
 fn plates_on_screws_of_great_pitch() {
-    measure("pitch", CASES, plates(3.0..5.0));
+    check(CASES, plates(3.0..5.0));
 }

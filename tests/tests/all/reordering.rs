@@ -6,8 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 
 use hyperstat_assembly::{BodyKind, Member, Model, NodeId, Solution, solve};
 use hyperstat_tests::agreement::{
-    compliances_agree, displacements_agree, nearly_singular, stiffnesses_agree,
-    wrenches_agree,
+    compliances_agree, displacements_agree, nearly_singular, stiffnesses_agree, wrenches_agree,
 };
 use hyperstat_tests::build::node;
 use hyperstat_tests::random::check_random_mechanisms;

@@ -116,7 +116,11 @@ fn a_budget_of_nothing_has_no_shares() {
     // The load is along the bar, so that 3 x − 4 y of its displacement is rounding.
     let text = cantilever("kind: Fixed", load);
     bench.file("bar.ron", &text);
-    let across = ["--why", "--along", "0.24253562503633297,-0.9701425001453319,0"];
+    let across = [
+        "--why",
+        "--along",
+        "0.24253562503633297,-0.9701425001453319,0",
+    ];
     let report = verified(&bench, "bar.ron", &across);
     let budget = &report["budget"];
     assert_eq!(budget["total"].as_f64(), Some(0.0), "{budget}");
@@ -151,7 +155,9 @@ fn outputs_that_are_held_or_free_agree() {
         ),
         (
             "floats.ron",
-            block(&format!("kind: Fixed, stiffness: ({free}, u: 1e3, v: 2e3, w: 3e3)")),
+            block(&format!(
+                "kind: Fixed, stiffness: ({free}, u: 1e3, v: 2e3, w: 3e3)"
+            )),
         ),
         (
             "ball.ron",
@@ -159,7 +165,9 @@ fn outputs_that_are_held_or_free_agree() {
         ),
         (
             "swings.ron",
-            at_joint(block("kind: Spherical, stiffness: (x: 1e6, y: 2e6, z: 3e6)")),
+            at_joint(block(
+                "kind: Spherical, stiffness: (x: 1e6, y: 2e6, z: 3e6)",
+            )),
         ),
         ("stands.ron", block("kind: Fixed")),
         ("hinged.ron", cantilever("kind: Spherical", "")),
