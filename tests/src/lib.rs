@@ -2,6 +2,7 @@
 
 pub mod agreement;
 pub mod build;
+pub mod extended;
 pub mod gripper;
 pub mod lattice;
 pub mod prebuilt;

@@ -11,6 +11,7 @@ use crate::coordinates::shift;
 use crate::directions::{rotation6, to_directions};
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
+use crate::floor::Floor;
 use crate::kinematics::characteristic_length;
 use crate::misfit::loose_preload;
 use crate::model::{Geometry, Model, NodeId, SegmentId};
@@ -27,14 +28,14 @@ pub(crate) struct Recovered {
 }
 
 /// Recovers displacements and forces under a set of loads, from its column of the solutions; the
-/// displacement of the output is known.
+/// displacement of the output is known. What is rounding beside what acts is zero.
 pub(crate) fn recover(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
     workspace: &Workspace,
     set: usize,
-    acting: &Acting,
+    (acting, floor): (&Acting, &Floor),
     output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
     let column = LOADS + set;
@@ -120,15 +121,29 @@ pub(crate) fn recover(
             }
         }
     }
-    Ok(Recovered {
-        state: State {
-            output,
-            displacements,
-            joint_wrenches,
-            segments: segments.into_iter().flatten().collect(),
-        },
-        doubtful,
-    })
+    let mut state = State {
+        output,
+        displacements,
+        joint_wrenches,
+        segments: segments.into_iter().flatten().collect(),
+        floor: *floor,
+    };
+    state.clear_rounding();
+    Ok(Recovered { state, doubtful })
+}
+
+impl State {
+    /// Sets to zero what is rounding beside what acts.
+    fn clear_rounding(&mut self) {
+        let floor = self.floor;
+        let displacements = self.displacements.iter_mut();
+        displacements
+            .chain([&mut self.output])
+            .for_each(|u| floor.clear_displacement(u));
+        let ends = self.segments.iter_mut().flat_map(|s| &mut s.ends);
+        let wrenches = self.joint_wrenches.iter_mut().flatten();
+        wrenches.chain(ends).for_each(|w| floor.clear_wrench(w));
+    }
 }
 
 /// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.

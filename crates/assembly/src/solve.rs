@@ -7,6 +7,7 @@ use crate::condense::{LOADS, UNITS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
+use crate::floor::Floor;
 use crate::kinematics::echelon;
 use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
@@ -20,7 +21,7 @@ use crate::solution::{CaseSolution, Output, Solution, State, Warning};
 const ROUNDING: f64 = 1e-15;
 /// A sweep stops refining at a correction this small: the next would be of its square.
 const ENOUGH_IN_SWEEP: f64 = 1e-8;
-/// A last correction above this share of the solution is worth a warning.
+/// An error above this, or a last correction above this share of the solution, is worth a warning.
 const LOST_DIGITS: f64 = 1e-10;
 /// Pivots of the scaled output stiffness below this ask for a look at the mechanism's freedom.
 const SUSPICIOUS_PIVOT: f64 = 1e-9;
@@ -85,6 +86,7 @@ impl Plan {
             displacements: base.displacements,
             joint_wrenches: base.joint_wrenches,
             segments: base.segments,
+            floor: base.floor,
             cases: cases
                 .map(|(case, state)| CaseSolution {
                     name: case.name.clone(),
@@ -168,12 +170,17 @@ impl Plan {
         evaluate(self, model, geometry, acting, workspace)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         let condensed = self.condense(workspace, &pins, ROUNDING)?;
-        let (output, displacements, settled) =
-            self.output(geometry, workspace, &pins, &restraint)?;
+        let at_rest = Floor::at_rest(model, geometry);
+        let floors = acting.iter().map(|a| at_rest.under(model, geometry, a));
+        let floors: Vec<Floor> = floors.collect();
+        let works: Vec<f64> = floors.iter().map(Floor::least_work).collect();
+        let (mut output, displacements, settled) =
+            self.output(geometry, workspace, &pins, &restraint, &works)?;
         let mut warnings = Vec::new();
         let mut doubtful = restraint.kinematics.doubtful.or(workspace.doubtful);
         let mut states = Vec::with_capacity(acting.len());
-        for (set, (acting, displacement)) in acting.iter().zip(displacements).enumerate() {
+        let each = acting.iter().zip(&floors).zip(displacements);
+        for (set, (acting, displacement)) in each.enumerate() {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
@@ -191,9 +198,13 @@ impl Plan {
                 motion: nearly_free.map(|motion| motion.describe(model)),
             });
         }
-        let lost = condensed.max(settled);
-        if lost > LOST_DIGITS {
-            warnings.push(Warning::LostDigits { residual: lost });
+        if let Some(first) = states.first() {
+            output.displacement = first.output;
+        }
+        let lost = self.lost(model, geometry, workspace, &output, &states)?;
+        let error = lost.max(condensed).max(settled);
+        if error > LOST_DIGITS {
+            warnings.push(Warning::LostDigits { error });
         }
         Ok(Solved {
             restraint,
@@ -221,7 +232,7 @@ impl Plan {
                     if even {
                         compliance * self.output_force(workspace, column)
                     } else {
-                        self.settle(workspace, &[], &compliance, column);
+                        self.settle(workspace, &[], &compliance, column, 0.0);
                         self.output_displacement(workspace, column)
                     }
                 };
@@ -239,7 +250,10 @@ impl Plan {
         if !converged(self.condense(workspace, &pins, ENOUGH_IN_SWEEP)) {
             return Err(SolveError::Singular.into());
         }
-        let (output, displacements, _) = self.output(geometry, workspace, &pins, &restraint)?;
+        // Nothing is said of digits here, so that no work is too small.
+        let works = vec![0.0; acting.len()];
+        let (output, displacements, _) =
+            self.output(geometry, workspace, &pins, &restraint, &works)?;
         let held = output.free_motions.is_empty();
         let mut displacements = displacements.into_iter().filter(|_| held);
         Ok(PoseResult {
@@ -250,7 +264,8 @@ impl Plan {
     }
 
     /// The output's stiffness, compliance and displacement under the first set of loads; its
-    /// displacements under all sets; and the relative size of the last correction of these.
+    /// displacements under all sets; and the relative size of the last correction of these, by
+    /// `works`: one a set, the least that a correction's work is measured by.
     /// Completes the sets' columns.
     fn output(
         &self,
@@ -258,6 +273,7 @@ impl Plan {
         workspace: &mut Workspace,
         pins: &[usize],
         restraint: &Restraint,
+        works: &[f64],
     ) -> Result<(Output, Vec<Vector6<f64>>, f64), SolveError> {
         let sets = LOADS..workspace.columns();
         let size = restraint.size;
@@ -312,8 +328,8 @@ impl Plan {
         };
         let mut last = 0.0_f64;
         let mut displacements = Vec::with_capacity(sets.len());
-        for column in sets {
-            last = last.max(self.settle(workspace, pins, &compliance, column));
+        for (column, least) in sets.zip(works) {
+            last = last.max(self.settle(workspace, pins, &compliance, column, *least));
             for twist in &restraint.free_twists {
                 self.remove_free_motion(workspace, twist, size, column);
             }
@@ -355,16 +371,18 @@ impl Plan {
 
     /// Completes a set's column, found with the output clamped: corrections of the output
     /// first (the first finds its displacement), each followed by one of the rest. Returns the
-    /// relative size of the output's last correction, by the work it does.
+    /// relative size of the output's last correction, by the work it does: over that of its
+    /// displacement, and where this is rounding beside what acts over `least`.
     fn settle(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         compliance: &Matrix6<f64>,
         column: usize,
+        least: f64,
     ) -> f64 {
         let n = self.unknowns;
-        let (mut first, mut last) = (0.0, 0.0);
+        let (mut first, mut last) = (0.0_f64, 0.0);
         for correction in 0..CORRECTIONS {
             let force = self.output_force(workspace, column);
             let step = compliance * force;
@@ -378,6 +396,7 @@ impl Plan {
             self.residuals(workspace, column..column + 1);
             self.correct(workspace, pins, column..column + 1);
         }
+        let first = first.max(least);
         if first > 0.0 {
             (last / first).sqrt()
         } else {

@@ -18,9 +18,10 @@ use crate::error::SolveError;
 use crate::model::{BodyKind, FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
 use crate::room::{self, MOST_NUMBERS};
 
-/// A joint softer than this share of the beam's own stiffness keeps coordinates of its own:
-/// absorbed, its compliance would swallow the beam's digits.
-const SOFTEST_ABSORBED: f64 = 1e-8;
+/// A joint softer than this share of the beam's own stiffness keeps coordinates of its own: across the
+/// beam's axes a matrix of doubles holds its stiffness to 1e-16 over this share, whatever formed
+/// it, which no refinement brings back.
+const SOFTEST_ABSORBED: f64 = 1e-4;
 /// What asks for too much room where trees are deep.
 const CHAINS: &str = "its chains of rigid bodies and joints, one after another,";
 /// Most segments that absorbed joints join into one run.

@@ -124,6 +124,7 @@ fn same_solution(small: &Solution, large: &Solution, count: usize) -> Result<(),
     stiffnesses_agree(
         large.output.stiffness.as_ref(),
         small.output.stiffness.as_ref(),
+        &small.floor,
     )
 }
 

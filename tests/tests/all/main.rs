@@ -21,6 +21,7 @@ mod natural_frequencies;
 mod parallelogram_closed_form;
 mod prebuilt_a;
 mod prebuilt_b;
+mod precision;
 mod properties;
 mod random_mechanisms;
 mod reference_results;

@@ -190,7 +190,11 @@ pub(crate) fn compare(
     figure.second = Some(SecondPoints {
         name: SECOND.into(),
         points: nodes.iter().map(|node| position(model, *node)).collect(),
-        difference: difference(&of(&solution.displacements), &displacement),
+        difference: difference(
+            &of(&solution.displacements),
+            &displacement,
+            solution.floor.least_displacement(),
+        ),
         displacement,
     });
 }

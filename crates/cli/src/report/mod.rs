@@ -141,6 +141,14 @@ impl Rounding {
     }
 }
 
+/// The displacement of the output as a table; what is rounding beside those of the `nodes` is 0.
+fn output_table(displacement: &[f64; 6], nodes: &Entries<[f64; 6]>) -> Table {
+    let rounding = Rounding::of(nodes.0.iter().map(|(_, row)| row));
+    let mut table = Table::new(0, &DISPLACEMENT);
+    table.row(&[], rounding.shown(displacement));
+    table
+}
+
 /// A table of names and displacements.
 fn displacement_table(displacements: &Entries<[f64; 6]>) -> Table {
     let rounding = Rounding::of(displacements.0.iter().map(|(_, row)| row));

@@ -19,7 +19,7 @@ use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
     displacement_table, doubts, heads, inner_displacements, list, matrix_table, numbers,
-    redundancies, rows, section, stiffness_table,
+    output_table, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
 use crate::verification::Verification;
@@ -228,7 +228,7 @@ impl SolveReport {
             &self.idle_motions,
         );
         text += &self.loads;
-        self.output.write(&mut text);
+        self.output.write(&self.displacements, &mut text);
 
         let table = displacement_table(&self.displacements);
         section(&mut text, "Displacements of the nodes [m, rad]", table);
@@ -377,10 +377,9 @@ impl OutputReport {
         }
     }
 
-    fn write(&self, text: &mut String) {
+    fn write(&self, nodes: &Entries<[f64; 6]>, text: &mut String) {
         let [x, y, z] = self.position.map(super::number);
-        let mut table = Table::new(0, &DISPLACEMENT);
-        table.row(&[], self.displacement);
+        let table = output_table(&self.displacement, nodes);
         section(
             text,
             &format!(

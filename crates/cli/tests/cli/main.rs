@@ -7,6 +7,7 @@ mod diagnosis;
 mod doubts;
 mod export;
 mod extremes;
+mod floors;
 mod help;
 mod messages;
 mod misfits;

@@ -1,5 +1,6 @@
 //! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
 
+use hyperstat_assembly::Floor;
 use hyperstat_figures::{SecondMethod, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job, Scale};
 use rayon::prelude::*;
@@ -80,9 +81,11 @@ impl Trajectory {
         };
         let displacement: Vec<_> = at.par_iter().map(solve).collect::<Option<_>>()?;
         let ours: Vec<_> = at.iter().map(|place| self.displacement[*place]).collect();
+        let first = job_model(job, *self.poses.first()?).ok()?;
+        let least = Floor::of(&first).ok()?.least_displacement();
         Some(SecondMethod {
             name: SECOND.into(),
-            difference: difference_in(&ours, &displacement, &self.displacement),
+            difference: difference_in(&ours, &displacement, &self.displacement, least),
             at,
             displacement,
         })
