@@ -81,7 +81,7 @@ impl Mechanism {
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
         let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
-        let points = tables.points.entries().map(|(name, _)| name);
+        let points = tables.points.names();
         let unused = points.filter(|name| !used.contains(name));
         let unused_points = unused.map(Into::into).collect();
         Ok(Self {
