@@ -6,6 +6,7 @@ mod designs;
 mod diagnosis;
 mod export;
 mod help;
+mod maps;
 mod messages;
 mod misfits;
 mod modes;
