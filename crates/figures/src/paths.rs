@@ -146,9 +146,11 @@ mod tests {
             [0.0, 0.0],
         ];
         assert_eq!(straightened(&square), corners);
-        let circle: Vec<_> = (0..1000)
-            .map(|k| [0.01 * f64::from(k)].map(|t| [50.0 * f64::cos(t), 50.0 * f64::sin(t)])[0])
-            .collect();
+        let on_circle = |k: i32| {
+            let t = 0.01 * f64::from(k);
+            [50.0 * t.cos(), 50.0 * t.sin()]
+        };
+        let circle: Vec<_> = (0..1000).map(on_circle).collect();
         let fewer = straightened(&circle);
         assert!(fewer.len() < 300, "{}", fewer.len());
         // Every point that was left out is near a side that is there.

@@ -109,7 +109,7 @@ impl Coordinates {
             )
         };
         let choices = (1_u64..1 << candidates.len().min(16)).map(|set| {
-            let inside = |(place, _): &(usize, &usize)| set >> place & 1 == 1;
+            let inside = |(place, _): &(usize, &usize)| (set >> place) & 1 == 1;
             let chosen = candidates.iter().enumerate().filter(inside);
             chosen.map(|(_, k)| *k).collect::<Vec<usize>>()
         });

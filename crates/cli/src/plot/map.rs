@@ -182,7 +182,7 @@ impl Map {
         &self,
         coordinates: &Coordinates,
         free: &[usize],
-        held: &Held,
+        held: &[Option<usize>],
     ) -> Result<[usize; 2], PlotError> {
         let axes = match &self.axes {
             Some([right, up]) => [coordinates.find(right)?, coordinates.find(up)?],
@@ -203,7 +203,7 @@ impl Poses {
     }
 
     /// The rows with these levels.
-    fn rows(&self, wanted: &Held) -> Vec<usize> {
+    fn rows(&self, wanted: &[Option<usize>]) -> Vec<usize> {
         let fits = |row: &usize| {
             let mut wanted = wanted.iter().enumerate();
             wanted.all(|(k, level)| level.is_none() || self.level(k, *row) == *level)
@@ -212,7 +212,7 @@ impl Poses {
     }
 
     /// What all poses of a map along these axes have in common.
-    fn held_in_words(&self, held: &Held, axes: [usize; 2]) -> Vec<String> {
+    fn held_in_words(&self, held: &[Option<usize>], axes: [usize; 2]) -> Vec<String> {
         let in_space = axes.iter().all(|k| self.coordinates.is_position(*k));
         let told = (0..self.coordinates.len()).filter_map(|k| {
             if let Some(level) = held[k] {

@@ -9,6 +9,7 @@ mod export;
 mod extremes;
 mod floors;
 mod help;
+mod maps;
 mod messages;
 mod misfits;
 mod modes;
