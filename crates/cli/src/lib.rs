@@ -6,12 +6,18 @@ mod args;
 mod atomic;
 mod batch;
 mod case;
+mod cells;
+mod destination;
 mod diagnostic;
+mod disk;
 mod drawing;
 mod drives;
 mod error;
+mod outputs;
+mod plausibility;
 mod plot;
 mod report;
+mod terminal;
 mod verification;
 mod vtu;
 
@@ -35,11 +41,18 @@ use report::{Asked, CheckReport, ModesReport, SolveReport, json};
 /// done, 1 where a run finished in which some pose has no result, 2 where the input cannot be
 /// used (the command line itself too), 3 where an output could not be written.
 pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
-    let cli = match Cli::try_parse_from(args) {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let cli = match Cli::try_parse_from(&args) {
         Ok(cli) => cli,
         Err(error) => {
             // `--help` and `--version` come here too: they go to standard output and end with 0.
-            let printed = error.print();
+            let steers = |arg: &OsString| arg.to_string_lossy().contains(terminal::steers);
+            let printed = match error.use_stderr() && args.iter().any(steers) {
+                // The message repeats what was typed, or the name of a file.
+                true => io::stderr()
+                    .write_all(terminal::plain(&error.render().to_string()).as_bytes()),
+                false => error.print(),
+            };
             let status = if error.use_stderr() { 2 } else { 0 };
             return ExitCode::from(if printed.is_err() && status == 0 {
                 3
@@ -71,6 +84,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.vtu.as_deref(), &case.files)?;
     if args.why {
         case.name_values();
     }
@@ -154,6 +168,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
 /// `hyperstat export`
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     let case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.out.as_deref(), &case.files)?;
     let text = case.mechanism_file(registry)?;
     match &args.out {
         None => print(&text)?,
@@ -169,7 +184,7 @@ fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
 
 fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
+    out.write_all(terminal::plain(text).as_bytes())
         .and_then(|()| out.flush())
         .map_err(CliError::Print)
 }

@@ -1,5 +1,7 @@
 //! One mechanism, as a file describes it.
 
+use std::path::PathBuf;
+
 use hyperstat_assembly::{BodyId, JointId, Model};
 use hyperstat_elements::{Material, Section};
 use nalgebra::Point3;
@@ -94,6 +96,11 @@ impl Mechanism {
             self.loads = loads;
         }
         Ok(())
+    }
+
+    /// All files that were read for it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.output.source.files()
     }
 
     /// The materials by their names in the file.

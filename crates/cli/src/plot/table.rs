@@ -4,12 +4,13 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use hyperstat_mechanisms::Location;
+use hyperstat_mechanisms::{Location, files};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use parquet::schema::types::Type;
 
 use super::error::PlotError;
+use crate::cells;
 
 /// Columns that every table has, in order.
 const FIRST: [&str; 8] = ["pose", "x", "y", "z", "rx", "ry", "rz", "status"];
@@ -45,7 +46,7 @@ impl Table {
             Form::Csv => {
                 let mut reader = csv_reader(path)?;
                 let header = reader.headers().map_err(|error| csv_error(path, error))?;
-                header.iter().map(String::from).collect()
+                header.iter().map(|name| cells::text(name).into()).collect()
             }
             Form::Parquet => {
                 let reader = parquet_reader(path)?;
@@ -178,7 +179,7 @@ impl Table {
     /// The place of a cell of a line of a CSV file.
     fn location(&self, line: usize, cell: usize) -> Location {
         let text = match self.form {
-            Form::Csv => File::open(&self.path).ok().and_then(|file| {
+            Form::Csv => files::open(&self.path).ok().and_then(|file| {
                 let mut lines = BufReader::new(file).lines();
                 lines.nth(line - 1).and_then(Result::ok)
             }),
@@ -213,7 +214,7 @@ fn cell_span(text: &str, cell: usize) -> (usize, usize) {
 }
 
 fn csv_reader(path: &Path) -> Result<csv::Reader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;
@@ -228,7 +229,7 @@ fn csv_error(path: &Path, error: csv::Error) -> PlotError {
 }
 
 fn parquet_reader(path: &Path) -> Result<SerializedFileReader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;

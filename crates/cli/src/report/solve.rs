@@ -22,6 +22,7 @@ use super::{
     rows, section, stiffness_table,
 };
 use crate::case::Case;
+use crate::plausibility::{of_model, of_solution};
 use crate::verification::Verification;
 
 /// Everything that one solve found. Field names are those of the JSON output.
@@ -161,6 +162,8 @@ impl SolveReport {
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
                 .chain(verification.iter().flat_map(Verification::warnings))
+                .chain(of_model(model))
+                .chain(of_solution(model, solution))
                 .collect(),
             verification,
             modes: None,

@@ -11,6 +11,7 @@ mod misfits;
 mod modes;
 mod plot;
 mod run;
+mod safety;
 mod shapes;
 mod solve;
 mod states;
