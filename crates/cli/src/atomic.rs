@@ -85,7 +85,10 @@ fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
             number => format!(".{}-{number}.part", std::process::id()),
         });
         let temporary = path.with_file_name(hidden);
-        let opened = OpenOptions::new().write(true).create_new(true).open(&temporary);
+        let opened = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&temporary);
         let file = match opened {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
             opened => opened?,
@@ -184,7 +187,12 @@ mod tests {
     fn what_dead_runs_left_is_removed_and_what_lives_stays() {
         let folder = folder("dead");
         let path = folder.join("a.csv");
-        for left in [".a.csv.1.part", ".a.csv.99999-3.part", ".b.csv.1.part", ".a.csv.x.part"] {
+        for left in [
+            ".a.csv.1.part",
+            ".a.csv.99999-3.part",
+            ".b.csv.1.part",
+            ".a.csv.x.part",
+        ] {
             fs::write(folder.join(left), "half").unwrap();
         }
         let mut first = AtomicFile::create(&path).unwrap();
@@ -202,7 +210,13 @@ mod tests {
     fn temporary_names_are_told_from_others() {
         let is = |file: &str| is_temporary(OsStr::new(file), OsStr::new("a.csv"));
         assert!(is(".a.csv.12.part") && is(".a.csv.12-3.part"));
-        for other in ["a.csv.12.part", ".a.csv..part", ".a.csv.part", ".b.csv.12.part", ".a.csv.1"] {
+        for other in [
+            "a.csv.12.part",
+            ".a.csv..part",
+            ".a.csv.part",
+            ".b.csv.12.part",
+            ".a.csv.1",
+        ] {
             assert!(!is(other), "{other}");
         }
         assert_eq!("..4294967295-99.part".len(), LONGER);

@@ -68,12 +68,7 @@ impl Case {
         }
     }
 
-    fn of_job(
-        job: Job,
-        design: usize,
-        pose: usize,
-        files: Vec<PathBuf>,
-    ) -> Result<Self, CliError> {
+    fn of_job(job: Job, design: usize, pose: usize, files: Vec<PathBuf>) -> Result<Self, CliError> {
         if design >= job.designs() {
             return Err(CliError::NoSuchDesign {
                 location: Box::new(job.location()),

@@ -20,7 +20,9 @@ pub(crate) fn quoted(text: &str) -> Cow<'_, str> {
 /// The text of a cell whose quotes are taken away already.
 pub(crate) fn text(cell: &str) -> &str {
     let guarded = cell.strip_prefix('\'');
-    guarded.filter(|text| text.starts_with(FORMULA)).unwrap_or(cell)
+    guarded
+        .filter(|text| text.starts_with(FORMULA))
+        .unwrap_or(cell)
 }
 
 #[cfg(test)]

@@ -38,7 +38,9 @@ impl Destination {
             if found.is_symlink() {
                 // A relative target is seen from the folder of the link.
                 let target = fs::read_link(&path)?;
-                path = path.parent().map_or_else(|| target.clone(), |folder| folder.join(&target));
+                path = path
+                    .parent()
+                    .map_or_else(|| target.clone(), |folder| folder.join(&target));
             } else if found.is_dir() {
                 return Err(io::ErrorKind::IsADirectory.into());
             } else if found.is_file() {
@@ -63,7 +65,8 @@ pub(crate) fn folder(path: &Path) -> Option<PathBuf> {
 fn is_open(path: &Path) -> bool {
     cfg!(unix)
         && folder(path).is_some_and(|folder| {
-            folder == Path::new("/dev/fd") || (folder.starts_with("/proc") && folder.ends_with("fd"))
+            folder == Path::new("/dev/fd")
+                || (folder.starts_with("/proc") && folder.ends_with("fd"))
         })
 }
 

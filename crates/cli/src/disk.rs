@@ -17,7 +17,9 @@ impl Disk {
     #[cfg(unix)]
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let path = std::path::absolute(path).ok()?;
-        let found = path.ancestors().find_map(|path| rustix::fs::statvfs(path).ok())?;
+        let found = path
+            .ancestors()
+            .find_map(|path| rustix::fs::statvfs(path).ok())?;
         Some(Self {
             free: found.f_bavail.saturating_mul(found.f_frsize),
             longest_name: found.f_namemax,

@@ -99,7 +99,9 @@ pub(crate) enum CliError {
     #[error("{} and {} are the same file", .first.display(), .second.display())]
     SameOutput { first: PathBuf, second: PathBuf },
     /// A job whose outputs have names that are too long.
-    #[error("the name of job `{job}` is too long: {file} would have a name of {length} bytes while it is written")]
+    #[error(
+        "the name of job `{job}` is too long: {file} would have a name of {length} bytes while it is written"
+    )]
     NameTooLong {
         location: Box<Location>,
         job: String,

@@ -49,8 +49,9 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
             let steers = |arg: &OsString| arg.to_string_lossy().contains(terminal::steers);
             let printed = match error.use_stderr() && args.iter().any(steers) {
                 // The message repeats what was typed, or the name of a file.
-                true => io::stderr()
-                    .write_all(terminal::plain(&error.render().to_string()).as_bytes()),
+                true => {
+                    io::stderr().write_all(terminal::plain(&error.render().to_string()).as_bytes())
+                }
                 false => error.print(),
             };
             let status = if error.use_stderr() { 2 } else { 0 };

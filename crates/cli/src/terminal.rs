@@ -9,7 +9,10 @@ use std::io::{self, BufRead, IsTerminal, Write};
 /// wants none (`NO_COLOR` with any text, `TERM=dumb`).
 pub(crate) fn is_coloured() -> bool {
     io::stderr().is_terminal()
-        && takes_colours(env::var_os("NO_COLOR").as_deref(), env::var_os("TERM").as_deref())
+        && takes_colours(
+            env::var_os("NO_COLOR").as_deref(),
+            env::var_os("TERM").as_deref(),
+        )
 }
 
 fn takes_colours(no_color: Option<&OsStr>, term: Option<&OsStr>) -> bool {

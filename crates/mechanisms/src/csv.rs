@@ -127,6 +127,9 @@ fn wrong_count(
     cells: &[Range<usize>],
 ) -> LoadError {
     let text = table.text();
+    if let Err(error) = separated(table, &line) {
+        return error;
+    }
     let place = Place {
         source: Arc::clone(table),
         span: line,

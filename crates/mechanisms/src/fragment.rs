@@ -126,7 +126,9 @@ impl<'a> Fragment<'a> {
             found.push('…');
         }
         let error = self.error(format!("expected {expected}, found `{found}`"));
-        match slips::in_value(self.text, expected) {
+        // What is right instead shows what is wrong.
+        let right = slips::in_value(self.text, expected).filter(|_| self.source.is_shown());
+        match right {
             Some(help) => error.with_help(help),
             None => error,
         }

@@ -94,12 +94,14 @@ pub(crate) fn mechanism_at(path: Fragment<'_>) -> Result<Place, LoadError> {
 /// Reads the file whose path stands at `path` in another file, relative to that file.
 pub(crate) fn read_named(path: Fragment<'_>) -> Result<Arc<Source>, LoadError> {
     let file = path.source().relative(&path.string()?);
-    path.source().read_named(&file).map_err(|error| match error {
-        LoadError::Read { path: file, source } => path
-            .error(format!("cannot read {}: {source}", file.display()))
-            .with_help("a path is relative to the folder of the file that names it"),
-        other => other,
-    })
+    path.source()
+        .read_named(&file)
+        .map_err(|error| match error {
+            LoadError::Read { path: file, source } => path
+                .error(format!("cannot read {}: {source}", file.display()))
+                .with_help("a path is relative to the folder of the file that names it"),
+            other => other,
+        })
 }
 
 fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {

@@ -25,6 +25,7 @@ fn named(model: &Model, name: Fragment<'_>, other: Option<&str>) -> Result<BodyI
             return error.with_help(format!("the fixed body is `{GROUND}`"));
         }
         let known = model.bodies().iter().map(|body| body.name.as_str());
+        let other = other.filter(|_| !model.bodies().is_empty());
         error.with_help(names::help(&text, "bodies", known.chain(other)))
     })
 }
@@ -58,7 +59,8 @@ pub(crate) fn node(
 /// The node that a pair `("body", "point")` names; `what` says what stands there.
 pub(crate) fn on(model: &Model, pair: Fragment<'_>, what: &str) -> Result<NodeId, LoadError> {
     let [body, point] = pair.array("a body and a point of it, `(\"body\", \"point\")`")?;
-    if body.string()? == GROUND {
+    let name = body.string()?;
+    if name.eq_ignore_ascii_case(GROUND) && model.body(&name).is_none() {
         return Err(body
             .error(format!(
                 "{what} cannot be on the ground, which does not move"

@@ -124,7 +124,8 @@ impl Source {
         self.shown.store(true, Ordering::Relaxed);
     }
 
-    fn is_shown(&self) -> bool {
+    /// Whether messages may show its text.
+    pub(crate) fn is_shown(&self) -> bool {
         self.shown.load(Ordering::Relaxed)
     }
 

@@ -48,7 +48,9 @@ pub(crate) fn error(source: &Arc<Source>, error: &SpannedError) -> LoadError {
         }
         _ => {}
     }
-    if let Some(slip) = slips::in_grammar(source.text(), noticed) {
+    // What is right instead shows what is wrong.
+    let slip = slips::in_grammar(source.text(), noticed).filter(|_| source.is_shown());
+    if let Some(slip) = slip {
         let Range { start, end } = slip.span;
         return place(start, end - start)
             .error(slip.message)

@@ -120,7 +120,12 @@ mod tests {
 
     #[test]
     fn amounts_are_told_with_two_digits_or_three() {
-        let told = [(0, "0 B"), (999, "999 B"), (1000, "1.0 kB"), (9_949, "9.9 kB")];
+        let told = [
+            (0, "0 B"),
+            (999, "999 B"),
+            (1000, "1.0 kB"),
+            (9_949, "9.9 kB"),
+        ];
         let more = [(9_951, "10 kB"), (999_499, "999 kB"), (999_500, "1.0 MB")];
         for (bytes, words) in told.into_iter().chain(more) {
             assert_eq!(amount(bytes), words);

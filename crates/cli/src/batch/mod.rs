@@ -46,7 +46,9 @@ pub(crate) fn run(
         path: args.out.clone(),
         source,
     })?;
-    let pool = ThreadPoolBuilder::new().num_threads(threads(args.threads)).build()?;
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads(args.threads))
+        .build()?;
     let rows = sweeps.iter().map(|sweep| sweep.len() as u64);
     let bar = progress_bar(rows.fold(0, u64::saturating_add));
     let mut complete = true;

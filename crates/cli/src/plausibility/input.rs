@@ -71,11 +71,19 @@ pub(crate) fn of_model(model: &Model) -> Vec<String> {
 
 fn young(model: &Model) -> Option<String> {
     let of_body = |body: &Body| {
-        let values = body.segments.iter().map(|id| model.segments()[id.0].material.young());
+        let values = body
+            .segments
+            .iter()
+            .map(|id| model.segments()[id.0].material.young());
         let mut outside = values.filter(|young| !(YOUNG[0]..=YOUNG[1]).contains(young));
         outside.next().map(|young| [young, 0.0])
     };
-    let found = first(model.bodies().iter().map(|body| (&*body.name, of_body(body))))?;
+    let found = first(
+        model
+            .bodies()
+            .iter()
+            .map(|body| (&*body.name, of_body(body))),
+    )?;
     let [young, _] = found.values;
     let what = match young < YOUNG[0] {
         true => "softer than rubber",
@@ -100,7 +108,12 @@ fn density(model: &Model) -> Option<String> {
             .filter(|&density| density != 0.0 && !(DENSITY[0]..=DENSITY[1]).contains(&density));
         outside.next().map(|density| [density, 0.0])
     };
-    let found = first(model.bodies().iter().map(|body| (&*body.name, of_body(body))))?;
+    let found = first(
+        model
+            .bodies()
+            .iter()
+            .map(|body| (&*body.name, of_body(body))),
+    )?;
     let [density, _] = found.values;
     let what = match density < DENSITY[0] {
         true => "lighter than any solid",
@@ -145,7 +158,12 @@ fn thick(model: &Model) -> Option<String> {
         let length: f64 = lengths(model, body).sum();
         (thickness > THICK * length && length > 0.0).then_some([thickness, length])
     };
-    let found = first(model.bodies().iter().map(|body| (&*body.name, of_body(body))))?;
+    let found = first(
+        model
+            .bodies()
+            .iter()
+            .map(|body| (&*body.name, of_body(body))),
+    )?;
     let [thickness, length] = found.values;
     let meant = match length > thickness * 1e-3 * 0.2 {
         true => ": was the section meant in mm?",
@@ -169,7 +187,12 @@ fn thin(model: &Model) -> Option<String> {
             (length > THIN * thickness).then_some([length, thickness])
         })
     };
-    let found = first(model.bodies().iter().map(|body| (&*body.name, of_body(body))))?;
+    let found = first(
+        model
+            .bodies()
+            .iter()
+            .map(|body| (&*body.name, of_body(body))),
+    )?;
     let [length, thickness] = found.values;
     let meant = match length > 20.0 {
         true => "are the points in mm?",
@@ -219,11 +242,18 @@ fn bearing(model: &Model) -> Option<String> {
         };
         let of_kind: Vec<f64> = held.iter().filter_map(|&k| stiffness(k)).collect();
         let constrained = Dof::ALL.into_iter().filter(|dof| !free.contains(*dof));
-        let spring = constrained.map(|dof| stiffness(dof.index())).any(|k| k == Some(0.0));
+        let spring = constrained
+            .map(|dof| stiffness(dof.index()))
+            .any(|k| k == Some(0.0));
         let softest = of_kind.into_iter().fold(f64::INFINITY, f64::min);
         (!spring && softest < BEARING).then_some([softest, 0.0])
     };
-    let found = first(model.joints().iter().map(|joint| (&*joint.name, of_joint(joint))))?;
+    let found = first(
+        model
+            .joints()
+            .iter()
+            .map(|joint| (&*joint.name, of_joint(joint))),
+    )?;
     let [stiffness, _] = found.values;
     let units = [("N/µm", 1e6), ("N/mm", 1e3)];
     let meant = likely(stiffness, &units, [1e5, 1e10]);

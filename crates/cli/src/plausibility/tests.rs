@@ -78,13 +78,23 @@ fn nothing_is_told_of_an_arm_as_it_should_be() {
 #[test]
 fn units_of_materials() {
     let told = changed(&[("2.1e11", "210.0")]);
-    says(&told, &["Young's modulus of `bar` is 210 N/m²", "GPa", "2.100e11"]);
+    says(
+        &told,
+        &["Young's modulus of `bar` is 210 N/m²", "GPa", "2.100e11"],
+    );
     let told = changed(&[("2.1e11", "2.1e5")]);
     says(&told, &["softer than rubber", "N/mm²", "2.100e11"]);
     let told = changed(&[("2.1e11", "2.1e14")]);
     says(&told, &["stiffer than diamond"]);
-    for (density, unit) in [("7.85", "g/cm³"), ("7.85e-6", "kg/mm³"), ("7.85e-9", "t/mm³")] {
-        says(&changed(&[("7850.0", density)]), &["density of `bar`", unit, "7850 here"]);
+    for (density, unit) in [
+        ("7.85", "g/cm³"),
+        ("7.85e-6", "kg/mm³"),
+        ("7.85e-9", "t/mm³"),
+    ] {
+        says(
+            &changed(&[("7850.0", density)]),
+            &["density of `bar`", unit, "7850 here"],
+        );
     }
     assert_eq!(changed(&[("7850.0", "0.0")]), Vec::<String>::new());
 }
@@ -93,29 +103,58 @@ fn units_of_materials() {
 fn units_of_sections_and_points() {
     // A pin of 30 mm.
     let told = changed(&[("0.03", "30.0")]);
-    says(&told, &["section of `bar` is 30 m across", "0.5 m long", "in mm?"]);
-    let told = changed(&[("(0.5, 0.0, 0.0)", "(500.0, 0.0, 0.0)"), ("(0.6, 0.0, 0.1)", "(600.0, 0.0, 100.0)")]);
-    says(&told, &["segment of `bar` is 500 m long and 0.03 m thick", "in mm?"]);
+    says(
+        &told,
+        &["section of `bar` is 30 m across", "0.5 m long", "in mm?"],
+    );
+    let told = changed(&[
+        ("(0.5, 0.0, 0.0)", "(500.0, 0.0, 0.0)"),
+        ("(0.6, 0.0, 0.1)", "(600.0, 0.0, 100.0)"),
+    ]);
+    says(
+        &told,
+        &["segment of `bar` is 500 m long and 0.03 m thick", "in mm?"],
+    );
 }
 
 #[test]
 fn bearings_that_are_springs() {
     let bearing = "x: 2e8, y: 2e8, z: 2e8";
     let told = changed(&[(bearing, "x: 500.0, y: 500.0, z: 500.0")]);
-    says(&told, &["stiffness of `drive`", "500 N/m", "N/µm", "5.000e8"]);
+    says(
+        &told,
+        &["stiffness of `drive`", "500 N/m", "N/µm", "5.000e8"],
+    );
     // 100 N on 500 N/m: 0.2 m.
     says(&told, &["moves by", "beyond a linear model"]);
     // What frees a direction is a spring.
     let spring = "x: 0.0, y: 2e8, z: 800.0";
-    let told = changed(&[(bearing, spring), ("locked: true", "locked: false"), ("u: 1e5", "u: 1e5, v: 1e5")]);
-    assert!(!told.iter().any(|line| line.contains("bearing")), "{told:#?}");
+    let told = changed(&[
+        (bearing, spring),
+        ("locked: true", "locked: false"),
+        ("u: 1e5", "u: 1e5, v: 1e5"),
+    ]);
+    assert!(
+        !told.iter().any(|line| line.contains("bearing")),
+        "{told:#?}"
+    );
 }
 
 #[test]
 fn a_forgotten_drive_on_a_balance_spring() {
     // 100 N on an arm of 0.6 m: 60 N·m on 50 N·m/rad turn it by 1.2 rad.
-    let told = changed(&[("locked: true", "locked: false"), ("u: 1e5", "u: 1e5, v: 50.0")]);
-    says(&told, &["moves by", "% of the mechanism's size of 0.6083 m", "every drive locked?"]);
+    let told = changed(&[
+        ("locked: true", "locked: false"),
+        ("u: 1e5", "u: 1e5, v: 50.0"),
+    ]);
+    says(
+        &told,
+        &[
+            "moves by",
+            "% of the mechanism's size of 0.6083 m",
+            "every drive locked?",
+        ],
+    );
     says(&told, &["turns by 1.2", "rad"]);
 }
 
@@ -124,7 +163,10 @@ fn a_load_a_thousand_times_too_large() {
     // 100 kN bend a bar of 30 mm: far above 250 N/mm².
     let told = changed(&[("-100.0", "-1e5")]);
     // M = 1e5 N × 0.6 m, W = π 0.03³ / 32: 2.264e10 N/m²; over 2.5e8, 90.5.
-    says(&told, &["utilisation of `bar` is 90.", "are all forces in N?"]);
+    says(
+        &told,
+        &["utilisation of `bar` is 90.", "are all forces in N?"],
+    );
     let told = changed(&[("2.5e8", "250.0")]);
     says(&told, &["utilisation of `bar`", "not in MPa?"]);
 }
@@ -164,7 +206,11 @@ fn nothing_is_told_of_the_examples_the_references_and_the_book() {
         let text = fs::read_to_string(&page).unwrap();
         // What the book shows names the files of the examples.
         let place = root.join("examples").join(page.file_name().unwrap());
-        texts.extend(blocks(&text).into_iter().map(|block| (block, place.clone())));
+        texts.extend(
+            blocks(&text)
+                .into_iter()
+                .map(|block| (block, place.clone())),
+        );
     }
     assert!(texts.len() > 50, "{} files", texts.len());
     let registry = Registry::builtin();

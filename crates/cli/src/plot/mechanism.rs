@@ -29,7 +29,10 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
         None => "budget".to_string(),
     };
     let stem = super::stem_of(args, &format!("{name}-{kind}"));
-    outputs::refuse(drawing::files(&stem).iter().map(|path| &**path), &case.files)?;
+    outputs::refuse(
+        drawing::files(&stem).iter().map(|path| &**path),
+        &case.files,
+    )?;
     let drawing = if args.kind.deformed {
         deformed(args, &case)?
     } else if let Some(number) = args.kind.mode {

@@ -149,7 +149,10 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
     };
     let stem = stem_of(args, &format!("{}-{kind}", table.job()));
     let files = drawing::files(&stem);
-    outputs::refuse(files.iter().map(|path| &**path), std::slice::from_ref(&args.file))?;
+    outputs::refuse(
+        files.iter().map(|path| &**path),
+        std::slice::from_ref(&args.file),
+    )?;
     let drawing = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),

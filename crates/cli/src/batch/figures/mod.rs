@@ -52,7 +52,8 @@ fn modal_options(job: &Job, count: usize) -> ModalOptions {
 
 /// The files of a job's figures, beside its table.
 pub(crate) fn files(job: &Job, table: &Path) -> impl Iterator<Item = PathBuf> {
-    let stems = (0..job.figures.len()).map(move |place| table.with_file_name(file_name(job, place)));
+    let stems =
+        (0..job.figures.len()).map(move |place| table.with_file_name(file_name(job, place)));
     stems.flat_map(|stem| drawing::files(&stem))
 }
 
