@@ -162,7 +162,7 @@ mod tests {
     use std::ffi::OsStr;
     use std::fs;
     use std::io::Write;
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
 
     use super::{AtomicFile, LONGER, is_temporary};
 
@@ -174,7 +174,7 @@ mod tests {
         folder
     }
 
-    fn names(folder: &PathBuf) -> Vec<String> {
+    fn names(folder: &Path) -> Vec<String> {
         let entries = fs::read_dir(folder).unwrap();
         let mut names: Vec<_> = entries
             .map(|entry| entry.unwrap().file_name().into_string().unwrap())

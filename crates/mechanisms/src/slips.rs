@@ -26,7 +26,6 @@ const POINT: &str = "decimals have a point, and a comma separates two values";
 /// The slip at the place of a text at which its grammar is noticed to be wrong.
 pub(crate) fn in_grammar(text: &str, noticed: usize) -> Option<Slip> {
     let found = |span, message: String, help: String| {
-        let help = help.clone();
         Some(Slip {
             span,
             message,
