@@ -104,7 +104,9 @@ A job that varies has the poses of each design in turn, and columns after k66: d
 one for every path that varies, with its value. A job with `modes: N` has its natural frequencies
 in columns f1, f2, ... [Hz] after k66.
 A pose without a result does not end the run; the exit status is then 1.
-A file is put in place when it is complete, never half written.
+A file is put in place when it is complete, never half written. Nothing that was read is written to.
+A run of more than 1e9 rows, or of more than 90 % of the free disk, asks first; where nobody can be
+asked it needs --yes.
 
 With --format parquet the table is DIR/<job>.parquet: the same columns and the same numbers, null
 where a pose has no result.
@@ -249,13 +251,17 @@ pub(crate) struct Run {
     /// Form of the tables
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableFormat,
-    /// Number of threads that solve; 0 is one a core. The results are the same with any number
+    /// Number of threads that solve, at most 8 a core; 0 is one a core. The results are the same with
+    /// any number
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,
     /// Write DIR/<job>-summary.json too, and print it: least, mean, percentiles, most of deflection
     /// and stiffness measures over all poses, and where
     #[arg(long)]
     pub(crate) summary: bool,
+    /// Run without a question, however many rows and bytes it makes
+    #[arg(long)]
+    pub(crate) yes: bool,
 }
 
 /// `hyperstat check`

@@ -1,7 +1,7 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{
     BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
@@ -22,6 +22,8 @@ use crate::verification::Verification;
 #[derive(Debug)]
 pub(crate) struct Case {
     pub(crate) model: Model,
+    /// All files that were read for it.
+    pub(crate) files: Vec<PathBuf>,
     origin: Origin,
 }
 
@@ -38,7 +40,9 @@ enum Origin {
 impl Case {
     /// Loads what the command line names.
     pub(crate) fn load(input: &args::Input, registry: &Registry) -> Result<Self, CliError> {
-        match hyperstat_mechanisms::load(&input.file, registry)? {
+        let loaded = hyperstat_mechanisms::load(&input.file, registry)?;
+        let files = loaded.files();
+        match loaded {
             Input::Mechanism(mechanism) => {
                 for (option, given) in [
                     ("--job", input.job.is_some()),
@@ -52,17 +56,19 @@ impl Case {
                 }
                 Ok(Self {
                     model: mechanism.model.clone(),
+                    files,
                     origin: Origin::Mechanism(Box::new(mechanism)),
                 })
             }
             Input::Batch(batch) => {
                 let job = choose(batch.jobs, input)?;
-                Self::of_job(job, input.design.unwrap_or(0), input.pose.unwrap_or(0))
+                let (design, pose) = (input.design.unwrap_or(0), input.pose.unwrap_or(0));
+                Self::of_job(job, design, pose, files)
             }
         }
     }
 
-    fn of_job(job: Job, design: usize, pose: usize) -> Result<Self, CliError> {
+    fn of_job(job: Job, design: usize, pose: usize, files: Vec<PathBuf>) -> Result<Self, CliError> {
         if design >= job.designs() {
             return Err(CliError::NoSuchDesign {
                 location: Box::new(job.location()),
@@ -83,6 +89,7 @@ impl Case {
         match design_model(&design, pose) {
             Ok(model) => Ok(Self {
                 model,
+                files,
                 origin: Origin::Job {
                     job: Box::new(job),
                     design,

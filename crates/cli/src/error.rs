@@ -1,7 +1,7 @@
 //! Why a command ends without its result, and the exit status that says so.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::SolveError;
 use hyperstat_figures::FigureError;
@@ -92,6 +92,27 @@ pub(crate) enum CliError {
         location: Box<Location>,
         source: WriteError,
     },
+    /// An output that is a file that was read.
+    #[error("{} would be overwritten: {}", .output.display(), read_as(.output, .input))]
+    Overwrites { output: PathBuf, input: PathBuf },
+    /// Two outputs that are one file.
+    #[error("{} and {} are the same file", .first.display(), .second.display())]
+    SameOutput { first: PathBuf, second: PathBuf },
+    /// A job whose outputs have names that are too long.
+    #[error(
+        "the name of job `{job}` is too long: {file} would have a name of {length} bytes while it is written"
+    )]
+    NameTooLong {
+        location: Box<Location>,
+        job: String,
+        file: String,
+        length: u64,
+        /// What the longest name of a job would have.
+        longest: u64,
+    },
+    /// A run that is larger than it was probably meant to be.
+    #[error("{why}")]
+    NotAgreed { why: String },
     /// Threads that cannot be had.
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] ThreadPoolBuildError),
@@ -135,6 +156,7 @@ impl CliError {
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
             | Self::JobMap { location, .. }
+            | Self::NameTooLong { location, .. }
             | Self::Export { location, .. } => Some(location),
             _ => None,
         }
@@ -208,6 +230,18 @@ impl CliError {
                 "{}; `solve --allow-free` takes it as it is",
                 drives.help()
             )),
+            Self::Overwrites { .. } => {
+                Some("write to another folder or name: what is read stays as it is".into())
+            }
+            Self::SameOutput { .. } => Some("remove the link, or write to another folder".into()),
+            Self::NameTooLong { longest, .. } => Some(format!(
+                "give it a name of at most {longest} characters: that of each of its files must \
+                 fit the file system"
+            )),
+            Self::NotAgreed { .. } => Some(
+                "give fewer poses or designs, another `--out`, or `--yes` if that is what is meant"
+                    .into(),
+            ),
             Self::Unverified(_) => Some("leave `--verify` out".into()),
             Self::Threads(_) => Some("give a smaller number of `--threads`".into()),
             _ => None,
@@ -238,6 +272,14 @@ fn load_message(error: &LoadError) -> String {
     match error {
         LoadError::At { message, .. } => message.clone(),
         other => other.to_string(),
+    }
+}
+
+/// How an output that would be overwritten was read.
+fn read_as(output: &Path, input: &Path) -> String {
+    match output == input {
+        true => "it was read".into(),
+        false => format!("it was read as {}", input.display()),
     }
 }
 

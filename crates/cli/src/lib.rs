@@ -6,12 +6,18 @@ mod args;
 mod atomic;
 mod batch;
 mod case;
+mod cells;
+mod destination;
 mod diagnostic;
+mod disk;
 mod drawing;
 mod drives;
 mod error;
+mod outputs;
+mod plausibility;
 mod plot;
 mod report;
+mod terminal;
 mod verification;
 mod vtu;
 
@@ -54,11 +60,19 @@ error: this is a bug in hyperstat, or in a kind of joint that was added to it; i
 ";
 
 fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
-    let cli = match Cli::try_parse_from(args) {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let cli = match Cli::try_parse_from(&args) {
         Ok(cli) => cli,
         Err(error) => {
             // `--help` and `--version` come here too: they go to standard output and end with 0.
-            let printed = error.print();
+            let steers = |arg: &OsString| arg.to_string_lossy().contains(terminal::steers);
+            let printed = match error.use_stderr() && args.iter().any(steers) {
+                // The message repeats what was typed, or the name of a file.
+                true => {
+                    io::stderr().write_all(terminal::plain(&error.render().to_string()).as_bytes())
+                }
+                false => error.print(),
+            };
             let status = if error.use_stderr() { 2 } else { 0 };
             return ExitCode::from(if printed.is_err() && status == 0 {
                 3
@@ -90,6 +104,7 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.vtu.as_deref(), &case.files)?;
     if args.why {
         case.name_values();
     }
@@ -178,6 +193,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
 /// `hyperstat export`
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     let case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.out.as_deref(), &case.files)?;
     let text = case.mechanism_file(registry)?;
     match &args.out {
         None => print(&text)?,
@@ -193,7 +209,7 @@ fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
 
 fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
+    out.write_all(terminal::plain(text).as_bytes())
         .and_then(|()| out.flush())
         .map_err(CliError::Print)
 }

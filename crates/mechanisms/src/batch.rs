@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, ModalOptions, Model};
@@ -90,6 +91,12 @@ impl Batch {
                 .with_help("give at least one, `[(name: \"…\", mechanism: File(\"file.ron\"))]`"));
         }
         Ok(Self { jobs })
+    }
+
+    /// All files that were read for it: its own and those that its jobs name.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let first = self.jobs.first();
+        first.map_or_else(Vec::new, |job| job.place.source.files())
     }
 }
 

@@ -164,7 +164,7 @@ fn side(
     if body.string()? == GROUND {
         return Ok(None);
     }
-    let body = nodes::body(model, body)?;
+    let body = nodes::body_or_ground(model, body)?;
     nodes::node(model, body, point, point_name).map(Some)
 }
 

@@ -1,6 +1,7 @@
 //! One mechanism, as a file describes it.
 
 use std::collections::HashSet;
+use std::path::PathBuf;
 
 use hyperstat_assembly::{BodyId, JointId, Model};
 use nalgebra::Point3;
@@ -105,6 +106,11 @@ impl Mechanism {
         }
         self.own_masses = !acting.has_masses();
         Ok(())
+    }
+
+    /// All files that were read for it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.output.source.files()
     }
 
     /// Names values of `model`, which is this mechanism's in any configuration, by their paths in

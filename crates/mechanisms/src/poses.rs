@@ -110,6 +110,7 @@ fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>,
     let mut poses = Vec::new();
     for item in list.list("a list of poses, `[(x, y, z), …]`")? {
         let numbers = item.tuple(expected)?;
+        item.no_decimal_commas(&numbers, 3, expected)?;
         if ![3, 6].contains(&numbers.len()) {
             return Err(item.expected(expected));
         }

@@ -128,7 +128,7 @@ fn coordinate(name: &str, place: &Place) -> Result<usize, LoadError> {
     let found = csv::COLUMNS.iter().position(|known| *known == name);
     found.ok_or_else(|| {
         place
-            .error(format!("unknown column `{name}`"))
+            .error(format!("unknown column `{}`", csv::shortened(name)))
             .with_help(names::help(name, "columns", csv::COLUMNS))
     })
 }
@@ -158,7 +158,10 @@ fn drive(
     });
     let Some((joint, direction)) = parts else {
         return Err(place
-            .error(format!("`{name}` is no `joint.direction` of the mechanism"))
+            .error(format!(
+                "`{}` is no `joint.direction` of the mechanism",
+                csv::shortened(name)
+            ))
             .with_help(help()));
     };
     closure
@@ -172,6 +175,7 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
     let mut poses = Vec::new();
     for item in list.list("a list of poses, `[(x, y, z), …]`")? {
         let numbers = item.tuple(expected)?;
+        item.no_decimal_commas(&numbers, 3, expected)?;
         if ![3, 6].contains(&numbers.len()) {
             return Err(item.expected(expected));
         }

@@ -1,5 +1,6 @@
 //! `hyperstat run`: every job of a batch, to CSV files and figures.
 
+mod consent;
 mod figures;
 mod record;
 mod statistics;
@@ -8,16 +9,21 @@ mod sweep;
 mod table;
 
 use std::fs;
+use std::num::NonZero;
+use std::path::PathBuf;
 
 use hyperstat_mechanisms::{Batch, Job, Registry};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
-use crate::atomic::AtomicFile;
+use crate::atomic::{AtomicFile, LONGER};
 use crate::case::Source;
+use crate::disk::{Disk, LONGEST_NAME};
 use crate::error::CliError;
+use crate::plausibility::Watch;
 use crate::report::json;
+use crate::{outputs, terminal};
 use record::Columns;
 use statistics::Statistics;
 use summary::Summary;
@@ -34,11 +40,15 @@ pub(crate) fn run(
 ) -> Result<bool, CliError> {
     let batch = hyperstat_mechanisms::load_batch(&args.file, registry)?;
     let sweeps = prepare(&batch)?;
+    check_outputs(&batch, args)?;
+    consent::ask(&sweeps, args)?;
     fs::create_dir_all(&args.out).map_err(|source| CliError::Write {
         path: args.out.clone(),
         source,
     })?;
-    let pool = ThreadPoolBuilder::new().num_threads(args.threads).build()?;
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads(args.threads))
+        .build()?;
     let rows = sweeps.iter().map(|sweep| sweep.len() as u64);
     let bar = progress_bar(rows.fold(0, u64::saturating_add));
     let mut complete = true;
@@ -50,6 +60,53 @@ pub(crate) fn run(
     }
     bar.finish_and_clear();
     Ok(complete)
+}
+
+/// Most threads a core: more would wait for each other.
+const THREADS_A_CORE: usize = 8;
+
+/// The number of threads for so many that are asked for; 0 is one a core.
+fn threads(asked: usize) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    asked.min(cores.saturating_mul(THREADS_A_CORE))
+}
+
+/// Checks that all outputs can have their names, and are no files that were read.
+fn check_outputs(batch: &Batch, args: &args::Run) -> Result<(), CliError> {
+    let longest = Disk::of(&args.out).map_or(LONGEST_NAME, |disk| disk.longest_name);
+    let mut all = Vec::new();
+    for job in &batch.jobs {
+        let table = table_path(job, args);
+        let summary = args.summary.then(|| summary_path(job, args));
+        let mut files: Vec<PathBuf> = figures::files(job, &table).chain(summary).collect();
+        files.push(table);
+        for file in &files {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            let length = (name.len() + LONGER) as u64;
+            if length > longest {
+                return Err(CliError::NameTooLong {
+                    location: Box::new(job.location()),
+                    job: job.name.clone(),
+                    file: name.into_owned(),
+                    length,
+                    longest: longest.saturating_sub(length - job.name.len() as u64),
+                });
+            }
+        }
+        all.extend(files);
+    }
+    outputs::refuse(all.iter().map(|path| &**path), &batch.files())
+}
+
+/// The file of a job's table.
+fn table_path(job: &Job, args: &args::Run) -> PathBuf {
+    let extension = args.format.extension();
+    args.out.join(format!("{}.{extension}", job.name))
+}
+
+/// The file of a job's measures over its poses.
+fn summary_path(job: &Job, args: &args::Run) -> PathBuf {
+    args.out.join(format!("{}-summary.json", job.name))
 }
 
 /// Checks all jobs before the first runs.
@@ -74,9 +131,7 @@ fn run_job(
     bar: &ProgressBar,
 ) -> Result<Summary, CliError> {
     let job = sweep.job();
-    let path = args
-        .out
-        .join(format!("{}.{}", job.name, args.format.extension()));
+    let path = table_path(job, args);
     let cannot_write = |source| CliError::Write {
         path: path.clone(),
         source,
@@ -85,6 +140,7 @@ fn run_job(
     let mut summary = Summary::new(job);
     let mut statistics = Statistics::default();
     let mut trajectory = figures::Trajectory::wanted_by(job);
+    let mut watch = Watch::new(job);
     let render = |chunk: &mut Chunk| {
         Table::render(args.format, chunk);
         chunk.measures.clear();
@@ -99,6 +155,11 @@ fn run_job(
         }
         table.append(chunk).map_err(cannot_write)?;
         summary.add(&chunk.records);
+        for (row, record) in chunk.rows.clone().zip(&chunk.records) {
+            if let Ok(found) = &record.result {
+                watch.see(row, &found.displacement);
+            }
+        }
         for (k, values) in chunk.measures.iter().enumerate() {
             if let Some(values) = values {
                 let row = chunk.rows.start + k;
@@ -115,8 +176,9 @@ fn run_job(
     })?;
     table.commit().map_err(cannot_write)?;
     summary.wrote(path.clone());
+    summary.warned(watch.warnings(job));
     if let Some(found) = args.summary.then(|| statistics.report()).flatten() {
-        let path = args.out.join(format!("{}-summary.json", job.name));
+        let path = summary_path(job, args);
         let text = json(&found)?;
         AtomicFile::write(&path, text.as_bytes()).map_err(|source| CliError::Write {
             path: path.clone(),
@@ -132,7 +194,10 @@ fn run_job(
 
 /// A bar on a terminal; nothing elsewhere.
 fn progress_bar(poses: u64) -> ProgressBar {
-    let bar = ProgressBar::new(poses);
+    let bar = match terminal::cannot_redraw() {
+        true => ProgressBar::hidden(),
+        false => ProgressBar::new(poses),
+    };
     // The template is a constant that a test reads.
     if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
         bar.set_style(style);
@@ -150,7 +215,7 @@ mod tests {
     use indicatif::{ProgressBar, ProgressStyle};
     use rayon::ThreadPoolBuilder;
 
-    use super::{prepare, run_job};
+    use super::{prepare, run_job, threads};
     use crate::args::{Run, TableFormat};
 
     const BATCH: &str = r#"(jobs: [(
@@ -180,12 +245,21 @@ mod tests {
             format: TableFormat::Parquet,
             threads: 3,
             summary: false,
+            yes: false,
         };
         let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
         assert!(!summary.is_complete());
         assert_eq!(bar.position(), 2100);
         assert_eq!(bar.length(), Some(2100));
         std::fs::remove_dir_all(out).unwrap();
+    }
+
+    #[test]
+    fn threads_are_as_many_as_make_sense() {
+        let cores = std::thread::available_parallelism().unwrap().get();
+        assert_eq!((threads(0), threads(1)), (0, 1));
+        assert_eq!(threads(8 * cores), 8 * cores);
+        assert_eq!(threads(usize::MAX), 8 * cores);
     }
 
     #[test]

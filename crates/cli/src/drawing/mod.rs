@@ -73,12 +73,7 @@ impl Drawing {
 
     /// Writes the figure as `STEM.svg` and `STEM.png`; both are drawn before the first is written.
     pub(crate) fn write(&self, stem: &Path) -> Result<[PathBuf; 2], CliError> {
-        let [as_svg, as_png] = ["svg", "png"].map(|extension| {
-            let mut path = stem.as_os_str().to_owned();
-            path.push(".");
-            path.push(extension);
-            PathBuf::from(path)
-        });
+        let [as_svg, as_png] = files(stem);
         let cannot_draw = |path: &Path, source| CliError::Figure {
             path: path.into(),
             source,
@@ -93,6 +88,16 @@ impl Drawing {
         }
         Ok([as_svg, as_png])
     }
+}
+
+/// The files `STEM.svg` and `STEM.png` of a figure.
+pub(crate) fn files(stem: &Path) -> [PathBuf; 2] {
+    ["svg", "png"].map(|extension| {
+        let mut path = stem.as_os_str().to_owned();
+        path.push(".");
+        path.push(extension);
+        PathBuf::from(path)
+    })
 }
 
 /// Title of a figure of one configuration: the mechanism's name, or the job's with its design and

@@ -18,8 +18,9 @@ use hyperstat_figures::{ColorScale, Scale, TrajectoryFigure};
 use hyperstat_mechanisms::Registry;
 
 use crate::args;
-use crate::drawing::Drawing;
+use crate::drawing::{self, Drawing};
 use crate::error::CliError;
+use crate::outputs;
 pub(crate) use error::PlotError;
 use lines::Lines;
 pub(crate) use map::{Map, figure as map};
@@ -27,10 +28,10 @@ pub(crate) use quantity::{Drawn, known as quantities};
 pub(crate) use rows::Choice;
 pub(crate) use table::Table;
 
-/// A figure, and the name of its files beside the input.
+/// A figure, and its files without their extensions.
 struct Plotted {
     drawing: Drawing,
-    name: String,
+    stem: PathBuf,
 }
 
 /// What a file is, by its name.
@@ -59,11 +60,7 @@ pub(crate) fn run(
     registry: &Registry,
     tell: impl FnOnce(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
-    let Plotted { drawing, name } = plotted(args, registry)?;
-    let stem = match &args.out {
-        Some(out) => without_extension(out),
-        None => args.file.with_file_name(name),
-    };
+    let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
     for path in drawing.write(&stem)? {
         told += &format!("{}\n", path.display());
@@ -75,6 +72,15 @@ pub(crate) fn run(
     told += &format!("{caption}\n");
     tell(&told)?;
     Ok(true)
+}
+
+/// The files of a figure without their extensions: as the command line says, or of the `name` beside
+/// the input.
+fn stem_of(args: &args::Plot, name: &str) -> PathBuf {
+    match &args.out {
+        Some(out) => without_extension(out),
+        None => args.file.with_file_name(name),
+    }
 }
 
 /// The figure that is asked for.
@@ -99,7 +105,7 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
                 ("--pose", args.pose.is_some()),
             ];
             refuse(args, "solved already", chosen)?;
-            Ok(solved::figure(args)?)
+            solved::figure(args)
         }
         (Some(option), _) => Err(CliError::Plot(PlotError::NoMechanism {
             path: args.file.clone(),
@@ -137,7 +143,18 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         design: choice.design.or(Some(0)),
         ..choice
     };
-    let (drawing, kind) = if let Some(value) = &args.kind.map {
+    let kind = match (&args.kind.map, &args.kind.lines) {
+        (Some(value), _) => value.clone(),
+        (None, Some(values)) => values.join("-"),
+        (None, None) => "trajectory".into(),
+    };
+    let stem = stem_of(args, &format!("{}-{kind}", table.job()));
+    let files = drawing::files(&stem);
+    outputs::refuse(
+        files.iter().map(|path| &**path),
+        std::slice::from_ref(&args.file),
+    )?;
+    let drawing = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),
             planes: args.plane.clone(),
@@ -148,7 +165,7 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             choice: one_design,
             title,
         };
-        (Drawing::Map(map::figure(table, &map)?), value.clone())
+        Drawing::Map(map::figure(table, &map)?)
     } else if let Some(values) = &args.kind.lines {
         let over = args.over.clone().unwrap_or_else(|| "pose".into());
         // Along what varies from design to design: one pose of each.
@@ -166,16 +183,16 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             over,
             title,
         };
-        let figure = lines::figure(table, &lines)?;
-        (Drawing::Lines(figure), values.join("-"))
+        Drawing::Lines(lines::figure(table, &lines)?)
     } else {
-        let figure = trajectory(table, one_design, magnified(args.scale.as_ref())?, title)?;
-        (Drawing::Trajectory(figure), "trajectory".into())
+        Drawing::Trajectory(trajectory(
+            table,
+            one_design,
+            magnified(args.scale.as_ref())?,
+            title,
+        )?)
     };
-    Ok(Plotted {
-        drawing,
-        name: format!("{}-{kind}", table.job()),
-    })
+    Ok(Plotted { drawing, stem })
 }
 
 /// The poses with a result as a trajectory, commanded and deflected.

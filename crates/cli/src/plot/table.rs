@@ -4,12 +4,13 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use hyperstat_mechanisms::Location;
+use hyperstat_mechanisms::{Location, files};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use parquet::schema::types::Type;
 
 use super::error::PlotError;
+use crate::cells;
 
 /// The column of a table of designs with their numbers; after it are their values.
 const DESIGN: &str = "design";
@@ -51,7 +52,7 @@ impl Table {
             Form::Csv => {
                 let mut reader = csv_reader(path)?;
                 let header = reader.headers().map_err(|error| csv_error(path, error))?;
-                header.iter().map(String::from).collect()
+                header.iter().map(|name| cells::text(name).into()).collect()
             }
             Form::Parquet => {
                 let reader = parquet_reader(path)?;
@@ -263,7 +264,7 @@ impl Table {
     /// The place of a cell of a line of a CSV file.
     fn location(&self, line: usize, cell: usize) -> Location {
         let text = match self.form {
-            Form::Csv => File::open(&self.path).ok().and_then(|file| {
+            Form::Csv => files::open(&self.path).ok().and_then(|file| {
                 let mut lines = BufReader::new(file).lines();
                 lines.nth(line - 1).and_then(Result::ok)
             }),
@@ -298,7 +299,7 @@ fn cell_span(text: &str, cell: usize) -> (usize, usize) {
 }
 
 fn csv_reader(path: &Path) -> Result<csv::Reader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;
@@ -313,7 +314,7 @@ fn csv_error(path: &Path, error: csv::Error) -> PlotError {
 }
 
 fn parquet_reader(path: &Path) -> Result<SerializedFileReader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;

@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::{doubts, list, redundancies};
 use crate::case::Case;
 use crate::error::CliError;
+use crate::plausibility::of_model;
 
 /// What the check of a file found. Field names are those of the JSON output.
 #[derive(Debug, Default, Serialize)]
@@ -117,6 +118,7 @@ impl CheckReport {
             report.warnings = solution.warnings.iter().map(ToString::to_string).collect();
         }
         report.warnings.extend(doubts(model));
+        report.warnings.extend(of_model(model));
         report.notes = notes(case);
         report
     }

@@ -20,6 +20,7 @@ use nalgebra::{Matrix6, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::error::CliError;
+use crate::terminal::plain_json;
 pub(crate) use check::{CheckReport, Problem};
 use inner::inner_displacements;
 use inner::inner_displacements_of;
@@ -73,7 +74,7 @@ impl<T: Serialize> Serialize for Entries<T> {
 /// Report `value` as JSON. Numbers read back to the same double.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, CliError> {
     match serde_json::to_string_pretty(value) {
-        Ok(text) => Ok(text + "\n"),
+        Ok(text) => Ok(plain_json(&text).into_owned() + "\n"),
         Err(error) => Err(CliError::Print(error.into())),
     }
 }

@@ -22,6 +22,7 @@ use super::{
     output_table, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
+use crate::plausibility::{of_model, of_solution};
 use crate::verification::Verification;
 
 /// Everything that one solve found. Field names are those of the JSON output.
@@ -162,6 +163,8 @@ impl SolveReport {
             warnings: (solution.warnings.iter().map(ToString::to_string))
                 .chain(doubts(model))
                 .chain(verification.iter().flat_map(Verification::warnings))
+                .chain(of_model(model))
+                .chain(of_solution(model, solution))
                 .collect(),
             verification,
             modes: None,

@@ -16,6 +16,7 @@ mod modes;
 mod parameters;
 mod plot;
 mod run;
+mod safety;
 mod shapes;
 mod solve;
 mod states;

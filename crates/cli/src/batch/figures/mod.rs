@@ -2,7 +2,7 @@
 
 mod trajectory;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Solution};
 use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Scale};
@@ -56,6 +56,13 @@ fn modal_options(job: &Job, count: usize) -> ModalOptions {
         || ModalOptions::lowest(count),
         |options| ModalOptions { count, ..options },
     )
+}
+
+/// The files of a job's figures, beside its table.
+pub(crate) fn files(job: &Job, table: &Path) -> impl Iterator<Item = PathBuf> {
+    let stems =
+        (0..job.figures.len()).map(move |place| table.with_file_name(file_name(job, place)));
+    stems.flat_map(|stem| drawing::files(&stem))
 }
 
 /// Draws the figures of a job and writes them beside its table.

@@ -9,6 +9,7 @@ use hyperstat_mechanisms::Value;
 use crate::atomic::AtomicFile;
 use crate::batch::record::{Columns, NUMBERS, UPPER};
 use crate::batch::sweep::{Chunk, Row};
+use crate::cells::quoted;
 
 /// A CSV file being written.
 pub(crate) struct Csv(AtomicFile);
@@ -16,7 +17,8 @@ pub(crate) struct Csv(AtomicFile);
 impl Csv {
     pub(super) fn create(path: &Path, columns: &Columns<'_>) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
-        let names: Vec<_> = super::columns(columns).map(quoted).collect();
+        let names = super::columns(columns).map(|name| quoted(&name).into_owned());
+        let names: Vec<_> = names.collect();
         writeln!(file, "{}", names.join(","))?;
         Ok(Self(file))
     }
@@ -74,21 +76,12 @@ fn append(text: &mut String, row: &Row<'_>) {
                 Value::Number(number) => append_numbers(text, &[*number]),
                 Value::Text(words) => {
                     text.push(',');
-                    text.push_str(&quoted(words.clone()));
+                    text.push_str(&quoted(words));
                 }
             }
         }
     }
     text.push('\n');
-}
-
-/// A cell that holds `text`: in quotes, and its quotes doubled, where it would not be one cell.
-fn quoted(text: String) -> String {
-    if text.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text
-    }
 }
 
 /// Appends each number, with a comma before it, as the shortest decimal number that reads back to
