@@ -4,6 +4,7 @@ mod cases;
 mod check;
 mod designs;
 mod diagnosis;
+mod everything;
 mod export;
 mod help;
 mod messages;
