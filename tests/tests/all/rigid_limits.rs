@@ -1,17 +1,18 @@
 //! The rigid joint is the limit of the stiff one, for every kind of joint, between bodies and to the
 //! ground.
 //!
-//! Where a joint gives `1/k` along every direction that it constrains, the output's compliance is
+//! Where a joint gives `1/(k a)` along every direction that it constrains, the output's compliance is
 //!
 //! ```text
-//! C(k) = C∞ + Wᵀ (k + S)⁻¹ W,     0 ≤ C(k) − C∞ ≤ WᵀW / k
+//! C(k) = C∞ + Wᵀ (k a + S)⁻¹ W,     0 ≤ C(k) − C∞ ≤ Wᵀ a⁻¹ W / k
 //! ```
 //!
 //! with `C∞` that of the rigid joint, `W` the forces along those directions of the rigid joint under
-//! unit wrenches on the output, and `S` the stiffness that the rest of the mechanism has between the
+//! unit wrenches on the output, `a` 1 for a force and about a squared thickness for a moment, so that
+//! neither hides the other, and `S` the stiffness that the rest of the mechanism has between the
 //! joint's two sides (by Castigliano's theorem; S is positive semidefinite). So from 1e6 on the
 //! difference is within these bounds, from 1e12 on, where the joint is a thousand times stiffer than
-//! all around it, it is `WᵀW / k`, and from where that is below rounding on it stays there.
+//! all around it, it is `Wᵀ a⁻¹ W / k`, and from where that is below rounding on it stays there.
 
 use hyperstat_assembly::{JointStiffness, LANES, LoadSet, Model, NodeId, Plan, Solution};
 use hyperstat_joints::{
@@ -32,10 +33,11 @@ const CASES: u32 = 12;
 /// stiffer along than across (as in `properties.rs`).
 const ROUNDING: f64 = 1e-11;
 
-/// Share of `WᵀW/k` that is left out from k = 1e12 on, S/k: the members here are softer than 1e9 N/m.
+/// Share of `Wᵀ a⁻¹ W/k` that is left out from k = 1e12 on, S/(k a): the members here are softer than
+/// 1e9 N/m and 1e5 N·m/rad.
 const LEFT_OUT: f64 = 1e-2;
 
-/// Stiffnesses of the joint [N/m, N·m/rad], as powers of ten.
+/// Stiffnesses of the joint [N/m], as powers of ten.
 const EXPONENTS: std::ops::RangeInclusive<i32> = 6..=18;
 /// From here on the difference is known.
 const KNOWN: i32 = 12;
@@ -54,6 +56,8 @@ struct Case {
     /// Of the free directions those that are locked, and whether these become as stiff.
     locked: u8,
     drives_give: bool,
+    /// Decades from a stiffness against forces to those against moments, about x, y and z.
+    turning: [f64; 3],
     /// The free directions' own springs [decades].
     springs: Option<f64>,
     /// Points along the way, each from the last.
@@ -82,6 +86,7 @@ fn cases() -> impl Strategy<Value = Case> {
     let free = (
         prop_oneof![Just(0_u8), any::<u8>()],
         any::<bool>(),
+        [-4.0..-2.0, -4.0..-2.0, -4.0..-2.0],
         proptest::option::of(3.0..6.0),
     );
     let links = (
@@ -91,7 +96,13 @@ fn cases() -> impl Strategy<Value = Case> {
         5.0..7.0,
     );
     (bodies, any::<[bool; 2]>(), joint, free, links).prop_map(
-        |(rigid, inside, (swapped, axes, pitch), (locked, drives_give, springs), links)| Case {
+        |(
+            rigid,
+            inside,
+            (swapped, axes, pitch),
+            (locked, drives_give, turning, springs),
+            links,
+        )| Case {
             rigid,
             inside,
             swapped,
@@ -99,6 +110,7 @@ fn cases() -> impl Strategy<Value = Case> {
             pitch,
             locked,
             drives_give,
+            turning,
             springs,
             steps: links.0,
             diameters: links.1,
@@ -140,6 +152,12 @@ fn constrained(joint: &dyn Joint, case: &Case) -> DofSet {
 fn locked(joint: &dyn Joint, case: &Case) -> DofSet {
     let chosen = |d: &Dof| case.locked & (1 << d.index()) != 0;
     joint.free().iter().filter(chosen).collect()
+}
+
+/// The factor a of a direction.
+fn share(case: &Case, dof: Dof) -> f64 {
+    let turning = dof.index().checked_sub(3);
+    turning.map_or(1.0, |about| 10.0_f64.powf(case.turning[about]))
 }
 
 /// The mechanism with the joint `k` stiff, or rigid; the joint under test is its first.
@@ -184,7 +202,7 @@ fn model(kind: usize, grounded: bool, case: &Case, k: Option<f64>) -> Option<Mod
     let values = Dof::ALL.map(|d| {
         let spring = || case.springs.map(|e| 10.0_f64.powf(e));
         match (stiff.contains(d), kind.free().contains(d)) {
-            (true, _) => k,
+            (true, _) => k.map(|k| k * share(case, d)),
             (false, true) if !locked.contains(d) => spring(),
             _ => None,
         }
@@ -211,9 +229,9 @@ fn model(kind: usize, grounded: bool, case: &Case, k: Option<f64>) -> Option<Mod
     Some(model)
 }
 
-/// Forces of the rigid joint along the directions that become stiff, by columns under the unit
-/// wrenches on the output.
-fn forces(model: &Model, stiff: DofSet, output: NodeId) -> DMatrix<f64> {
+/// Forces of the rigid joint along the directions that become stiff, over √a, by columns under the
+/// unit wrenches on the output.
+fn forces(model: &Model, case: &Case, stiff: DofSet, output: NodeId) -> DMatrix<f64> {
     let basis = model.joints()[0].joint.basis();
     let units = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
     let plan = Plan::new(model).expect("a plan");
@@ -223,7 +241,7 @@ fn forces(model: &Model, stiff: DofSet, output: NodeId) -> DMatrix<f64> {
         let wrench = state.joint_wrenches[0].expect("determined");
         let along = basis.transpose() * wrench;
         for (row, dof) in stiff.iter().enumerate() {
-            forces[(row, column)] = along[dof.index()];
+            forces[(row, column)] = along[dof.index()] / share(case, dof).sqrt();
         }
     }
     forces
@@ -276,7 +294,7 @@ fn tends_to_rigid(kind: usize, grounded: bool, case: &Case) -> Result<bool, Test
     compliances_agree(Some(&limit_c), theirs.compliance.as_ref())?;
     stiffnesses_agree(Some(&limit_k), theirs.stiffness.as_ref())?;
 
-    let forces = forces(&rigid, stiff, output);
+    let forces = forces(&rigid, case, stiff, output);
     let give = forces.transpose() * &forces;
     let give = Matrix6::from_fn(|r, c| give[(r, c)]);
     let scale_c = limit_c.diagonal().map(f64::sqrt);

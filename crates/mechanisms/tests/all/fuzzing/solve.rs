@@ -136,9 +136,11 @@ fn moved(model: &Model) {
         return;
     };
     let home = closure.home();
-    let place = closure.pose(&home);
-    let mut asked = place.map(Some);
-    asked[0] = asked[0].map(|x| x + 1e-3);
+    let Some(output) = model.output() else {
+        return;
+    };
+    let at = model.geometry().positions[output.0];
+    let asked = [at.x + 1e-3, at.y, at.z, 0.0, 0.0, 0.0].map(Some);
     let drives: Vec<_> = closure.drives().take(FOLLOWED).collect();
     let drives = drives.into_iter().map(|(joint, direction)| Drive {
         joint,
