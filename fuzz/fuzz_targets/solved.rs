@@ -4,10 +4,10 @@
 
 use std::sync::LazyLock;
 
-#[path = "../../crates/mechanisms/tests/all/fuzzing/mod.rs"]
-mod fuzzing;
 #[path = "../beginning.rs"]
 mod beginning;
+#[path = "../../crates/mechanisms/tests/all/fuzzing/mod.rs"]
+mod fuzzing;
 
 use fuzzing::{Folder, Mutator};
 
