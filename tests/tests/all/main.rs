@@ -27,6 +27,7 @@ mod random_mechanisms;
 mod reference_results;
 mod refinement;
 mod reordering;
+mod rigid_limits;
 mod sensitivities;
 mod single_freedom;
 mod states;

@@ -5,6 +5,7 @@ mod check;
 mod designs;
 mod diagnosis;
 mod doubts;
+mod everything;
 mod export;
 mod extremes;
 mod floors;
