@@ -61,6 +61,13 @@ pub struct State {
 }
 
 impl State {
+    pub(crate) fn is_finite(&self) -> bool {
+        let ends = self.segments.iter().flat_map(|segment| &segment.ends);
+        let vectors = self.displacements.iter().chain([&self.output]).chain(ends);
+        let vectors = vectors.chain(self.joint_wrenches.iter().flatten());
+        vectors.flatten().all(|number| number.is_finite())
+    }
+
     /// As [`Solution::inner_displacements`].
     ///
     /// # Errors
@@ -72,6 +79,15 @@ impl State {
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
         let load = &self.segments[segment.0].load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
+    }
+}
+
+impl Output {
+    pub(crate) fn is_finite(&self) -> bool {
+        let matrices = self.stiffness.iter().chain(&self.compliance).flatten();
+        let vectors = self.rigid_directions.iter().chain(&self.free_motions);
+        let vectors = vectors.chain([&self.displacement]).flatten();
+        matrices.chain(vectors).all(|number| number.is_finite())
     }
 }
 

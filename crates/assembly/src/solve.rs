@@ -42,6 +42,15 @@ pub struct PoseResult {
     pub cases: Vec<Vector6<f64>>,
 }
 
+impl PoseResult {
+    fn is_finite(&self) -> bool {
+        let displacements = self.displacement.iter().chain(&self.cases);
+        let numbers = self.stiffness.iter().flatten();
+        let mut numbers = numbers.chain(displacements.flatten());
+        numbers.all(|number| number.is_finite())
+    }
+}
+
 /// What a full solve finds.
 struct Solved {
     restraint: Restraint,
@@ -137,13 +146,17 @@ impl Plan {
         workspace: &mut Workspace,
     ) -> Result<PoseResult, SolveError> {
         let acting = Acting::of_model(model, geometry)?;
-        match self.sweep_pose(model, geometry, &acting, workspace) {
-            Ok(result) => Ok(result),
-            Err(Fault::Error(error)) => Err(error),
+        let result = match self.sweep_pose(model, geometry, &acting, workspace) {
+            Ok(result) => result,
+            Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
-                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))
+                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))?
             }
+        };
+        match result.is_finite() {
+            true => Ok(result),
+            false => Err(SolveError::Overflow),
         }
     }
 
@@ -168,12 +181,13 @@ impl Plan {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
-            let wrenches = state.joint_wrenches.iter().flatten();
-            let numbers = state.displacements.iter().chain(wrenches).flatten();
-            if !numbers.into_iter().all(|v| v.is_finite()) {
+            if !state.is_finite() {
                 return Err(SolveError::Overflow.into());
             }
             states.push(state);
+        }
+        if !output.is_finite() {
+            return Err(SolveError::Overflow.into());
         }
         if let Some(value) = doubtful {
             let nearly_free = restraint.kinematics.nearly_free.as_ref();

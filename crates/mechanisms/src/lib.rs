@@ -19,6 +19,7 @@ mod fields;
 mod figures;
 mod flexible;
 mod fragment;
+mod home;
 mod joints;
 mod kinds;
 mod load;

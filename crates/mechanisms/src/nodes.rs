@@ -13,6 +13,7 @@ pub(crate) fn body(model: &Model, name: Fragment<'_>) -> Result<BodyId, LoadErro
     model.body(&text).ok_or_else(|| {
         let known = model.bodies().iter().map(|body| body.name.as_str());
         name.error(format!("unknown body `{text}`"))
+            .unreadable()
             .with_help(names::help(&text, "bodies", known))
     })
 }

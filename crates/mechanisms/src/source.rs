@@ -136,6 +136,7 @@ impl Place {
             location: Box::new(self.location()),
             message: message.into(),
             help: None,
+            unreadable: false,
         }
     }
 }

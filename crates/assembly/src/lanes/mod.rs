@@ -88,6 +88,11 @@ impl Plan {
         self.lanes_on(model, Arch::new())
     }
 
+    /// The same for poses that all go through [`Plan::sweep`], one by one.
+    pub fn lanes_one_by_one(&self, model: &Model) -> Lanes {
+        self.lanes_with(model, Arch::new(), None)
+    }
+
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
         let taken =
@@ -97,6 +102,10 @@ impl Plan {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
+        self.lanes_with(model, arch, engine)
+    }
+
+    fn lanes_with(&self, model: &Model, arch: Arch, engine: Option<Engine>) -> Lanes {
         Lanes {
             geometries: vec![model.geometry().clone(); LANES],
             workspace: self.workspace(),

@@ -168,13 +168,12 @@ impl Poses {
         let places = COORDINATES.map(|name| table.find(name).unwrap_or(0));
         let coordinates = table.read(&places)?;
         let values = drawn.read(table)?;
-        let mut rows = choice.rows(table)?;
-        rows.retain(|&row| coordinates.iter().all(|column| column[row].is_some()));
-        let columns: Vec<Vec<f64>> = (coordinates.iter())
-            .map(|column| chosen(column, &rows).into_iter().flatten().collect())
+        let rows = choice.rows(table)?;
+        let columns: Vec<Column> = (coordinates.iter())
+            .map(|column| chosen(column, &rows))
             .collect();
-        let size = |kind: &[Vec<f64>]| {
-            let all = kind.iter().flatten();
+        let size = |kind: &[Column]| {
+            let all = kind.iter().flatten().flatten();
             all.fold(0.0_f64, |size, value| size.max(value.abs()))
         };
         let sizes = [size(&columns[..3]), size(&columns[3..]).max(1.0)];
@@ -188,22 +187,27 @@ impl Poses {
     fn rows(&self, wanted: &[Option<usize>; 6]) -> Vec<usize> {
         let fits = |row: &usize| {
             let pairs = self.levels.iter().zip(wanted);
-            pairs
-                .into_iter()
-                .all(|(levels, wanted)| wanted.is_none_or(|level| levels.of_row[*row] == level))
+            pairs.into_iter().all(|(levels, wanted)| {
+                wanted.is_none_or(|level| levels.of_row[*row] == Some(level))
+            })
         };
         (0..self.values.len()).filter(fits).collect()
     }
 
-    /// What is known at these rows along two coordinates; a grid where they fill one.
+    /// What is known at those of these rows that have a place along two coordinates; a grid where they
+    /// fill one.
     fn samples(
         &self,
         rows: &[usize],
         axes: [usize; 2],
         others: &[usize],
     ) -> Result<Samples, PlotError> {
+        let of_row = |k: usize, row: usize| self.levels[k].of_row[row];
+        let has_place = |row: &usize| axes.iter().all(|k| of_row(*k, *row).is_some());
+        let rows: Vec<usize> = rows.iter().copied().filter(has_place).collect();
         let along = axes.map(|k| {
-            let mut used: Vec<_> = rows.iter().map(|row| self.levels[k].of_row[*row]).collect();
+            let used = rows.iter().filter_map(|row| of_row(k, *row));
+            let mut used: Vec<_> = used.collect();
             used.sort_unstable();
             used.dedup();
             used
@@ -211,8 +215,8 @@ impl Poses {
         let [across, up] = along.each_ref().map(Vec::len);
         let value = |axis: usize, level: usize| self.levels[axes[axis]].values[level];
         let place = |axis: usize, row: usize| {
-            let level = self.levels[axes[axis]].of_row[row];
-            along[axis].partition_point(|known| *known < level)
+            let level = of_row(axes[axis], row);
+            along[axis].partition_point(|known| Some(*known) < level)
         };
         let is_grid = across > 1 && up > 1 && across * up <= rows.len();
         if !is_grid {
@@ -223,7 +227,7 @@ impl Poses {
             });
         }
         let mut filled = vec![None; across * up];
-        for &row in rows {
+        for &row in &rows {
             let cell = &mut filled[place(0, row) + place(1, row) * across];
             if cell.is_some() {
                 return Err(PlotError::Several {

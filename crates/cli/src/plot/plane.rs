@@ -1,6 +1,7 @@
 //! Planes of a table's poses: which there are, and the poses on each.
 
 use super::error::PlotError;
+use super::table::Column;
 
 /// Coordinates of a pose, as its columns are named.
 pub(super) const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -16,14 +17,15 @@ const NEAR: f64 = 0.25;
 pub(super) struct Levels {
     /// Ascending.
     pub(super) values: Vec<f64>,
-    pub(super) of_row: Vec<usize>,
+    /// `None` where it is not known.
+    pub(super) of_row: Vec<Option<usize>>,
 }
 
 impl Levels {
     /// Sorts out values, of which those that differ by rounding are one. `size` is that of the
     /// whole workspace.
-    pub(super) fn new(column: &[f64], size: f64) -> Self {
-        let mut values = column.to_vec();
+    pub(super) fn new(column: &Column, size: f64) -> Self {
+        let mut values: Vec<f64> = column.iter().flatten().copied().collect();
         values.sort_by(f64::total_cmp);
         let range = match (values.first(), values.last()) {
             (Some(first), Some(last)) => last - first,
@@ -31,7 +33,7 @@ impl Levels {
         };
         let apart = (SAME * range).max(1e-9 * size);
         values.dedup_by(|b, a| *b - *a <= apart);
-        let of_row = column.iter().map(|value| nearest(&values, *value));
+        let of_row = column.iter().map(|value| Some(nearest(&values, (*value)?)));
         Self {
             of_row: of_row.collect(),
             values,
@@ -80,21 +82,23 @@ fn nearest(values: &[f64], value: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::Levels;
+    use super::{Column, Levels};
 
     #[test]
     fn values_that_differ_by_rounding_are_one() {
-        let column = [0.1, 0.3, 0.1 + 1e-15, 0.2, 0.3, -0.1];
+        let column = [0.1, 0.3, 0.1 + 1e-15, 0.2, 0.3, -0.1].map(Some);
+        let column: Column = column.into_iter().chain([None]).collect();
         let levels = Levels::new(&column, 1.0);
         assert_eq!(levels.values, [-0.1, 0.1, 0.2, 0.3]);
-        assert_eq!(levels.of_row, [1, 3, 1, 2, 3, 0]);
-        let noise = Levels::new(&[0.0, 1e-17, -1e-17], 0.5);
+        let wanted = [1, 3, 1, 2, 3, 0].map(Some).into_iter().chain([None]);
+        assert!(levels.of_row.into_iter().eq(wanted));
+        let noise = Levels::new(&[0.0, 1e-17, -1e-17].map(Some).into(), 0.5);
         assert_eq!(noise.values.len(), 1);
     }
 
     #[test]
     fn a_plane_is_asked_for_by_about_its_value() {
-        let levels = Levels::new(&[0.45, 0.5, 0.55], 1.0);
+        let levels = Levels::new(&[0.45, 0.5, 0.55].map(Some).into(), 1.0);
         assert_eq!(levels.asked("z", 0.5).unwrap(), 1);
         assert_eq!(levels.asked("z", 0.51).unwrap(), 1);
         for value in [0.47, 0.6, 0.3] {
@@ -107,7 +111,7 @@ mod tests {
                 )
             );
         }
-        let only = Levels::new(&[0.5; 3], 1.0);
+        let only = Levels::new(&vec![Some(0.5); 3], 1.0);
         assert_eq!(only.asked("z", 0.5).unwrap(), 0);
         assert!(only.asked("z", 0.6).is_err());
     }

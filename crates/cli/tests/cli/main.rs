@@ -10,6 +10,7 @@ mod messages;
 mod misfits;
 mod modes;
 mod plot;
+mod rows;
 mod run;
 mod shapes;
 mod solve;

@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::case::{Source, job_model};
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
-use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
+use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, instead_of};
 use crate::report::{self, Asked};
 pub(crate) use trajectory::Trajectory;
 
@@ -25,10 +25,11 @@ pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
                     location: Box::new(job.location()),
                     job: job.name.clone(),
                     value: value.clone(),
-                    help: quantities(columns),
+                    help: instead_of(value, columns),
                 });
             }
-            Figure::Mode { number, .. } => {
+            // Of a job that varies it is left out where the first design has none.
+            Figure::Mode { number, .. } if job.varied().is_empty() => {
                 // Where no pose can be reached there is no model, and no figure.
                 if let Ok(model) = job.model() {
                     ModalPlan::new(&model, &modal_options(job, *number))
@@ -84,7 +85,7 @@ pub(crate) fn draw(
                     *pose,
                 )
             }
-            Figure::Map { value, plane } => map(table, value, *plane).map_err(|error| {
+            Figure::Map { value, plane } => map(job, table, value, *plane).map_err(|error| {
                 let help = error
                     .help()
                     .map_or_else(String::new, |help| format!("; {help}"));
@@ -120,9 +121,9 @@ fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Model, Solution
     held.then_some((model, solution))
 }
 
-/// Title of a figure of the job's first design.
+/// Title of a figure of the job's first design that can be.
 fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
-    let design = (!job.varied().is_empty()).then_some(0);
+    let design = (!job.varied().is_empty()).then_some(job.first_design());
     drawing::title(&job.name, design, Some(pose), case)
 }
 
@@ -180,7 +181,12 @@ fn budget(job: &Job, asked: Asked<'_>, pose: usize) -> Result<Drawing, String> {
 const NO_RESULT: &str = "the poses it would show have no result";
 
 /// The map of the job's table that is now complete, as `plot` draws it.
-fn map(table: &Path, value: &str, plane: Option<(&str, f64)>) -> Result<Drawing, PlotError> {
+fn map(
+    job: &Job,
+    table: &Path,
+    value: &str,
+    plane: Option<(&str, f64)>,
+) -> Result<Drawing, PlotError> {
     let map = Map {
         value: value.into(),
         planes: plane
@@ -189,7 +195,7 @@ fn map(table: &Path, value: &str, plane: Option<(&str, f64)>) -> Result<Drawing,
             .collect(),
         axes: None,
         choice: Choice {
-            design: Some(0),
+            design: Some(job.first_design()),
             pose: None,
         },
         title: None,
