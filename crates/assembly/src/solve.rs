@@ -7,7 +7,7 @@ use crate::condense::{LOADS, UNITS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
-use crate::kinematics::echelon;
+use crate::kinematics::{characteristic_length, echelon};
 use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, evaluate, node_displacement};
@@ -220,7 +220,10 @@ impl Plan {
         let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
         if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
             let stiffness = self.stiffness_by_energy(workspace);
-            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
+            // Next to nothing may be nothing: then it is looked at, whatever the plan's own
+            // configuration was.
+            let held = !is_nearly_free(&stiffness, characteristic_length(geometry));
+            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
                 let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
                 let mut displacement = |column| {
                     if even {
@@ -489,6 +492,14 @@ fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
     Some(Matrix6::from_fn(|r, c| {
         inverse[(r, c)] / (scale[r] * scale[c])
     }))
+}
+
+/// Whether the output's stiffness along or about some axis is next to nothing beside the largest, those
+/// of translations at the mechanism's size: it may be rounding.
+pub(crate) fn is_nearly_free(stiffness: &Matrix6<f64>, size: f64) -> bool {
+    let along = |k: usize| stiffness[(k, k)] * scale_of(k, size).powi(2);
+    let largest = (0..6).map(along).fold(0.0, f64::max);
+    (0..6).any(|k| along(k) <= SUSPICIOUS_PIVOT * largest)
 }
 
 /// A fault of a plan made for this very configuration.

@@ -38,9 +38,10 @@ use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::SolveError;
+use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model};
 use crate::plan::{Plan, Workspace};
-use crate::solve::PoseResult;
+use crate::solve::{PoseResult, is_nearly_free};
 use buffers::Buffers;
 use pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use program::Program;
@@ -145,7 +146,8 @@ impl Plan {
                 });
                 for (lane, pose) in range.enumerate() {
                     if filled[pose] {
-                        results[pose] = engine.result(lane).map(Ok);
+                        let size = characteristic_length(&lanes.geometries[pose]);
+                        results[pose] = engine.result(lane, size).map(Ok);
                     }
                 }
             }
@@ -189,8 +191,9 @@ impl Lanes {
 }
 
 impl Engine {
-    /// The result of a pose; `None` where the lanes cannot vouch for it.
-    fn result(&self, lane: usize) -> Option<PoseResult> {
+    /// The result of a pose of a mechanism of this `size`; `None` where the lanes cannot vouch for it, or
+    /// where it asks for a look at the mechanism's freedom.
+    fn result(&self, lane: usize, size: f64) -> Option<PoseResult> {
         let at = |k: usize| self.buffers.result(k, lane);
         let mut stiffness = Matrix6::zeros();
         let mut next = 0;
@@ -205,7 +208,8 @@ impl Engine {
         let numbers = stiffness.iter().chain(displacement.iter());
         let sound = numbers.clone().all(|v| v.is_finite())
             && stiffness.diagonal().iter().all(|k| *k > 0.0)
-            && at(DISPLACEMENT_ERROR) <= TRUSTED;
+            && at(DISPLACEMENT_ERROR) <= TRUSTED
+            && !is_nearly_free(&stiffness, size);
         sound.then_some(PoseResult {
             stiffness: Some(stiffness),
             displacement: Some(displacement),

@@ -323,11 +323,13 @@ fn a_design_that_nothing_holds_is_rows() {
             sections: { "rod": Circle(diameter: 0.02) },
             bodies: {
                 "bar": Beam(through: ["A", "B"], section: "rod", material: "steel"),
-                "frame": Rigid(points: ["A", "B"]),
+                "frame": Rigid(points: ["B"]),
+                "hand": Rigid(points: ["B"]),
             },
             joints: {
                 "wall": (at: "A", between: ("ground", "bar"), kind: Fixed),
                 "tip": (at: "B", between: ("bar", "frame"), kind: Fixed),
+                "grip": (at: "B", between: ("frame", "hand"), kind: Fixed),
             },
             output: ("bar", "B"),
         )"#,
@@ -335,10 +337,10 @@ fn a_design_that_nothing_holds_is_rows() {
     let job = |first: &str| {
         format!(
             r#"(jobs: [(name: "two", mechanism: File("two.ron"),
-                vary: {{ "joints.wall.between.0": [{first}] }})])"#
+                vary: {{ "joints.tip.between.0": [{first}] }})])"#
         )
     };
-    bench.file("d.ron", &job(r#""frame", "ground""#));
+    bench.file("d.ron", &job(r#""hand", "bar""#));
     let run = ["run", "d.ron", "--out", "out"];
     let outcome = bench.hyperstat(&run).ends_with(1);
     assert!(
@@ -350,6 +352,6 @@ fn a_design_that_nothing_holds_is_rows() {
     let status: Vec<_> = rows(&table).iter().map(|row| row[7].to_string()).collect();
     assert_eq!(status, ["unrestrained", "ok"]);
     assert_eq!(rows(&table)[0][1..4], ["0.5", "0.0", "0.0"]);
-    bench.file("d.ron", &job(r#""frame""#));
+    bench.file("d.ron", &job(r#""hand""#));
     bench.hyperstat(&run).ends_with(2).says(&["nothing holds"]);
 }

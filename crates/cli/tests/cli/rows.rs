@@ -310,6 +310,63 @@ fn the_order_of_the_poses_is_that_of_the_rows_and_nothing_else() {
     }
 }
 
+/// A planar 3-RRR at the rotation at which its three distal links meet in P: there nothing resists a
+/// turn about z. That is told of the pose whether it is the first or not, as by `solve`.
+#[test]
+fn a_singular_pose_is_singular_wherever_it_stands() {
+    let bench = Bench::new("rows-singular");
+    // C1 − B1 along P − C1, in closed form: |B1| = 0.25 + 0.08 with P at the origin, |B1 − A1| = 0.22,
+    // |A1| = 0.3, so that the angle at P between A1 and B1 is that of a triangle of these sides.
+    let (a, b, c) = (0.30_f64, 0.25 + 0.08, 0.22_f64);
+    let turn = ((a * a + b * b - c * c) / (2.0 * a * b)).acos();
+    let loads =
+        r#"loads: [(on: ("platform", "P"), force: (1.0, 2.0, 3.0), moment: (0.1, 0.2, 0.3))],"#;
+    let regular = [
+        "(0.02, 0.01, 0.0, 0.0, 0.0, 0.1)",
+        "(-0.03, 0.02, 0.0, 0.0, 0.0, -0.2)",
+    ];
+    let mut found = 0;
+    for (elbow, turn) in [
+        ("Left", turn),
+        ("Left", -turn),
+        ("Right", turn),
+        ("Right", -turn),
+    ] {
+        let singular = format!("(0.0, 0.0, 0.0, 0.0, 0.0, {turn:?})");
+        let status = |poses: [&str; 3], more: &[&str]| {
+            let job = format!(
+                r#"(jobs: [(name: "d", mechanism: PlanarThreeRrr(
+                    base_radius: 0.30, platform_radius: 0.08, proximal_length: 0.22,
+                    distal_length: 0.25, elbow: {elbow},
+                    proximal: (section: Rectangle(width: 0.04, height: 0.02), material: (young: 7.0e10, poisson: 0.33)),
+                    distal: (section: Rectangle(width: 0.03, height: 0.02), material: (young: 7.0e10, poisson: 0.33)),
+                    drive_stiffness: 2e4,
+                ), poses: List([{}]), {loads})])"#,
+                poses.join(", ")
+            );
+            bench.file("d.ron", &job);
+            let arguments = [&["run", "d.ron", "--out", "out"][..], more].concat();
+            assert!(bench.hyperstat(&arguments).status() < 2);
+            let table = Table::read(&bench, "out/d.csv");
+            [0, 1, 2].map(|row| table.cell(row, "status").to_string())
+        };
+        for more in [&[][..], &["--one-by-one"]] {
+            let first = status([&singular, regular[0], regular[1]], more);
+            let last = status([regular[0], regular[1], &singular], more);
+            assert_eq!([&first[1], &first[2]], ["ok"; 2]);
+            assert_eq!([&last[0], &last[1]], ["ok"; 2]);
+            assert_eq!(first[0], last[2], "{elbow} {turn}");
+        }
+        let solved = bench.hyperstat(&["solve", "d.ron", "--pose", "2"]);
+        let solved = solved.status() == 0;
+        let last = status([regular[0], regular[1], &singular], &[]);
+        assert_eq!(last[2], if solved { "ok" } else { "unrestrained" });
+        found += usize::from(!solved);
+    }
+    // Each elbow is singular at one of the two rotations.
+    assert_eq!(found, 2);
+}
+
 /// What is not known before a pose is reached is empty where it is not: what was not asked for.
 #[test]
 fn what_is_not_known_of_a_row_is_empty() {
