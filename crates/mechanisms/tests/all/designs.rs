@@ -376,7 +376,7 @@ fn more_designs_than_are_checked() {
         try_job(&mechanism, &rest)
     };
     let error = vary("[0.02, Rigid]").unwrap_err();
-    assert_eq!(error.location().unwrap().line, 9);
+    assert_eq!(error.location().unwrap().line, 10);
     assert!(error.message().starts_with("design 1000: "), "{error}");
 
     let job = vary("[0.02, 0.012]").unwrap();
