@@ -151,7 +151,7 @@ mod tests {
     use indicatif::{ProgressBar, ProgressStyle};
     use rayon::ThreadPoolBuilder;
 
-    use super::{prepare, run_job};
+    use super::{Way, prepare, run_job};
     use crate::args::{Run, TableFormat};
 
     const BATCH: &str = r#"(jobs: [(
