@@ -37,6 +37,11 @@ impl Acting {
         Ok(Some(entries.into_iter().map(|entry| entry.name).collect()))
     }
 
+    /// Whether masses are given.
+    pub(crate) fn has_masses(&self) -> bool {
+        self.0[3].is_some()
+    }
+
     /// Reads the fields that are given, each in place of what the model has; see [`read`].
     pub(crate) fn read(
         &self,

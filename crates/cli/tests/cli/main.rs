@@ -9,6 +9,7 @@ mod help;
 mod messages;
 mod misfits;
 mod modes;
+mod parameters;
 mod plot;
 mod rows;
 mod run;
