@@ -67,6 +67,13 @@ pub struct State {
 }
 
 impl State {
+    pub(crate) fn is_finite(&self) -> bool {
+        let ends = self.segments.iter().flat_map(|segment| &segment.ends);
+        let vectors = self.displacements.iter().chain([&self.output]).chain(ends);
+        let vectors = vectors.chain(self.joint_wrenches.iter().flatten());
+        vectors.flatten().all(|number| number.is_finite())
+    }
+
     /// As [`Solution::inner_displacements`].
     ///
     /// # Errors
@@ -79,6 +86,15 @@ impl State {
         let forces = self.segments.get(segment.0);
         let load = &forces.ok_or(SolveError::ForeignModel)?.load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
+    }
+}
+
+impl Output {
+    pub(crate) fn is_finite(&self) -> bool {
+        let matrices = self.stiffness.iter().chain(&self.compliance).flatten();
+        let vectors = self.rigid_directions.iter().chain(&self.free_motions);
+        let vectors = vectors.chain([&self.displacement]).flatten();
+        matrices.chain(vectors).all(|number| number.is_finite())
     }
 }
 

@@ -8,7 +8,7 @@ use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
 use crate::floor::Floor;
-use crate::kinematics::echelon;
+use crate::kinematics::{characteristic_length, echelon};
 use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, evaluate, node_displacement};
@@ -41,6 +41,15 @@ pub struct PoseResult {
     pub displacement: Option<Vector6<f64>>,
     /// The same in each of the model's cases, in their order; none where the output moves freely.
     pub cases: Vec<Vector6<f64>>,
+}
+
+impl PoseResult {
+    fn is_finite(&self) -> bool {
+        let displacements = self.displacement.iter().chain(&self.cases);
+        let numbers = self.stiffness.iter().flatten();
+        let mut numbers = numbers.chain(displacements.flatten());
+        numbers.all(|number| number.is_finite())
+    }
 }
 
 /// What a full solve finds.
@@ -147,13 +156,17 @@ impl Plan {
     ) -> Result<PoseResult, SolveError> {
         self.check(model, geometry, workspace)?;
         let acting = Acting::of_model(model, geometry)?;
-        match self.sweep_pose(model, geometry, &acting, workspace) {
-            Ok(result) => Ok(result),
-            Err(Fault::Error(error)) => Err(error),
+        let result = match self.sweep_pose(model, geometry, &acting, workspace) {
+            Ok(result) => result,
+            Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
-                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))
+                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))?
             }
+        };
+        match result.is_finite() {
+            true => Ok(result),
+            false => Err(SolveError::Overflow),
         }
     }
 
@@ -184,12 +197,13 @@ impl Plan {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
-            let wrenches = state.joint_wrenches.iter().flatten();
-            let numbers = state.displacements.iter().chain(wrenches).flatten();
-            if !numbers.into_iter().all(|v| v.is_finite()) {
+            if !state.is_finite() {
                 return Err(SolveError::Overflow.into());
             }
             states.push(state);
+        }
+        if !output.is_finite() {
+            return Err(SolveError::Overflow.into());
         }
         if let Some(value) = doubtful {
             let nearly_free = restraint.kinematics.nearly_free.as_ref();
@@ -226,7 +240,10 @@ impl Plan {
         let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
         if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
             let stiffness = self.stiffness_by_energy(workspace);
-            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
+            // Next to nothing may be nothing: then it is looked at, whatever the plan's own
+            // configuration was.
+            let held = !is_nearly_free(&stiffness, characteristic_length(geometry));
+            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
                 let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
                 let mut displacement = |column| {
                     if even {
@@ -503,6 +520,14 @@ fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
     Some(Matrix6::from_fn(|r, c| {
         inverse[(r, c)] / (scale[r] * scale[c])
     }))
+}
+
+/// Whether the output's stiffness along or about some axis is next to nothing beside the largest, those
+/// of translations at the mechanism's size: it may be rounding.
+pub(crate) fn is_nearly_free(stiffness: &Matrix6<f64>, size: f64) -> bool {
+    let along = |k: usize| stiffness[(k, k)] * scale_of(k, size).powi(2);
+    let largest = (0..6).map(along).fold(0.0, f64::max);
+    (0..6).any(|k| along(k) <= SUSPICIOUS_PIVOT * largest)
 }
 
 /// A fault of a plan made for this very configuration.

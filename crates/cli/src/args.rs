@@ -94,16 +94,21 @@ Writes DIR/<job>.csv, one row a pose in the order of the poses, with the columns
   pose,x,y,z,rx,ry,rz,status,dx,dy,dz,drx,dry,drz,k11,k12,...,k16,k22,...,k66
 (pose of the output, its displacement, upper triangle of its stiffness), and the job's figures as
 DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no result:
+  design         the varied values make no mechanism
   unreachable    the mechanism cannot take this pose
   singular       a part of the mechanism could take any of many places in this pose
+  branch         a mechanism of a file reaches it in another assembly mode only
   unrestrained   something moves freely there, or a load works on a free motion
   rigid          the output is rigidly held in some direction: it has no finite stiffness; its
                  displacement stands in the row
   failed         the numbers could not be found
+What is not known is empty, a coordinate that was not asked for too. Where the poses are values of
+drives, they stand in columns after k66, named as in their table (A1.v).
 A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
 one for every path that varies, with its value. A job with `modes: N` has its natural frequencies
 in columns f1, f2, ... [Hz] after k66.
-A pose without a result does not end the run; the exit status is then 1.
+A pose or a design without a result does not end the run; the exit status is then 1. Nor does a
+closed standard output.
 A file is put in place when it is complete, never half written. Nothing that was read is written to.
 A run of more than 1e9 rows, or of more than 90 % of the free disk, asks first; where nobody can be
 asked it needs --yes.
@@ -141,9 +146,11 @@ const PLOT_HELP: &str = "\
 Of a table of `run`: --map, --lines, --trajectory. Any column of numbers can be drawn, and what is
 found from others:
   deflection, rotation                     length of the output's displacement, angle of its rotation
-  stiffness_min, stiffness_max             principal stiffness against a force alone
-  stiffness_x, stiffness_y, stiffness_z    stiffness against a force along an axis alone
-  rotational_stiffness_min, …_max, …_x …   the same against a moment alone
+  pure_force_stiffness_min, …_max          principal stiffness against a force, rotations free
+  pure_force_stiffness_x, …_y, …_z         stiffness against a force along an axis alone
+  pure_moment_stiffness_min, …_max, …_x …  the same against a moment, translations free
+  pure_translation_stiffness_min, …_max    principal stiffness against a translation, rotations held
+  pure_rotation_stiffness_min, …_max       the same against a rotation, translations held
 A column of a load case is written with the case's name: push.dz, push.deflection.
 Poses on a grid become a heat map with contours, others coloured dots; poses without a result stay
 white and are marked. Lines over what varies: a curve for each value of what else varies.
@@ -155,11 +162,12 @@ Standard output gets the names of the files, and a caption.
 
 Examples:
   hyperstat plot out/delta-map.csv --map k33 --plane z=0.5 --out map
-  hyperstat plot out/delta-map.csv --map stiffness_min       Every plane, side by side
+  hyperstat plot out/delta-map.csv --map pure_force_stiffness_min
+                                             Every plane, side by side
   hyperstat plot out/delta-map.csv --map deflection --limits 1e-4,1e-3 --scale log
   hyperstat plot out/path.csv --lines dx,dy,dz,drx
   hyperstat plot out/path.csv --lines deflection --over x
-  hyperstat plot out/designs.csv --lines stiffness_min --over rod.section.diameter --pose 3
+  hyperstat plot out/designs.csv --lines pure_force_stiffness_min --over rod.section.diameter --pose 3
   hyperstat plot out/path.csv --trajectory
   hyperstat plot portal.ron --deformed --scale 200
   hyperstat plot paper.ron --job delta --pose 12 --mode 1
@@ -262,6 +270,10 @@ pub(crate) struct Run {
     /// Run without a question, however many rows and bytes it makes
     #[arg(long)]
     pub(crate) yes: bool,
+    /// Solve every pose by itself with the method of the paper, refined, not eight at a time in SIMD
+    /// lanes: the same to 1e-11, and slower
+    #[arg(long)]
+    pub(crate) one_by_one: bool,
 }
 
 /// `hyperstat check`

@@ -297,7 +297,7 @@ impl Case {
     }
 }
 
-/// The model of a job's first design at one of its poses.
+/// The model of a job's first design that can be, at one of its poses.
 pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, PoseError> {
     let mut model = job.model()?;
     let mut geometry = model.geometry().clone();

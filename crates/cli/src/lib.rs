@@ -85,8 +85,8 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
-        Command::Run(args) => batch::run(args, registry, print),
-        Command::Plot(args) => plot::run(args, registry, print),
+        Command::Run(args) => batch::run(args, registry, tell),
+        Command::Plot(args) => plot::run(args, registry, tell),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -205,6 +205,15 @@ fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
         }
     }
     Ok(true)
+}
+
+/// Prints what is said of results that are files: who closes standard output, as `head` does, has no
+/// need of it.
+fn tell(text: &str) -> Result<(), CliError> {
+    match print(text) {
+        Err(error) if error.is_closed_pipe() => Ok(()),
+        printed => printed,
+    }
 }
 
 fn print(text: &str) -> Result<(), CliError> {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use hyperstat_assembly::{Geometry, ModalOptions, Model};
 
 use crate::commanded::Commanded;
-use crate::design::{Design, Designs, Varied};
+use crate::design::{Design, Designs, Value, Varied};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
 use crate::figures::{self, Figure, Known};
@@ -49,8 +49,11 @@ pub struct Job {
     poses: Arc<Poses>,
     /// Where `vary` is given.
     designs: Option<Designs>,
-    /// Of the first design.
+    /// Names of the cases.
+    cases: Vec<String>,
+    /// The first design that can be, and its number.
     first: Arc<Subject>,
+    first_design: usize,
     place: Place,
 }
 
@@ -144,22 +147,24 @@ impl Job {
         };
         let poses = written.poses(fields)?;
         let mut first = recipe.load(written, &poses, None)?;
+        let cases = recipe.cases(&first)?;
         let figures = match fields.get("figures") {
             Some(list) => figures::read(
                 list,
                 &Known {
                     poses: poses.len(),
-                    cases: first.model().is_ok().then(|| first.cases()),
+                    cases: &cases,
                 },
             )?,
             None => Vec::new(),
         };
         let (figures, figure_places) = figures.into_iter().unzip();
         let modes = fields.get("modes").map(modes::read).transpose()?;
+        let mut first_design = 0;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
-                let designs = Designs::check(variation, known.into_inner(), &recipe)?;
-                first = designs.load(0, &recipe, &poses, &first)?;
+                let designs = Designs::new(variation, known.into_inner());
+                (first_design, first) = designs.first(&recipe, &poses, &first)?;
                 Some(designs)
             }
             None => None,
@@ -172,7 +177,9 @@ impl Job {
             recipe,
             poses: Arc::new(poses),
             designs,
+            cases,
             first: Arc::new(first),
+            first_design,
             place,
         })
     }
@@ -195,31 +202,59 @@ impl Job {
     }
 
     /// Names of its cases, in their order; the same in every design.
-    pub fn cases(&self) -> Vec<String> {
-        self.first.cases()
+    pub fn cases(&self) -> &[String] {
+        &self.cases
+    }
+
+    /// Names `joint.direction` of the drives whose values its poses are, in the order of their table;
+    /// none where its poses are those of the output.
+    pub fn drives(&self) -> &[String] {
+        self.poses.drives()
+    }
+
+    /// Values \[m, rad\] of these drives in a pose (from 0).
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn drive_values(&self, pose: usize) -> &[f64] {
+        self.poses.drive_values(pose)
+    }
+
+    /// Number of the first design that can be, of which figures are drawn: 0 unless its values make no
+    /// mechanism. Some design always can be.
+    pub fn first_design(&self) -> usize {
+        self.first_design
+    }
+
+    /// The varied values of a design, which need not be one that can be; none where nothing varies.
+    ///
+    /// # Panics
+    /// If `number` is not below [`Job::designs`].
+    pub fn values(&self, number: usize) -> Vec<Value> {
+        assert!(number < self.designs(), "there is no design {number}");
+        let designs = self.designs.as_ref();
+        designs.map_or_else(Vec::new, |designs| designs.values(number))
     }
 
     /// One of the designs, from 0.
     ///
     /// # Errors
-    /// The mistake in a mechanism that the varied values make, at the value that is to blame: only
-    /// in a job of so many designs that they were not all checked when it was read.
+    /// The mistake in a mechanism that the varied values make, at the value that is to blame.
     ///
     /// # Panics
     /// If `number` is not below [`Job::designs`].
     pub fn design(&self, number: usize) -> Result<Design, LoadError> {
         assert!(number < self.designs(), "there is no design {number}");
-        let (values, subject) = match &self.designs {
-            None => (Vec::new(), Arc::clone(&self.first)),
-            Some(designs) if number == 0 => (designs.values(0), Arc::clone(&self.first)),
-            Some(designs) => {
+        let subject = match &self.designs {
+            Some(designs) if number != self.first_design => {
                 let subject = designs.load(number, &self.recipe, &self.poses, &self.first)?;
-                (designs.values(number), Arc::new(subject))
+                Arc::new(subject)
             }
+            _ => Arc::clone(&self.first),
         };
         Ok(Design {
             number,
-            values,
+            values: self.values(number),
             subject,
             poses: Arc::clone(&self.poses),
         })
@@ -258,7 +293,7 @@ impl Job {
         self.poses.commanded(&self.first)
     }
 
-    /// [`Design::model`] of the first design.
+    /// [`Design::model`] of the first design that can be.
     ///
     /// # Errors
     /// As there.
@@ -266,7 +301,7 @@ impl Job {
         self.first.model()
     }
 
-    /// [`Design::place`] of the first design.
+    /// [`Design::place`] of the first design that can be.
     ///
     /// # Errors
     /// As there.
@@ -274,12 +309,17 @@ impl Job {
         self.first.place(&self.poses, pose, geometry)
     }
 
-    /// [`Design::target`] of any design.
-    pub fn target(&self, pose: usize) -> [f64; 6] {
-        self.poses.get(pose)
+    /// What is known of a pose (from 0) of any design before it is reached, x y z \[m\] and rotation
+    /// vector \[rad\]: the numbers given, and what is zero in every pose of the mechanism; `None` of the
+    /// rest.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn target(&self, pose: usize) -> [Option<f64>; 6] {
+        self.first.target(&self.poses, pose)
     }
 
-    /// [`Design::mechanism`] of the first design.
+    /// [`Design::mechanism`] of the first design that can be.
     pub fn mechanism(&self) -> Option<&Mechanism> {
         self.first.mechanism()
     }

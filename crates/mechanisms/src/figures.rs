@@ -123,11 +123,11 @@ pub enum Scale {
 }
 
 /// What a job has that its figures may name.
-pub(crate) struct Known {
+pub(crate) struct Known<'a> {
     /// Number of poses.
     pub(crate) poses: usize,
-    /// Names of the cases; `None` where they are not known.
-    pub(crate) cases: Option<Vec<String>>,
+    /// Names of the cases.
+    pub(crate) cases: &'a [String],
 }
 
 /// Kinds of figures with their fields.
@@ -140,12 +140,15 @@ const KINDS: [(&str, &[&str]); 5] = [
 ];
 
 /// Reads the figures of a job, each with its place: that of the quantity, of a map.
-pub(crate) fn read(list: Fragment<'_>, known: &Known) -> Result<Vec<(Figure, Place)>, LoadError> {
+pub(crate) fn read(
+    list: Fragment<'_>,
+    known: &Known<'_>,
+) -> Result<Vec<(Figure, Place)>, LoadError> {
     let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
     list.into_iter().map(|item| figure(item, known)).collect()
 }
 
-fn figure(whole: Fragment<'_>, known: &Known) -> Result<(Figure, Place), LoadError> {
+fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), LoadError> {
     let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
     let found = KINDS.into_iter().find(|(kind, _)| *kind == word.text());
     let (kind, names) = found.ok_or_else(|| {
@@ -205,17 +208,15 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<(Figure, Place), LoadErr
 }
 
 /// Reads the name of a case.
-fn case(fragment: Fragment<'_>, known: &Known) -> Result<String, LoadError> {
+fn case(fragment: Fragment<'_>, known: &Known<'_>) -> Result<String, LoadError> {
     let name = fragment.string()?;
-    match &known.cases {
-        Some(cases) if !cases.contains(&name) => {
-            let cases = cases.iter().map(String::as_str);
-            Err(fragment
-                .error(format!("there is no case `{name}`"))
-                .with_help(names::help(&name, "cases", cases)))
-        }
-        _ => Ok(name),
+    if known.cases.contains(&name) {
+        return Ok(name);
     }
+    let cases = known.cases.iter().map(String::as_str);
+    Err(fragment
+        .error(format!("there is no case `{name}`"))
+        .with_help(names::help(&name, "cases", cases)))
 }
 
 /// Reads the number of a mode.

@@ -125,7 +125,9 @@ impl<'a> Fragment<'a> {
         if found.len() < self.text.len() {
             found.push('…');
         }
-        let error = self.error(format!("expected {expected}, found `{found}`"));
+        let error = self
+            .error(format!("expected {expected}, found `{found}`"))
+            .unreadable();
         // What is right instead shows what is wrong.
         let right = slips::in_value(self.text, expected).filter(|_| self.source.is_shown());
         match right {
@@ -150,12 +152,30 @@ impl<'a> Fragment<'a> {
         if !number.is_finite() {
             return Err(self
                 .error(format!("`{}` is not a finite number", self.text))
+                .unreadable()
                 .with_help("give a number such as 0.25 or 2.1e11"));
         }
         if let Some(overlay) = self.overlay {
             overlay.learn_number(self, number);
         }
         Ok(number)
+    }
+
+    /// A number of what acts on a mechanism, no larger than [`MOST`].
+    pub(crate) fn acting(self) -> Result<f64, LoadError> {
+        let number = self.number()?;
+        if number.abs() > MOST {
+            return Err(self
+                .error(format!("nothing that acts is larger than {MOST:?}"))
+                .with_help("units are m, N, rad, kg, s and K"));
+        }
+        Ok(number)
+    }
+
+    /// Three of them.
+    pub(crate) fn acting_vector(self) -> Result<Vector3<f64>, LoadError> {
+        let [x, y, z] = self.array("three numbers `(x, y, z)`")?;
+        Ok(Vector3::new(x.acting()?, y.acting()?, z.acting()?))
     }
 
     pub(crate) fn string(self) -> Result<String, LoadError> {
@@ -308,6 +328,10 @@ impl<'a> Fragment<'a> {
         ))
     }
 }
+
+/// Largest number of what acts, in SI units: the squares of larger ones, and their products with
+/// stiffnesses and lever arms, overflow.
+const MOST: f64 = 1e50;
 
 /// What a key of a map is.
 const NAME: &str = "a name in quotes";

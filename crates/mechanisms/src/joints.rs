@@ -125,7 +125,7 @@ fn set(
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
-            values[dof.index()] = value.number()?;
+            values[dof.index()] = value.acting()?;
         }
     }
     set(&values).map_err(|error| {

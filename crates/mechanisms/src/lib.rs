@@ -21,6 +21,7 @@ mod figures;
 pub mod files;
 mod flexible;
 mod fragment;
+mod home;
 mod joints;
 mod kinds;
 mod load;

@@ -20,7 +20,7 @@ pub(crate) fn body_or_ground(model: &Model, name: Fragment<'_>) -> Result<BodyId
 fn named(model: &Model, name: Fragment<'_>, other: Option<&str>) -> Result<BodyId, LoadError> {
     let text = name.string()?;
     model.body(&text).ok_or_else(|| {
-        let error = name.error(format!("unknown body `{text}`"));
+        let error = name.error(format!("unknown body `{text}`")).unreadable();
         if other.is_some() && FIXED.contains(&text.to_lowercase().as_str()) {
             return error.with_help(format!("the fixed body is `{GROUND}`"));
         }

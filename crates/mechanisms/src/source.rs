@@ -221,6 +221,7 @@ impl Place {
                 false => NOT_SHOWN.into(),
             },
             help: None,
+            unreadable: false,
         }
     }
 }

@@ -47,6 +47,7 @@ impl<T> Table<T> {
         self.values.get(&text).ok_or_else(|| {
             let known = self.names.iter().map(String::as_str);
             name.error(format!("unknown {} `{text}`", self.what))
+                .unreadable()
                 .with_help(names::help(&text, &format!("{}s", self.what), known))
         })
     }

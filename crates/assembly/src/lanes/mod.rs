@@ -38,9 +38,10 @@ use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::SolveError;
+use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model};
 use crate::plan::{Plan, Workspace};
-use crate::solve::PoseResult;
+use crate::solve::{PoseResult, is_nearly_free};
 use buffers::Buffers;
 use pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use program::Program;
@@ -92,6 +93,11 @@ impl Plan {
         self.lanes_on(model, Arch::new())
     }
 
+    /// The same for poses that all go through [`Plan::sweep`], one by one.
+    pub fn lanes_one_by_one(&self, model: &Model) -> Lanes {
+        self.lanes_with(model, Arch::new(), None)
+    }
+
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
         let taken = model.has_plain_loads()
@@ -103,6 +109,10 @@ impl Plan {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
+        self.lanes_with(model, arch, engine)
+    }
+
+    fn lanes_with(&self, model: &Model, arch: Arch, engine: Option<Engine>) -> Lanes {
         Lanes {
             plan: self.id,
             model: model.revisions(),
@@ -162,7 +172,8 @@ impl Plan {
                 });
                 for (lane, pose) in range.enumerate() {
                     if taken[pose] {
-                        results[pose] = engine.result(lane).map(Ok);
+                        let size = characteristic_length(&lanes.geometries[pose]);
+                        results[pose] = engine.result(lane, size).map(Ok);
                     }
                 }
             }
@@ -206,8 +217,9 @@ impl Lanes {
 }
 
 impl Engine {
-    /// The result of a pose; `None` where the lanes cannot vouch for it.
-    fn result(&self, lane: usize) -> Option<PoseResult> {
+    /// The result of a pose of a mechanism of this `size`; `None` where the lanes cannot vouch for it, or
+    /// where it asks for a look at the mechanism's freedom.
+    fn result(&self, lane: usize, size: f64) -> Option<PoseResult> {
         let at = |k: usize| self.buffers.result(k, lane);
         let mut stiffness = Matrix6::zeros();
         let mut next = 0;
@@ -222,7 +234,8 @@ impl Engine {
         let numbers = stiffness.iter().chain(displacement.iter());
         let sound = numbers.clone().all(|v| v.is_finite())
             && stiffness.diagonal().iter().all(|k| *k > 0.0)
-            && at(DISPLACEMENT_ERROR) <= TRUSTED;
+            && at(DISPLACEMENT_ERROR) <= TRUSTED
+            && !is_nearly_free(&stiffness, size);
         sound.then_some(PoseResult {
             stiffness: Some(stiffness),
             displacement: Some(displacement),

@@ -27,10 +27,11 @@ use crate::{outputs, terminal};
 use record::Columns;
 use statistics::Statistics;
 use summary::Summary;
-use sweep::{Chunk, Sweep};
+use sweep::{Chunk, Sweep, Way};
 use table::Table;
 
-/// Runs a batch. `tell` gets the summary of every job.
+/// Runs a batch. `tell` gets the summary of every job; what it fails with ends no run, since the
+/// results are files.
 ///
 /// Returns whether every pose has a result.
 pub(crate) fn run(
@@ -39,7 +40,11 @@ pub(crate) fn run(
     mut tell: impl FnMut(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
     let batch = hyperstat_mechanisms::load_batch(&args.file, registry)?;
-    let sweeps = prepare(&batch)?;
+    let way = match args.one_by_one {
+        true => Way::OneByOne,
+        false => Way::Lanes,
+    };
+    let sweeps = prepare(&batch, way)?;
     check_outputs(&batch, args)?;
     consent::ask(&sweeps, args)?;
     fs::create_dir_all(&args.out).map_err(|source| CliError::Write {
@@ -52,14 +57,15 @@ pub(crate) fn run(
     let rows = sweeps.iter().map(|sweep| sweep.len() as u64);
     let bar = progress_bar(rows.fold(0, u64::saturating_add));
     let mut complete = true;
+    let mut told = Ok(());
     for sweep in &sweeps {
         bar.set_message(sweep.job().name.clone());
         let summary = run_job(sweep, args, &pool, &bar)?;
         complete &= summary.is_complete();
-        bar.suspend(|| tell(&summary.to_string()))?;
+        told = told.and(bar.suspend(|| tell(&summary.to_string())));
     }
     bar.finish_and_clear();
-    Ok(complete)
+    told.map(|()| complete)
 }
 
 /// Most threads a core: more would wait for each other.
@@ -110,17 +116,15 @@ fn summary_path(job: &Job, args: &args::Run) -> PathBuf {
 }
 
 /// Checks all jobs before the first runs.
-fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
-    batch.jobs.iter().map(prepare_job).collect()
+fn prepare(batch: &Batch, way: Way) -> Result<Vec<Sweep<'_>>, CliError> {
+    let prepare = |job| prepare_job(job, way);
+    batch.jobs.iter().map(prepare).collect()
 }
 
-fn prepare_job(job: &Job) -> Result<Sweep<'_>, CliError> {
+fn prepare_job(job: &Job, way: Way) -> Result<Sweep<'_>, CliError> {
     let columns = table::numeric(&Columns::of(job));
     figures::check(job, &columns)?;
-    Sweep::new(job).map_err(|unsolvable| {
-        let (model, error) = *unsolvable;
-        Source::Job(job).unsolvable(&model, error)
-    })
+    Sweep::new(job, way)
 }
 
 /// Writes a job's table and its figures.
@@ -150,9 +154,6 @@ fn run_job(
         }
     };
     sweep.run(pool, render, |chunk| -> Result<(), CliError> {
-        if let Some(refused) = chunk.refused.take() {
-            return Err(refused.into());
-        }
         table.append(chunk).map_err(cannot_write)?;
         summary.add(&chunk.records);
         for (row, record) in chunk.rows.clone().zip(&chunk.records) {
@@ -167,9 +168,10 @@ fn run_job(
             }
         }
         if let Some(trajectory) = &mut trajectory {
-            // Figures are of the first design.
-            let more = job.len().saturating_sub(chunk.rows.start);
-            trajectory.add(&chunk.records[..more.min(chunk.records.len())]);
+            // Figures are of the first design that can be.
+            let first = job.first_design() * job.len();
+            let place = |row: usize| row.clamp(chunk.rows.start, chunk.rows.end) - chunk.rows.start;
+            trajectory.add(&chunk.records[place(first)..place(first + job.len())]);
         }
         bar.inc(chunk.records.len() as u64);
         Ok(())
@@ -215,7 +217,7 @@ mod tests {
     use indicatif::{ProgressBar, ProgressStyle};
     use rayon::ThreadPoolBuilder;
 
-    use super::{prepare, run_job, threads};
+    use super::{Way, prepare, run_job, threads};
     use crate::args::{Run, TableFormat};
 
     const BATCH: &str = r#"(jobs: [(
@@ -233,7 +235,7 @@ mod tests {
     #[test]
     fn the_bar_ends_at_the_number_of_poses() {
         let batch = batch_from_str(BATCH, Path::new("."), &Registry::builtin()).unwrap();
-        let sweeps = prepare(&batch).unwrap();
+        let sweeps = prepare(&batch, Way::Lanes).unwrap();
         let out = std::env::temp_dir().join(format!("hyperstat-bar-{}", std::process::id()));
         std::fs::create_dir_all(&out).unwrap();
         let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
@@ -246,6 +248,7 @@ mod tests {
             threads: 3,
             summary: false,
             yes: false,
+            one_by_one: false,
         };
         let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
         assert!(!summary.is_complete());

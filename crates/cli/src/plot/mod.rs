@@ -24,7 +24,7 @@ use crate::outputs;
 pub(crate) use error::PlotError;
 use lines::Lines;
 pub(crate) use map::{Map, figure as map};
-pub(crate) use quantity::{Drawn, known as quantities};
+pub(crate) use quantity::{Drawn, instead_of};
 pub(crate) use rows::Choice;
 pub(crate) use table::Table;
 

@@ -16,6 +16,7 @@ mod misfits;
 mod modes;
 mod parameters;
 mod plot;
+mod rows;
 mod run;
 mod safety;
 mod shapes;

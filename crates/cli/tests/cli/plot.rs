@@ -36,10 +36,14 @@ fn a_map_of_a_plane_and_of_all_planes() {
     assert!(svg.contains(">\nk33 (MN/m)\n<") && svg.contains("<title>map</title>"));
     assert_eq!(&fs::read(bench.path("one.png")).unwrap()[..4], b"\x89PNG");
 
-    let all = ["plot", "out/map.csv", "--map", "stiffness_min"];
+    let all = ["plot", "out/map.csv", "--map", "pure_force_stiffness_min"];
     let outcome = bench.hyperstat(&all).ends_with(0);
-    assert!(outcome.out().starts_with("out/map-stiffness_min.svg\n"));
-    let svg = bench.read("out/map-stiffness_min.svg");
+    assert!(
+        outcome
+            .out()
+            .starts_with("out/map-pure_force_stiffness_min.svg\n")
+    );
+    let svg = bench.read("out/map-pure_force_stiffness_min.svg");
     for plane in ["z = 0.45 m", "z = 0.55 m", "z = 0.65 m"] {
         assert!(svg.contains(&format!(">\n{plane}\n<")), "{plane}");
     }
@@ -164,7 +168,7 @@ fn lines_over_what_varies_take_one_pose_of_each_design() {
         "over",
     ];
     let arguments = [
-        &["plot", "designs.csv", "--lines", "stiffness_min"],
+        &["plot", "designs.csv", "--lines", "pure_force_stiffness_min"],
         &over[..],
     ]
     .concat();

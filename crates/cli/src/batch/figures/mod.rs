@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::case::{Source, job_model};
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
-use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
+use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, instead_of};
 use crate::report::{self, Asked};
 pub(crate) use trajectory::Trajectory;
 
@@ -28,7 +28,7 @@ pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
                 if Drawn::named(value, columns).is_none() {
                     return Err(refused(PlotError::NoQuantity {
                         name: value.clone(),
-                        help: quantities(value, columns),
+                        help: instead_of(value, columns),
                     }));
                 }
                 let commanded = job.commanded();
@@ -36,7 +36,8 @@ pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
                     map.check(&commanded).map_err(refused)?;
                 }
             }
-            Figure::Mode { number, .. } => {
+            // Of a job that varies it is left out where the first design has none.
+            Figure::Mode { number, .. } if job.varied().is_empty() => {
                 // Where no pose can be reached there is no model, and no figure.
                 if let Ok(model) = job.model() {
                     ModalPlan::new(&model, &modal_options(job, *number))
@@ -135,9 +136,9 @@ fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Model, Solution
     held.then_some((model, solution))
 }
 
-/// Title of a figure of the job's first design.
+/// Title of a figure of the job's first design that can be.
 fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
-    let design = (!job.varied().is_empty()).then_some(0);
+    let design = (!job.varied().is_empty()).then_some(job.first_design());
     drawing::title(&job.name, design, Some(pose), case)
 }
 
@@ -228,7 +229,7 @@ fn map(figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
             ColorScale::Log => hyperstat_figures::ColorScale::Log,
         },
         choice: Choice {
-            design: Some(0),
+            design: Some(job.first_design()),
             pose: None,
         },
         title: None,

@@ -41,9 +41,10 @@ impl Trajectory {
     /// Adds the next poses.
     pub(crate) fn add(&mut self, records: &[Record]) {
         for record in records {
-            match &record.result {
-                Ok(found) if self.seen.is_multiple_of(self.stride) => {
-                    let [x, y, z, ..] = record.pose;
+            match (&record.result, record.pose) {
+                (Ok(found), [Some(x), Some(y), Some(z), ..])
+                    if self.seen.is_multiple_of(self.stride) =>
+                {
                     self.poses.push(self.seen);
                     self.commanded.push([x, y, z]);
                     self.displacement.push(linear(&found.displacement));

@@ -46,7 +46,7 @@ fn append(text: &mut String, row: &Row<'_>) {
     let record = row.record;
     // Writing to a String cannot fail.
     let _ = write!(text, "{}", row.pose);
-    append_numbers(text, &record.pose);
+    append_known(text, &record.pose);
     text.push(',');
     text.push_str(record.status());
     let further = match record.known() {
@@ -69,6 +69,7 @@ fn append(text: &mut String, row: &Row<'_>) {
             None => text.push(','),
         }
     }
+    append_numbers(text, row.drives);
     if let Some((number, values)) = row.design {
         let _ = write!(text, ",{number}");
         for value in values {
@@ -82,6 +83,16 @@ fn append(text: &mut String, row: &Row<'_>) {
         }
     }
     text.push('\n');
+}
+
+/// Appends each number as [`append_numbers`], nothing but the comma for one that is not known.
+fn append_known(text: &mut String, numbers: &[Option<f64>]) {
+    for number in numbers {
+        match number {
+            Some(number) => append_numbers(text, &[*number]),
+            None => text.push(','),
+        }
+    }
 }
 
 /// Appends each number, with a comma before it, as the shortest decimal number that reads back to
@@ -107,7 +118,7 @@ mod tests {
     fn two_further() -> Columns<'static> {
         Columns {
             further: vec!["f1".into(), "f2".into()],
-            varied: &[],
+            ..Columns::default()
         }
     }
 
@@ -116,6 +127,7 @@ mod tests {
             pose,
             record,
             further: 0,
+            drives: &[],
             design: None,
         }
     }
@@ -129,7 +141,7 @@ mod tests {
         };
         let mut text = String::new();
         let record = Record {
-            pose: [1.0 / 7.0, 0.0, 0.5, 0.0, 0.0, -1e-20],
+            pose: [1.0 / 7.0, 0.0, 0.5, 0.0, 0.0, -1e-20].map(Some),
             result: Ok(found.clone()),
         };
         append(&mut text, &row(12, &record));
@@ -140,8 +152,8 @@ mod tests {
         let number = |name: &str| cell(name).parse::<f64>().unwrap();
         assert_eq!(cell("pose"), "12");
         assert_eq!(cell("status"), "ok");
-        assert_eq!(number("x"), record.pose[0]);
-        assert_eq!(number("rz"), record.pose[5]);
+        assert_eq!(Some(number("x")), record.pose[0]);
+        assert_eq!(Some(number("rz")), record.pose[5]);
         assert_eq!((number("f1"), cell("f2")), (0.1, ""));
         for (k, name) in ["dx", "dy", "dz", "drx", "dry", "drz"].iter().enumerate() {
             assert_eq!(number(name).to_bits(), found.displacement[k].to_bits());
@@ -161,7 +173,7 @@ mod tests {
             further: vec![Some(3.0)],
         };
         let record = Record {
-            pose: [0.0; 6],
+            pose: [Some(0.0); 6],
             result: Err(Failure::Rigid(Box::new(held))),
         };
         let mut text = String::new();
@@ -183,23 +195,30 @@ mod tests {
     }
 
     #[test]
-    fn a_pose_without_result_has_empty_numbers() {
+    fn what_is_not_known_is_empty() {
         let what = "too far".to_string();
         let record = Record {
-            pose: [9.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            pose: [Some(9.0), Some(0.0), None, None, Some(-0.5), None],
             result: Err(Failure::Pose(PoseError::Unreachable { what })),
         };
         let mut text = String::new();
         let row = Row {
             further: 2,
+            drives: &[0.25, -1.0],
             ..row(0, &record)
         };
         append(&mut text, &row);
-        assert!(text.starts_with("0,9.0,0.0,0.0,0.0,0.0,0.0,unreachable,,"));
+        let nothing = ",".repeat(29);
         assert_eq!(
-            text.matches(',').count() + 1,
-            columns(&two_further()).count()
+            text,
+            format!("0,9.0,0.0,,,-0.5,,unreachable{nothing},0.25,-1.0\n")
         );
-        assert!(text.trim_end().ends_with(&",".repeat(29)));
+        let drives = ["A1.v", "A2.v"].map(String::from);
+        let wanted = Columns {
+            drives: &drives,
+            ..two_further()
+        };
+        assert_eq!(text.matches(',').count() + 1, columns(&wanted).count());
+        assert!(columns(&wanted).skip(35 + 2).eq(drives.clone()));
     }
 }

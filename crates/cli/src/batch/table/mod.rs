@@ -17,7 +17,8 @@ const STATUS: &str = "status";
 const DESIGN: &str = "design";
 
 /// Names of the columns: the number of the pose, the pose, the status, and the numbers found; of a
-/// job that varies the number of the design and its values after them.
+/// job whose poses are values of drives these after them; of a job that varies the number of the design
+/// and its values last.
 pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     let varied = columns.varied;
     let pose = ["pose", "x", "y", "z", "rx", "ry", "rz"];
@@ -28,6 +29,7 @@ pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     let values = varied.iter().map(|varied| varied.path.clone());
     let found = first.map(String::from).chain(stiffness);
     let found = found.chain(columns.further.iter().cloned());
+    let found = found.chain(columns.drives.iter().cloned());
     found.chain(design).chain(values)
 }
 
