@@ -16,7 +16,8 @@ use proptest::prelude::*;
 
 /// Agreement of K_o, as a share of its scale √(K_ii K_jj).
 const AGREEMENT: f64 = 1e-8;
-/// A warning's figure is an order of magnitude: the last correction of the refinement.
+/// Where a warning says how far results may be off, the independent solver loses digits too, in another
+/// way and without a word.
 const WITHIN_FIGURE: f64 = 100.0;
 /// Cases of every test.
 const CASES: u32 = 100;
