@@ -198,8 +198,7 @@ fn of_number(text: &str) -> Option<(String, String)> {
         );
         return Some((message, help));
     }
-    if rest.starts_with(',') {
-        let digits = &rest[1..];
+    if let Some(digits) = rest.strip_prefix(',') {
         let right = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
         return right.then(|| (POINT.into(), format!("write {}.{digits}", &text[..first])));
     }
