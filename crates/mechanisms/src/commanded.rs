@@ -42,19 +42,12 @@ impl Poses {
             Self::Asked(Targets::Grid(axes)) => (axes.iter().enumerate())
                 .filter_map(|(k, values)| Some(named(k, axis(values.as_ref()?))))
                 .collect(),
-            Self::Asked(Targets::Drives { drives, rows }) => {
-                let joints = subject
-                    .mechanism()
-                    .map(|mechanism| mechanism.model.joints());
-                let joints = joints.unwrap_or_default();
-                let drives = drives.iter().enumerate();
-                drives
-                    .map(|(place, (joint, direction))| Commanded {
-                        name: format!("{}.{direction}", joints[joint.0].name),
-                        values: rows.iter().map(|row| row[place]).collect(),
-                    })
-                    .collect()
-            }
+            Self::Asked(Targets::Drives { names, rows, .. }) => (names.iter().enumerate())
+                .map(|(place, name)| Commanded {
+                    name: name.clone(),
+                    values: rows.iter().map(|row| row[place]).collect(),
+                })
+                .collect(),
         }
     }
 }
