@@ -58,7 +58,7 @@ pub use modal::{
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
-    NodeMass, Segment, SegmentId, ValuePlace,
+    NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };
 pub use parameters::Parameter;
 pub use plan::{Plan, Workspace};

@@ -32,3 +32,4 @@ mod states;
 mod tapers;
 mod traditional;
 mod trajectories;
+mod units;

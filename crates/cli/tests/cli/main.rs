@@ -11,6 +11,7 @@ mod help;
 mod messages;
 mod misfits;
 mod modes;
+mod parameters;
 mod plot;
 mod run;
 mod shapes;
