@@ -113,9 +113,8 @@ impl Model {
     fn doubt_sections(&self, doubts: &mut Vec<Doubt>) {
         for segment in &self.segments {
             let name = &self.bodies[segment.body.0].name;
-            for section in std::iter::once(&segment.section)
-                .chain(segment.taper.as_ref().map(|taper| &taper.to))
-            {
+            let second = segment.taper.as_ref().map(|taper| &taper.to);
+            for section in std::iter::once(&segment.section).chain(second) {
                 for doubt in doubts_of(section) {
                     let known = doubts.iter().position(|known| doubt.is_like(known));
                     let place = known.unwrap_or_else(|| {
