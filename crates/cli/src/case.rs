@@ -247,6 +247,14 @@ impl Case {
         Some(solution.idle)
     }
 
+    /// The mechanism file that it is from, where it is from one.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { design, .. } => design.mechanism(),
+        }
+    }
+
     /// The error that a solution means on the command line: an output that moves freely.
     pub(crate) fn free_output(&self, solution: &Solution) -> Option<CliError> {
         if solution.output.free_motions.is_empty() {

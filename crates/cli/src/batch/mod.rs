@@ -18,7 +18,6 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
 use crate::atomic::{AtomicFile, LONGER};
-use crate::case::Source;
 use crate::disk::{Disk, LONGEST_NAME};
 use crate::error::CliError;
 use crate::plausibility::Watch;

@@ -152,7 +152,10 @@ fn thick(model: &Model) -> Option<String> {
     let of_body = |body: &Body| {
         let segments = body.segments.iter().map(|id| &model.segments()[id.0]);
         let thickness = segments
-            .flat_map(|segment| std::iter::once(&segment.section).chain(&segment.taper))
+            .flat_map(|segment| {
+                std::iter::once(&segment.section)
+                    .chain(segment.taper.as_ref().map(|taper| &taper.to))
+            })
             .map(|section| sides(section)[1])
             .fold(0.0, f64::max);
         let length: f64 = lengths(model, body).sum();

@@ -263,7 +263,7 @@ impl Poses {
             });
         }
         let mut filled = vec![None; across * up];
-        for &row in &rows {
+        for &row in rows {
             let cell = &mut filled[place(0, row) + place(1, row) * across];
             if cell.is_some() {
                 let name = |k: usize| self.coordinates.get(k).name.clone();

@@ -1,7 +1,6 @@
 //! Planes of a table's poses: which there are, and the poses on each.
 
 use super::error::PlotError;
-use super::table::Column;
 
 /// How far two coordinates may be apart to be the same, over the range of all.
 const SAME: f64 = 1e-6;

@@ -32,7 +32,7 @@ pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
                     }));
                 }
                 let commanded = job.commanded();
-                if let Some(map) = map(figure, &commanded) {
+                if let Some(map) = map(job, figure, &commanded) {
                     map.check(&commanded).map_err(refused)?;
                 }
             }
@@ -198,14 +198,14 @@ const NO_RESULT: &str = "the poses it would show have no result";
 /// The map of the job's table that is now complete, as `plot` draws it.
 fn drawn_map(job: &Job, figure: &Figure, table: &Path) -> Result<Drawing, PlotError> {
     let table = Table::open(table)?;
-    let map = map(figure, &job.commanded()).ok_or_else(|| PlotError::Nothing {
+    let map = map(job, figure, &job.commanded()).ok_or_else(|| PlotError::Nothing {
         path: table.path().into(),
     })?;
     plot::map(&table, &map).map(Drawing::Map)
 }
 
 /// A figure that is a map, of a job whose poses give these coordinates.
-fn map(figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
+fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
     let Figure::Map {
         value,
         planes,
