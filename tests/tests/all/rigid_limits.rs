@@ -14,7 +14,7 @@
 //! difference is within these bounds, from 1e12 on, where the joint is a thousand times stiffer than
 //! all around it, it is `Wᵀ a⁻¹ W / k`, and from where that is below rounding on it stays there.
 
-use hyperstat_assembly::{JointStiffness, LANES, LoadSet, Model, NodeId, Plan, Solution};
+use hyperstat_assembly::{Floor, JointStiffness, LANES, LoadSet, Model, NodeId, Plan, Solution};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
     Universal, frame_from_axes, frame_from_axis,
@@ -291,8 +291,9 @@ fn tends_to_rigid(kind: usize, grounded: bool, case: &Case) -> Result<bool, Test
     swept(&rigid, &limit_k)?;
     let theirs = hyperstat_reference::solve(&rigid);
     let theirs = theirs.map_err(|error| TestCaseError::fail(error.to_string()))?;
-    compliances_agree(Some(&limit_c), theirs.compliance.as_ref())?;
-    stiffnesses_agree(Some(&limit_k), theirs.stiffness.as_ref())?;
+    let floor = Floor::of(&rigid).map_err(|error| TestCaseError::fail(error.to_string()))?;
+    compliances_agree(Some(&limit_c), theirs.compliance.as_ref(), &floor)?;
+    stiffnesses_agree(Some(&limit_k), theirs.stiffness.as_ref(), &floor)?;
 
     let forces = forces(&rigid, case, stiff, output);
     let give = forces.transpose() * &forces;
