@@ -251,7 +251,8 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
             for (lane, pose) in chosen.iter().enumerate() {
                 poses += 1;
                 let engine = lanes.engine.as_ref().expect("lanes");
-                if engine.result(lane).is_none() {
+                let size = crate::kinematics::characteristic_length(pose);
+                if engine.result(lane, size).is_none() {
                     handed_on += 1;
                     continue;
                 }
