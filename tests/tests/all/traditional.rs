@@ -3,7 +3,7 @@
 
 use hyperstat_assembly::{Connection, JointStiffness, Model, solve};
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt, SingleFreedom};
-use hyperstat_reference::{TraditionalOptions, traditional};
+use hyperstat_reference::{TraditionalForm, TraditionalOptions, traditional};
 use hyperstat_tests::{rebuilt, stiffness, stiffness_difference};
 use nalgebra::{Matrix5, Matrix6, Vector5};
 
@@ -40,7 +40,13 @@ fn delta(k: f64) -> Model {
 
 /// The output's stiffness by the traditional method with springs `k`.
 fn by_springs(model: &Model, k: f64, free_stiffness: f64) -> Matrix6<f64> {
+    in_form(TraditionalForm::Penalty, model, k, free_stiffness)
+}
+
+/// The same in a form of the method.
+fn in_form(form: TraditionalForm, model: &Model, k: f64, free_stiffness: f64) -> Matrix6<f64> {
     let options = TraditionalOptions {
+        form,
         joint_stiffness: k,
         angular_stiffness: k,
         free_stiffness,
