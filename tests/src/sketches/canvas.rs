@@ -148,10 +148,20 @@ impl Sketch {
 
     /// A ball.
     pub fn ball(&mut self, center: &Point3<f64>, radius: f64, fill: &str) {
-        let ([x, y], near) = self.place(center);
+        let (_, near) = self.place(center);
+        self.disc(near + radius * self.scale, center, radius, fill);
+    }
+
+    /// A ball in front of all solids.
+    pub fn knob(&mut self, center: &Point3<f64>, radius: f64, fill: &str) {
+        self.disc(f64::MAX / 2.0, center, radius, fill);
+    }
+
+    fn disc(&mut self, near: f64, center: &Point3<f64>, radius: f64, fill: &str) {
+        let ([x, y], _) = self.place(center);
         let r = radius * self.scale;
         self.add(
-            near + r,
+            near,
             format!(
                 "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\" fill=\"{fill}\" stroke=\"{INK}\" \
                  stroke-width=\"1.4\"/>\n"

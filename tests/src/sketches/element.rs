@@ -42,10 +42,11 @@ fn element(sketch: &mut Sketch, held: Held) {
         sketch.spring(&inner, &outer, 11.0);
         sketch.ball(&outer, 0.07, "#ffffff");
         let name = ["J₁", "J₂"][k];
-        sketch.words_at(&p(2.3 * side), [0.0, -18.0], name);
+        sketch.words_at(&p(2.45 * side), [0.0, -22.0], name);
         let node = ["node 1", "node 2"][k];
-        sketch.words_at(&outer, [-8.0 * side, 28.0], node);
         let is_held = held == [Held::First, Held::Second][k];
+        let inwards = if is_held { -24.0 } else { -8.0 };
+        sketch.words_at(&outer, [inwards * side, 30.0], node);
         if is_held {
             sketch.ground(&p(2.85 * side), [0.0, -side], 60.0);
         } else {

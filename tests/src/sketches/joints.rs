@@ -28,7 +28,7 @@ const JOINTS: [Drawn; 8] = [
 /// All kinds on one page.
 pub fn joints() -> String {
     let [width, height] = CELL;
-    let mut sketch = Sketch::new([4.0 * width, 2.0 * height + 24.0], 30.0, 24.0);
+    let mut sketch = Sketch::new([4.0 * width, 2.0 * height + 40.0], 30.0, 24.0);
     for (k, (name, free, draw)) in JOINTS.into_iter().enumerate() {
         let corner = [(k % 4) as f64 * width, (k / 4) as f64 * height];
         let middle = corner[0] + width / 2.0;
@@ -40,7 +40,7 @@ pub fn joints() -> String {
         sketch.words([middle, corner[1] + height - 4.0], free, 14.0, MOTION);
     }
     let key = "grey: first body of `between`, node i; sand: second body, node j";
-    sketch.words([2.0 * width, 2.0 * height + 16.0], key, 14.0, INK);
+    sketch.words([2.0 * width, 2.0 * height + 28.0], key, 14.0, INK);
     sketch.svg()
 }
 

@@ -11,7 +11,7 @@ const JOINT: &str = "#ffffff";
 
 /// A mechanism of many limbs, and the same with its loops cut at the joints.
 pub fn general() -> String {
-    let mut sketch = Sketch::new([900.0, 400.0], -70.0, 20.0);
+    let mut sketch = Sketch::new([900.0, 400.0], -70.0, 26.0);
     for (k, gap) in [0.0, 0.16].into_iter().enumerate() {
         let middle = 225.0 + 450.0 * k as f64;
         sketch.at([middle, 300.0], 150.0);
@@ -43,14 +43,14 @@ fn limbs(sketch: &mut Sketch, gap: f64) {
             sketch.rod(&(link[0] + along), &(link[1] - along), 0.035, SECOND);
         }
         for joint in &joints {
-            sketch.ball(joint, 0.05, JOINT);
+            sketch.knob(joint, 0.05, JOINT);
         }
     }
     sketch.letters(&at(0, 1.15, 0.2), [-30.0, 0.0], "limb 1", INK);
-    sketch.letters(&at(1, 1.25, 0.3), [30.0, 30.0], "limb n", INK);
+    sketch.letters(&at(2, 1.15, 0.2), [44.0, 0.0], "limb n", INK);
     sketch.letters(
         &Point3::new(0.0, 0.0, lifted),
-        [0.0, -16.0],
+        [10.0, -34.0],
         "output o",
         INK,
     );
@@ -76,7 +76,7 @@ pub fn single_freedom() -> String {
     sketch.words_at(&p(1.2), [0.0, 34.0], "k_J2");
     sketch.words_at(
         &p(0.0),
-        [0.0, 46.0],
+        [0.0, 62.0],
         "rigid body BC, output O at its middle",
     );
     sketch.arrow(&p(0.0), &p(0.65), "#d55e00");
@@ -85,14 +85,14 @@ pub fn single_freedom() -> String {
 }
 
 /// Where the limbs are drawn from.
-const VIEW: [f64; 2] = [-52.0, 18.0];
+const VIEW: [f64; 2] = [48.0, 20.0];
 
 /// The delta of case study 2.
 pub fn delta() -> String {
     let model = Delta::paper().model(&[0.0, 0.0, 0.5]);
     let model = model.expect("a pose within reach");
     let mut sketch = Sketch::new([760.0, 620.0], VIEW[0], VIEW[1]);
-    sketch.at([370.0, 470.0], 640.0);
+    sketch.at([380.0, 440.0], 620.0);
     let at = |name: &str| position(&model, name);
     let base = ["A1", "A2", "A3"].map(at);
     sketch.line(&[base[0], base[1], base[2], base[0]], Pen::DASHED);
@@ -101,7 +101,7 @@ pub fn delta() -> String {
     let radius = 0.009;
     for limb in 1..=3 {
         for name in ["A", "B", "Ba", "Bb", "C", "Ca", "Cb"] {
-            sketch.ball(&at(&format!("{name}{limb}")), radius, JOINT);
+            sketch.knob(&at(&format!("{name}{limb}")), radius, JOINT);
         }
     }
     for (name, by) in [
@@ -117,8 +117,8 @@ pub fn delta() -> String {
     ] {
         sketch.letters(&at(name), by, name, INK);
     }
-    sketch.letters(&at("P"), [-4.0, -10.0], "P", INK);
-    sketch.ball(&at("P"), 0.006, INK);
+    sketch.letters(&at("P"), [0.0, -14.0], "P", INK);
+    sketch.knob(&at("P"), 0.006, INK);
     sketch.frame(&Point3::origin(), &Rotation3::identity(), 0.13);
     sketch.letters(&Point3::origin(), [-14.0, 12.0], "O", INK);
     sketch.svg()
@@ -128,8 +128,8 @@ pub fn delta() -> String {
 pub fn delta_open() -> String {
     let model = Delta::paper().model(&[0.0, 0.0, 0.5]);
     let model = model.expect("a pose within reach");
-    let mut sketch = Sketch::new([760.0, 640.0], 20.0, 16.0);
-    sketch.at([300.0, 520.0], 700.0);
+    let mut sketch = Sketch::new([900.0, 620.0], 20.0, 16.0);
+    sketch.at([380.0, 500.0], 700.0);
     let at = |name: &str| position(&model, name);
     let (b, c) = (at("B1"), at("C1"));
     let along = (c - b).normalize();
@@ -159,41 +159,41 @@ pub fn delta_open() -> String {
     ];
     for (point, own, other) in joints {
         let joint = at(point) + apart(own);
-        sketch.ball(&joint, 0.011, JOINT);
+        sketch.knob(&joint, 0.011, JOINT);
         if let Some(other) = other {
             let node = at(point) + apart(other);
             sketch.line(&[joint, node], Pen::DASHED);
-            sketch.ball(&node, 0.005, INK);
+            sketch.knob(&node, 0.005, INK);
         }
     }
     let middle = |a: &str, b: &str, body: &str| at(a) + (at(b) - at(a)) / 2.0 + apart(body);
     for (place, by, words) in [
         (
             middle("A1", "B1", "arm1"),
-            [0.0, 44.0],
+            [-40.0, 56.0],
             "arm1 with the joint A1",
         ),
         (
             middle("B1", "B1", "elbow1"),
-            [150.0, 20.0],
+            [96.0, 34.0],
             "elbow1 with the joint B1",
         ),
         (
             middle("Ba1", "Ca1", "roda1"),
-            [-110.0, -20.0],
+            [-120.0, 20.0],
             "roda1 with Ba1 and Ca1",
         ),
         (
             middle("Bb1", "Cb1", "rodb1"),
-            [116.0, -20.0],
+            [130.0, -20.0],
             "rodb1 with Bb1 and Cb1",
         ),
         (
             middle("C1", "C1", "wrist1"),
-            [150.0, 6.0],
+            [-130.0, 8.0],
             "wrist1 with the joint C1",
         ),
-        (shifted[0], [-60.0, -26.0], "platform, rigid"),
+        (shifted[0], [-100.0, -30.0], "platform, rigid"),
     ] {
         sketch.letters(&place, by, words, INK);
     }
