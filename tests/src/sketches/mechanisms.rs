@@ -14,7 +14,7 @@ pub fn general() -> String {
     let mut sketch = Sketch::new([900.0, 400.0], -70.0, 26.0);
     for (k, gap) in [0.0, 0.16].into_iter().enumerate() {
         let middle = 225.0 + 450.0 * k as f64;
-        sketch.at([middle, 300.0], 150.0);
+        sketch.at([middle, 274.0], 150.0);
         limbs(&mut sketch, gap);
         let words = [
             "(a) closed loops",
@@ -47,7 +47,7 @@ fn limbs(sketch: &mut Sketch, gap: f64) {
         }
     }
     sketch.letters(&at(0, 1.15, 0.2), [-30.0, 0.0], "limb 1", INK);
-    sketch.letters(&at(2, 1.15, 0.2), [44.0, 0.0], "limb n", INK);
+    sketch.letters(&at(2, 1.15, 0.2), [18.0, -34.0], "limb n", INK);
     sketch.letters(
         &Point3::new(0.0, 0.0, lifted),
         [10.0, -34.0],
@@ -105,22 +105,22 @@ pub fn delta() -> String {
         }
     }
     for (name, by) in [
-        ("A1", [18.0, 14.0]),
-        ("B1", [14.0, 20.0]),
-        ("Ba1", [-6.0, 24.0]),
-        ("Bb1", [22.0, 4.0]),
-        ("C1", [0.0, -12.0]),
-        ("A2", [-20.0, 12.0]),
-        ("B2", [-20.0, 8.0]),
+        ("A1", [4.0, 22.0]),
+        ("B1", [8.0, 22.0]),
+        ("Ba1", [24.0, -4.0]),
+        ("Bb1", [-12.0, 22.0]),
+        ("C1", [14.0, -12.0]),
+        ("A2", [22.0, 2.0]),
+        ("B2", [0.0, -14.0]),
         ("A3", [4.0, 24.0]),
-        ("B3", [24.0, 14.0]),
+        ("B3", [-26.0, 12.0]),
     ] {
         sketch.letters(&at(name), by, name, INK);
     }
-    sketch.letters(&at("P"), [0.0, -14.0], "P", INK);
+    sketch.letters(&at("P"), [-2.0, 22.0], "P", INK);
     sketch.knob(&at("P"), 0.006, INK);
     sketch.frame(&Point3::origin(), &Rotation3::identity(), 0.13);
-    sketch.letters(&Point3::origin(), [-14.0, 12.0], "O", INK);
+    sketch.letters(&Point3::origin(), [0.0, 20.0], "O", INK);
     sketch.svg()
 }
 
@@ -180,12 +180,12 @@ pub fn delta_open() -> String {
         ),
         (
             middle("Ba1", "Ca1", "roda1"),
-            [-120.0, 20.0],
+            [-180.0, 26.0],
             "roda1 with Ba1 and Ca1",
         ),
         (
             middle("Bb1", "Cb1", "rodb1"),
-            [130.0, -20.0],
+            [176.0, -20.0],
             "rodb1 with Bb1 and Cb1",
         ),
         (

@@ -112,31 +112,28 @@ pub(super) fn write_worst_of(
     most: usize,
     text: &mut String,
 ) {
-    let points = states.iter().flat_map(|(state, bodies)| {
-        let found = |(name, body): (_, &'_ BodyReport)| Some((name, *state, body.worst.as_ref()?));
-        let bodies = bodies.iter().enumerate();
-        bodies.filter_map(move |(k, (name, body))| Some((k, found((name, body))?)))
-    });
-    let mut worst: Vec<_> = points.collect();
+    let mut worst = Vec::new();
+    for (state, bodies) in states {
+        for (body, (name, found)) in bodies.iter().enumerate() {
+            worst.extend((found.worst.iter()).map(|point| (body, name, *state, point)));
+        }
+    }
     if worst.is_empty() {
         return;
     }
-    let limited = worst
-        .iter()
-        .all(|(_, (_, _, point))| point.utilisation.is_some());
+    let has_limit = |point: &WorstReport| point.utilisation.is_some();
+    let limited = worst.iter().all(|(.., point)| has_limit(point));
+    let some_limit = worst.iter().any(|(.., point)| has_limit(point));
     let measure = |point: &WorstReport| match point.utilisation {
         Some(utilisation) if limited => utilisation,
         _ => point.von_mises,
     };
-    worst.sort_by(|(_, (_, _, a)), (_, (_, _, b))| measure(b).total_cmp(&measure(a)));
+    worst.sort_by(|(.., a), (.., b)| measure(b).total_cmp(&measure(a)));
     // Of each body the state in which it is worst.
     let mut taken = HashSet::new();
-    worst.retain(|(body, _)| taken.insert(*body));
+    worst.retain(|(body, ..)| taken.insert(*body));
     let left = worst.len().saturating_sub(most);
     worst.truncate(most);
-    let some_limit = worst
-        .iter()
-        .any(|(_, (_, _, point))| point.utilisation.is_some());
     let names: &[&str] = match states {
         [_] => &["body", "segment"],
         _ => &["body", "case", "segment"],
@@ -145,7 +142,7 @@ pub(super) fn write_worst_of(
     let more = some_limit.then_some("utilisation");
     let heads: Vec<_> = (names.iter().copied()).chain(heads).chain(more).collect();
     let mut table = Table::new(names.len(), &heads);
-    for (_, (name, state, point)) in worst {
+    for (_, name, state, point) in worst {
         let segment = point.segment.join("-");
         let names = match states {
             [_] => vec![name, &segment],

@@ -28,9 +28,17 @@ fn three_cases_fit_on_a_page() {
         "Worst point of every body",
         "--full",
     ] {
-        assert!(answer.out().contains(part), "no `{part}` in\n{}", answer.out());
+        assert!(
+            answer.out().contains(part),
+            "no `{part}` in\n{}",
+            answer.out()
+        );
     }
-    let words = |line: &str| line.split_whitespace().map(String::from).collect::<Vec<_>>();
+    let words = |line: &str| {
+        line.split_whitespace()
+            .map(String::from)
+            .collect::<Vec<_>>()
+    };
     for case in ["carry", "push", "rod hit"] {
         let row = answer.out().lines().find_map(|line| {
             let rest = line.trim_start().strip_prefix(case)?;
@@ -41,10 +49,16 @@ fn three_cases_fit_on_a_page() {
         assert_eq!(row, lines.nth(2).map(words), "{case}");
     }
     // The worst point of all cases is that of the case in which it is worst.
-    let utilisations = full.out().lines().filter(|line| line.starts_with("  arm2    A2-B2  "));
+    let utilisations = full
+        .out()
+        .lines()
+        .filter(|line| line.starts_with("  arm2    A2-B2  "));
     let most = utilisations.filter_map(|line| line.split_whitespace().last()?.parse().ok());
     let most = most.fold(0.0, f64::max);
-    let worst = answer.out().lines().find(|line| line.starts_with("  arm2 "));
+    let worst = answer
+        .out()
+        .lines()
+        .find(|line| line.starts_with("  arm2 "));
     let worst = worst.and_then(|line| line.split_whitespace().last()?.parse().ok());
     assert_eq!(worst, Some(most));
 }
@@ -80,7 +94,11 @@ fn many_cases_idle_motions_and_loads_are_cut() {
     bench.file("delta.ron", &batch);
     let answer = bench.hyperstat(&["solve", "delta.ron"]).ends_with(0);
     assert!(answer.out().lines().count() <= PAGE, "{}", answer.out());
-    assert!(answer.out().contains("  - … and 4 more"), "{}", answer.out());
+    assert!(
+        answer.out().contains("  - … and 4 more"),
+        "{}",
+        answer.out()
+    );
 }
 
 /// What is no plain answer is told on the page too.

@@ -86,9 +86,14 @@ fn the_help_has_every_status() {
     assert!(words.contains(&"branch") && words.len() >= 6, "{words:?}");
     let outcome = Bench::new("help-status").hyperstat(&["run", "--help"]);
     let outcome = outcome.ends_with(0);
-    let (_, told) = outcome.out().split_once("why there is no result:\n").unwrap();
+    let (_, told) = outcome
+        .out()
+        .split_once("why there is no result:\n")
+        .unwrap();
     let rows = told.lines().take_while(|line| line.starts_with("  "));
-    let told: Vec<_> = rows.filter_map(|row| row.split_whitespace().next()).collect();
+    let told: Vec<_> = rows
+        .filter_map(|row| row.split_whitespace().next())
+        .collect();
     assert_eq!(told, words);
 }
 

@@ -44,13 +44,21 @@ fn the_strains_of_a_cantilever_are_the_textbook_s() {
             assert_near(found, expected, EXACT, curvature);
         }
         let text = bench.hyperstat(&["solve", "bar.ron"]).ends_with(0);
-        let row = text.out().lines().find(|line| line.starts_with("  bar   A-B"));
+        let row = text
+            .out()
+            .lines()
+            .find(|line| line.starts_with("  bar   A-B"));
         let row: Vec<_> = row.unwrap().split_whitespace().collect();
         let [.., printed, sheared] = &*row else {
             panic!("{row:?}");
         };
         assert_near(printed.parse().unwrap(), normal, 1e-5, normal);
-        assert_near(sheared.parse().unwrap(), twist * radius, 1e-5, twist * radius);
+        assert_near(
+            sheared.parse().unwrap(),
+            twist * radius,
+            1e-5,
+            twist * radius,
+        );
     }
 }
 
@@ -83,7 +91,10 @@ fn frames_and_global_forces_are_in_equilibrium() {
     let report = outcome.ends_with(0).json();
 
     // The ground's three joints hold the load: forces, and moments about the origin.
-    let load = [Vector3::new(-20.0, 10.0, 100.0), Vector3::new(5.0, 5.0, 8.0)];
+    let load = [
+        Vector3::new(-20.0, 10.0, 100.0),
+        Vector3::new(5.0, 5.0, 8.0),
+    ];
     let mut force = load[0];
     let mut moment = load[1] + Vector3::from(place).cross(&load[0]);
     for (limb, angle) in [(1, 90_f64), (2, 210.0), (3, 330.0)] {
