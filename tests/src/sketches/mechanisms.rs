@@ -109,7 +109,7 @@ pub fn delta() -> String {
         ("B1", [8.0, 22.0]),
         ("Ba1", [24.0, -4.0]),
         ("Bb1", [-12.0, 22.0]),
-        ("C1", [14.0, -12.0]),
+        ("C1", [16.0, 26.0]),
         ("A2", [22.0, 2.0]),
         ("B2", [0.0, -14.0]),
         ("A3", [4.0, 24.0]),
@@ -117,7 +117,7 @@ pub fn delta() -> String {
     ] {
         sketch.letters(&at(name), by, name, INK);
     }
-    sketch.letters(&at("P"), [-2.0, 22.0], "P", INK);
+    sketch.letters(&at("P"), [-2.0, -24.0], "P", INK);
     sketch.knob(&at("P"), 0.006, INK);
     sketch.frame(&Point3::origin(), &Rotation3::identity(), 0.13);
     sketch.letters(&Point3::origin(), [0.0, 20.0], "O", INK);
