@@ -64,7 +64,7 @@ impl Page {
                     open = Some(Block {
                         info: info.trim().to_owned(),
                         line: k + 1,
-                        before: before.clone(),
+                        before: std::mem::take(&mut before),
                         text: String::new(),
                     });
                 }
