@@ -3,6 +3,7 @@
 
 use hyperstat_assembly::{
     Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Member, Model, NodeId, SegmentId,
+    Tapering,
 };
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use nalgebra::{Rotation3, Vector3, Vector6};
@@ -161,7 +162,9 @@ impl Beams {
             let scale = self.tapers[k % self.tapers.len()];
             Member {
                 material,
-                taper: scale.and_then(|scale| scaled(&member.section, scale)),
+                taper: scale
+                    .and_then(|scale| scaled(&member.section, scale))
+                    .map(Tapering::whole),
                 elements: self.elements[k % self.elements.len()],
                 ..member
             }

@@ -56,7 +56,7 @@ pub use modal::{
 pub use model::{
     Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
-    NodeMass, Segment, SegmentId, ValuePlace,
+    NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };
 pub use parameters::Parameter;
 pub use plan::{Plan, Workspace};

@@ -12,10 +12,9 @@ use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
 pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
-use crate::parts::change_of_section;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId,
+    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
 };
 pub use values::ValuePlace;
 
@@ -89,8 +88,8 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::add_rigid`]; fewer than two points; a member without length, with its
-    /// `y_axis` along it, with ends out of range, or with a section that cannot taper to its
-    /// other; a point that the members do not connect with the first.
+    /// `y_axis` along it, with ends out of range, or with a section that cannot taper as it says;
+    /// a point that the members do not connect with the first.
     pub fn add_elastic(
         &mut self,
         name: &str,
@@ -112,7 +111,7 @@ impl Model {
                 return Err(ModelError::TooFewPoints { body: name.into() });
             };
             element_frame(&(b.1 - a.1), member.y_axis.as_ref())
-                .and_then(|_| change_of_section(&member.section, member.taper.as_ref()))
+                .and_then(|_| member.change_of_section())
                 .map_err(|source| ModelError::Segment {
                     body: name.into(),
                     segment: k,

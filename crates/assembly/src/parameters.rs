@@ -6,7 +6,9 @@ use nalgebra::{Vector3, Vector6};
 
 use crate::directions::Directions;
 use crate::error::SolveError;
-use crate::model::{BodyId, JointId, JointStiffness, Model, Segment, SegmentId, ValuePlace};
+use crate::model::{
+    BodyId, JointId, JointStiffness, Model, Segment, SegmentId, Tapering, ValuePlace,
+};
 
 /// A parameter. Equal sections, materials and elastic joints count as one: it changes all of them,
 /// unless their values have different names ([`Model::name_value`]).
@@ -16,7 +18,7 @@ pub enum Parameter {
     Section {
         /// The section.
         section: Section,
-        /// Whether it is the one at the second end of segments that taper.
+        /// Whether it is the one that the change of segments that taper ends with.
         second: bool,
         /// Name of the dimension, as in files.
         dimension: &'static str,
@@ -64,9 +66,10 @@ pub(crate) struct Varied {
 pub(crate) enum SegmentChange {
     /// By a dimension of its section: ∂ ln (A, A_y, A_z, J, I_y, I_z)/∂p.
     Section(Vector6<f64>),
-    /// By a dimension at one end of a taper.
+    /// By a dimension at one end of a taper, of which the segment has a part.
     Taper {
-        taper: Box<Taper>,
+        whole: Box<Taper>,
+        tapering: Box<Tapering>,
         second: bool,
         dimension: &'static str,
     },
@@ -91,14 +94,12 @@ impl SegmentChange {
     pub fn sections(&self, xi: f64) -> Vector6<f64> {
         match self {
             Self::Section(change) => *change,
-            // Any change that a place refuses, the ends refuse: that was tried.
             Self::Taper {
-                taper,
+                whole,
+                tapering,
                 second,
                 dimension,
-            } => taper
-                .logarithmic_derivative(*second, dimension, xi)
-                .unwrap_or_default(),
+            } => whole.logarithmic_derivative(*second, dimension, tapering.along(xi)),
             Self::Elastic(_) | Self::Density | Self::Expansion => Vector6::zeros(),
         }
     }
@@ -148,7 +149,7 @@ pub(crate) fn line_mass(segment: &Segment, density: f64) -> Result<LineMass, Sol
 /// All parameters of a model, in the order of its segments, joints and masses.
 ///
 /// # Errors
-/// A section so near the limits of its kind that its dimension cannot be varied.
+/// A section that cannot taper as it says, which no segment of a model has.
 pub(crate) fn parameters(model: &Model) -> Result<Vec<Varied>, SolveError> {
     let mut found = Vec::new();
     of_sections(model, &mut found)?;
@@ -158,9 +159,11 @@ pub(crate) fn parameters(model: &Model) -> Result<Vec<Varied>, SolveError> {
         let turns = own.mass.inertia().amax() > 0.0;
         let values = [(false, Some(own.mass.mass())), (true, turns.then_some(1.0))];
         for (inertia, value) in values {
+            let name = model.value_name(ValuePlace::Mass { mass });
+            let name = name.filter(|_| !inertia).map(Into::into);
             found.extend(value.map(|value| Varied {
                 parameter: Parameter::Mass { mass, inertia },
-                name: None,
+                name,
                 value,
                 segments: Vec::new(),
             }));
@@ -182,7 +185,7 @@ fn of_sections(model: &Model, found: &mut Vec<Varied>) -> Result<(), SolveError>
     for second in [false, true] {
         let section = |k: usize| {
             if second {
-                segments[k].taper.as_ref()
+                segments[k].taper.as_ref().map(|tapering| &tapering.to)
             } else {
                 Some(&segments[k].section)
             }
@@ -195,13 +198,16 @@ fn of_sections(model: &Model, found: &mut Vec<Varied>) -> Result<(), SolveError>
             };
             for (dimension, value) in own.dimensions() {
                 let change = |k: &usize| -> Result<_, SolveError> {
-                    let Some(taper) = segments[*k].change_of_section()? else {
+                    let segment = &segments[*k];
+                    let Some(tapering) = &segment.taper else {
                         let change = own.logarithmic_derivative(dimension);
                         return Ok((SegmentId(*k), SegmentChange::Section(change)));
                     };
-                    taper.logarithmic_derivative(second, dimension, 0.5)?;
+                    // Its parts in several segments are one parameter.
+                    let whole = Taper::new(segment.section.clone(), tapering.to.clone())?;
                     let change = SegmentChange::Taper {
-                        taper: Box::new(taper),
+                        whole: Box::new(whole),
+                        tapering: Box::new(tapering.clone()),
                         second,
                         dimension,
                     };

@@ -81,10 +81,10 @@ pub struct Segment {
     pub ends: [NodeId; 2],
     /// Material.
     pub material: Material,
-    /// Section; at the first node where the segment tapers.
+    /// Section; where the segment tapers, the one that the change begins with.
     pub section: Section,
-    /// Section at the second node, where the segment tapers.
-    pub taper: Option<Section>,
+    /// How the section changes along the segment; `None`: the segment is prismatic.
+    pub taper: Option<Tapering>,
     /// Number of equal beam elements it is divided into.
     pub elements: usize,
     /// Whether its local y was given. A default one stands upright wherever nothing else says how
@@ -109,14 +109,50 @@ pub struct Member {
     pub ends: [usize; 2],
     /// Material.
     pub material: Material,
-    /// Section; at the first end where the segment tapers.
+    /// Section; where the segment tapers, the one that the change begins with.
     pub section: Section,
-    /// Section at the second end; `None`: the segment is prismatic.
-    pub taper: Option<Section>,
+    /// How the section changes along the segment; `None`: the segment is prismatic.
+    pub taper: Option<Tapering>,
     /// Direction of local y (made normal to x); `None`: the section stands upright.
     pub y_axis: Option<Vector3<f64>>,
     /// Number of equal beam elements it is divided into (at least 1).
     pub elements: usize,
+}
+
+impl Member {
+    /// The change of section along it; `None` where it is prismatic.
+    ///
+    /// # Errors
+    /// Sections that no taper joins, a part that is none.
+    pub fn change_of_section(&self) -> Result<Option<Taper>, ElementError> {
+        change_of_section(&self.section, self.taper.as_ref())
+    }
+}
+
+/// How the section of a segment changes along it: from the segment's own to another one, or a part
+/// of that change where several segments taper as one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tapering {
+    /// The section that the change ends with.
+    pub to: Section,
+    /// Where along the change the segment begins and ends: 0 ≤ first ≤ last ≤ 1.
+    pub part: [f64; 2],
+}
+
+impl Tapering {
+    /// The whole change, from the segment's section at its first node to this one at its second.
+    pub fn whole(to: Section) -> Self {
+        Self {
+            to,
+            part: [0.0, 1.0],
+        }
+    }
+
+    /// Place along the change (0 to 1) at `xi` along the segment.
+    pub fn along(&self, xi: f64) -> f64 {
+        let [first, last] = self.part;
+        (1.0 - xi) * first + xi * last
+    }
 }
 
 /// A flexible body: an elastic body given by its stiffness.
@@ -196,11 +232,25 @@ pub struct Geometry {
     pub rotations: Vec<Rotation3<f64>>,
 }
 
-/// The taper from one section to another; `None` where there is no other.
-pub(crate) fn change_of_section(
+/// The change of section of a segment; `None` where there is none.
+fn change_of_section(
     from: &Section,
-    to: Option<&Section>,
+    tapering: Option<&Tapering>,
 ) -> Result<Option<Taper>, ElementError> {
-    let taper = |to: &Section| Taper::new(from.clone(), to.clone());
-    to.map(taper).transpose()
+    let Some(Tapering {
+        to,
+        part: [first, last],
+    }) = tapering
+    else {
+        return Ok(None);
+    };
+    if !(*first >= 0.0 && first <= last && *last <= 1.0) {
+        return Err(ElementError::OutOfRange {
+            field: "part",
+            value: *first,
+            wanted: "0 or more and not beyond the end of the part, which is 1 or less",
+        });
+    }
+    let whole = Taper::new(from.clone(), to.clone())?;
+    Ok(Some(whole.part(*first, *last)))
 }

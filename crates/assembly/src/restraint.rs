@@ -37,7 +37,7 @@ impl Restraint {
     pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Self {
         let kinematics = analyse_at(model, geometry);
         let size = characteristic_length(geometry);
-        let (idle, moving) = split(&kinematics.motions, |motion| {
+        let (idle, moving) = split(&kinematics.motions, size, |motion| {
             scaled(&node_twist(motion, model, geometry, output.0), size)
         });
         let twists = moving
@@ -228,6 +228,7 @@ pub(crate) fn scaled(twist: &Vector6<f64>, size: f64) -> Vector6<f64> {
 /// Splits a basis of motions into those without a twist of the output and the rest.
 fn split(
     motions: &[Motion],
+    size: f64,
     twist: impl Fn(&Motion) -> Vector6<f64>,
 ) -> (Vec<Motion>, Vec<Motion>) {
     let twists: Vec<Vector6<f64>> = motions.iter().map(&twist).collect();
@@ -240,7 +241,7 @@ fn split(
         let (at_rest, others): (Vec<_>, Vec<_>) =
             (motions.iter().cloned().zip(&twists)).partition(|(_, t)| still(t));
         let others: Vec<Motion> = others.into_iter().map(|(motion, _)| motion).collect();
-        let (mut idle, moving) = split(&others, twist);
+        let (mut idle, moving) = split(&others, size, twist);
         idle.extend(at_rest.into_iter().map(|(motion, _)| motion));
         return (idle, moving);
     }
@@ -254,19 +255,20 @@ fn split(
         let pivot = free.max_by(|a, b| combination[*a].abs().total_cmp(&combination[*b].abs()));
         pivots.extend(pivot);
     }
-    let combined = idle.iter().map(|c| combine(motions, c)).collect();
+    let combined = idle.iter().map(|c| combine(motions, c, size)).collect();
     let rest = (0..count).filter(|k| !pivots.contains(k));
     (combined, rest.map(|k| motions[k].clone()).collect())
 }
 
-fn combine(motions: &[Motion], weights: &DVector<f64>) -> Motion {
+fn combine(motions: &[Motion], weights: &DVector<f64>, size: f64) -> Motion {
     let mut twists: BTreeMap<BodyId, Vector6<f64>> = BTreeMap::new();
     for (motion, weight) in motions.iter().zip(weights.iter()) {
         for (body, twist) in &motion.twists {
             *twists.entry(*body).or_default() += twist * *weight;
         }
     }
-    let moved = twists.into_iter().filter(|(_, t)| t.amax() > 1e-9);
+    let moves = |twist: &Vector6<f64>| scaled(twist, size).amax() > 1e-9;
+    let moved = twists.into_iter().filter(|(_, twist)| moves(twist));
     Motion {
         twists: moved.collect(),
     }

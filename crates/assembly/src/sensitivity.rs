@@ -62,7 +62,7 @@ impl Influence<'_> {
     /// on it depends on: those of bodies first, then of joints, then of masses.
     ///
     /// # Errors
-    /// A section so near the limits of its kind that its dimension cannot be varied.
+    /// A segment that cannot be formed, which none of a solved model is.
     pub fn sensitivities(&self, solution: &Solution) -> Result<Vec<Sensitivity>, SolveError> {
         let loaded = self.state(solution);
         let mut found = Vec::new();

@@ -98,10 +98,11 @@ impl Case {
         }
     }
 
-    /// Names values of the model by their paths in a job's prebuilt mechanism.
+    /// Names values of the model by their paths in the mechanism, as `vary` takes them.
     pub(crate) fn name_values(&mut self) {
-        if let Origin::Job { job, design, .. } = &self.origin {
-            job.name_values(design, &mut self.model);
+        match &self.origin {
+            Origin::Mechanism(mechanism) => mechanism.name_values(&mut self.model),
+            Origin::Job { job, design, .. } => job.name_values(design, &mut self.model),
         }
     }
 
@@ -228,19 +229,6 @@ impl Case {
     /// What is soft and why: the answer to a question about this solution.
     pub(crate) fn why(&self, solution: &Solution, asked: Asked<'_>) -> Result<Why, CliError> {
         Why::new(self, solution, asked).map_err(|error| self.unsolvable(error))
-    }
-
-    /// The mechanism file that it is from, where it is from one.
-    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
-        match &self.origin {
-            Origin::Mechanism(mechanism) => Some(mechanism),
-            Origin::Job { design, .. } => design.mechanism(),
-        }
-    }
-
-    /// Whether it is a mechanism file by itself, with the loads and masses written there.
-    pub(crate) fn is_file(&self) -> bool {
-        matches!(self.origin, Origin::Mechanism(_))
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even

@@ -27,7 +27,9 @@ pub type Along<'a> = &'a dyn Fn(f64) -> Vector6<f64>;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MassShape {
     /// Cubic in bending, linear in tension and torsion, without shear deformation and whatever the
-    /// change of section: as frame3dd and OpenSees have it.
+    /// change of section: as frame3dd and OpenSees have it. Where there are shear areas, a section
+    /// does not turn with the slope of that curve: [rotary inertia](RotaryInertia) then goes with
+    /// how the beam's own sections turn, as in [`Exact`](Self::Exact).
     Cubic,
     /// Those of the beam itself under loads at its nodes, with shear deformation and the change of
     /// section. For a prismatic beam without shear areas the same as [`Cubic`](Self::Cubic).
@@ -125,7 +127,7 @@ impl LineMass {
         rotary: RotaryInertia,
     ) -> Matrix12 {
         let mut sum = Matrix12::zeros();
-        self.each_place(beam, shape, |xi, weight, n| {
+        self.each_place(beam, shape, rotary, |xi, weight, n| {
             let mass = self.per_length(&self.taper.at(xi), rotary) * weight;
             sum += n.transpose() * Matrix6::from_diagonal(&mass) * n;
         });
@@ -134,7 +136,7 @@ impl LineMass {
 
     /// Derivative of [`consistent`](Self::consistent) by p where the sections change by `sections`,
     /// and the rigidities of the beam, ∂ ln (EA, GA_y, GA_z, GJ, EI_y, EI_z)/∂p, by `rigidities`:
-    /// [`Exact`](MassShape::Exact) shapes change with these. As right as the mass itself.
+    /// the beam's own shapes change with these. As right as the mass itself.
     pub fn consistent_derivative(
         &self,
         beam: &(impl StraightBeam + ?Sized),
@@ -147,14 +149,18 @@ impl LineMass {
         let end = beam.give_derivative(1.0, rigidities);
         let stiffness = beam.cantilever_stiffness();
         let mut sum = Matrix12::zeros();
-        self.each_place(beam, shape, |xi, weight, n| {
+        self.each_place(beam, shape, rotary, |xi, weight, n| {
             let section = self.taper.at(xi);
             let change = self.change_per_length(&section, rotary, &sections(xi)) * weight;
             sum += n.transpose() * Matrix6::from_diagonal(&change) * n;
-            if shape == MassShape::Exact {
+            let own = own_rows(beam, shape, rotary, xi);
+            if own.contains(&true) {
                 // The shape is S(ξ) S(1)⁻¹, with S the displacement per wrench on node 2.
                 let part = beam.give_derivative(xi, rigidities);
-                let second = (part - beam.shape(xi) * end) * stiffness;
+                let mut second = (part - beam.shape(xi) * end) * stiffness;
+                for (row, _) in own.iter().enumerate().filter(|(_, own)| !**own) {
+                    second.row_mut(row).fill(0.0);
+                }
                 let mass = self.per_length(&section, rotary) * weight;
                 let moved = Matrix6::from_diagonal(&mass) * n;
                 let product = over_nodes(&(-second * whole), &second).transpose() * moved;
@@ -170,16 +176,21 @@ impl LineMass {
         &self,
         beam: &(impl StraightBeam + ?Sized),
         shape: MassShape,
+        rotary: RotaryInertia,
         mut visit: impl FnMut(f64, f64, &SMatrix<f64, 6, 12>),
     ) {
         let length = beam.length();
         let whole = transport(&beam.span());
         self.taper.intervals(1.0, |first, last| {
             gauss(first, last, |xi, weight| {
-                let second: Matrix6<f64> = match shape {
-                    MassShape::Cubic => cubic_shape(length, xi),
-                    MassShape::Exact => beam.shape(xi),
-                };
+                let mut second = cubic_shape(length, xi);
+                let own = own_rows(beam, shape, rotary, xi);
+                if own.contains(&true) {
+                    let of_beam = beam.shape(xi);
+                    for (row, _) in own.iter().enumerate().filter(|(_, own)| **own) {
+                        second.set_row(row, &of_beam.row(row));
+                    }
+                }
                 let first = transport(&(beam.span() * xi)) - second * whole;
                 visit(xi, weight * length, &over_nodes(&first, &second));
             });
@@ -205,6 +216,25 @@ impl LineMass {
             RotaryInertia::Left => 0.0,
         };
         Vector6::new(area, area, area, iy + iz, turning * iy, turning * iz) * self.density
+    }
+}
+
+/// Which components (x y z φx φy φz) of the displacement between the nodes are the beam's own, of
+/// those that have mass.
+fn own_rows(
+    beam: &(impl StraightBeam + ?Sized),
+    shape: MassShape,
+    rotary: RotaryInertia,
+    xi: f64,
+) -> [bool; 6] {
+    match (shape, rotary) {
+        (MassShape::Exact, _) => [true; 6],
+        (MassShape::Cubic, RotaryInertia::Left) => [false; 6],
+        (MassShape::Cubic, RotaryInertia::Included) => {
+            // Sections turn about z where the beam deflects along y.
+            let give = beam.section_compliance_at(xi);
+            [false, false, false, false, give[2] > 0.0, give[1] > 0.0]
+        }
     }
 }
 

@@ -213,15 +213,18 @@ impl Job {
         })
     }
 
-    /// Names the values of a design's model by their paths in the job's prebuilt mechanism, as
-    /// `vary` takes them ([`Model::name_value`]): those that stand in the model as they are
-    /// written. Nothing where the mechanism is a file.
+    /// Names the values of a design's model by their paths in the job's mechanism, as `vary` takes
+    /// them ([`Model::name_value`]): of a file as [`Mechanism::name_values`], of a prebuilt one those
+    /// that stand in the model as they are written.
     pub fn name_values(&self, design: &Design, model: &mut Model) {
         let replaced = match &self.designs {
             Some(designs) => designs.replaced(design.number),
             None => Vec::new(),
         };
-        value_names::find(&self.recipe, &replaced, &design.subject, model);
+        match design.mechanism() {
+            Some(mechanism) => mechanism.name_others(&replaced, model),
+            None => value_names::of_prebuilt(&self.recipe, &replaced, &design.subject, model),
+        }
     }
 
     /// Place of the job's name in the batch file.

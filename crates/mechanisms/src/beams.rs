@@ -1,9 +1,10 @@
 //! Bodies made of beams: one beam, or a frame of several.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
-use hyperstat_assembly::{BodyId, Member, Model, ModelError};
-use hyperstat_elements::{Beam, ElementError, Material, Taper, TaperedBeam, element_frame};
+use hyperstat_assembly::{BodyId, Member, Model, ModelError, Tapering};
+use hyperstat_elements::{Beam, ElementError, Material, Section, TaperedBeam, element_frame};
 use nalgebra::Vector3;
 
 use crate::bodies::{Tables, Through, elements, listed, pairs, through};
@@ -11,6 +12,7 @@ use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
 use crate::materials::Profile;
+use crate::value_names::Given;
 
 /// Reads `Beam(through: […], section: …, material: …)`.
 pub(crate) fn beam(
@@ -18,6 +20,7 @@ pub(crate) fn beam(
     fields: &Fields<'_>,
     tables: &Tables,
     model: &mut Model,
+    given: &mut Vec<Given>,
 ) -> Result<BodyId, LoadError> {
     let list = fields.required("through")?;
     let points = through(fields, list, tables)?;
@@ -28,7 +31,7 @@ pub(crate) fn beam(
         points: &points,
         places: &places,
     };
-    let members = run.members(&|field| fields.get(field), fields, tables)?;
+    let members = run.members(&|field| fields.get(field), fields, tables, given)?;
     model
         .add_elastic(name, &pairs(&points), &members)
         .map_err(|error| list.error(error.to_string()))
@@ -40,6 +43,7 @@ pub(crate) fn frame(
     fields: &Fields<'_>,
     tables: &Tables,
     model: &mut Model,
+    given: &mut Vec<Given>,
 ) -> Result<BodyId, LoadError> {
     let list = fields.required("members")?;
     let mut points = Vec::<Through>::new();
@@ -85,7 +89,7 @@ pub(crate) fn frame(
             places: &places,
         };
         let field = |field: &str| own.get(field).or_else(|| fields.get(field));
-        members.extend(run.members(&field, fields, tables)?);
+        members.extend(run.members(&field, fields, tables, given)?);
     }
     if members.is_empty() {
         return Err(list
@@ -109,6 +113,9 @@ pub(crate) fn frame(
         })
 }
 
+/// A section's name, the section, and its change along a segment.
+type Sections = (Arc<str>, Section, Option<Tapering>);
+
 /// A chain of segments through some points of a body.
 struct Run<'r, 'a> {
     /// What it is, in words.
@@ -121,12 +128,14 @@ struct Run<'r, 'a> {
 }
 
 impl<'a> Run<'_, 'a> {
-    /// Its segments; `get` finds a field's value, `owner` has the fields that must be there.
+    /// Its segments; `get` finds a field's value, `owner` has the fields that must be there. Adds to
+    /// `given` what each is given by.
     fn members(
         &self,
         get: &dyn Fn(&str) -> Option<Fragment<'a>>,
         owner: &Fields<'a>,
         tables: &Tables,
+        given: &mut Vec<Given>,
     ) -> Result<Vec<Member>, LoadError> {
         if self.places.len() < 2 {
             return Err(self
@@ -139,12 +148,14 @@ impl<'a> Run<'_, 'a> {
             None => owner.required(name),
         };
         let sections = self.sections(required("section")?, tables)?;
-        let material = tables.materials.find(required("material")?)?;
+        let of_material = required("material")?;
+        let material = tables.materials.find(of_material)?;
+        let material_name: Arc<str> = of_material.string()?.into();
         let y_axis = get("y_axis");
         let direction = y_axis.map(Fragment::direction).transpose()?;
         let elements = get("elements").map_or(Ok(1), elements)?;
         let mut members = Vec::new();
-        for (ends, (section, taper)) in self.places.windows(2).zip(sections) {
+        for (ends, (name, section, taper)) in self.places.windows(2).zip(sections) {
             let member = Member {
                 ends: [ends[0], ends[1]],
                 material: material.clone(),
@@ -158,33 +169,32 @@ impl<'a> Run<'_, 'a> {
             check(&member, &span, material)
                 .map_err(|error| self.error(&error, [from, to], y_axis))?;
             members.push(member);
+            given.push(Given {
+                section: name,
+                material: Arc::clone(&material_name),
+            });
         }
         Ok(members)
     }
 
-    /// The section at both ends of every segment: one section all along, a taper along the whole
-    /// run, or a list of a section for each segment.
-    fn sections(
-        &self,
-        given: Fragment<'a>,
-        tables: &Tables,
-    ) -> Result<
-        Vec<(
-            hyperstat_elements::Section,
-            Option<hyperstat_elements::Section>,
-        )>,
-        LoadError,
-    > {
+    /// The section of every segment, by its name in the table, and its change: one section all
+    /// along, a taper along the whole run, or a list of a section for each segment.
+    fn sections(&self, given: Fragment<'a>, tables: &Tables) -> Result<Vec<Sections>, LoadError> {
         let lengths = self.lengths();
+        let named = |name: Fragment<'_>| -> Result<(Arc<str>, &Profile), LoadError> {
+            Ok((name.string()?.into(), tables.sections.find(name)?))
+        };
         if !given.text().starts_with('[') {
-            let profile: &Profile = tables.sections.find(given)?;
+            let (name, profile) = named(given)?;
             let whole: f64 = lengths.iter().sum();
             let mut passed = 0.0;
             let parts = lengths.iter().enumerate().map(|(k, length)| {
                 let first = passed / whole;
                 passed += length;
                 let last = k + 1 == lengths.len();
-                profile.part(first, if last { 1.0 } else { passed / whole })
+                let last = if last { 1.0 } else { passed / whole };
+                let (section, taper) = profile.part([first, last]);
+                (Arc::clone(&name), section, taper)
             });
             return Ok(parts.collect());
         }
@@ -201,10 +211,12 @@ impl<'a> Run<'_, 'a> {
                     "list one section for each segment between two points, or name one for all",
                 ));
         }
-        names
-            .into_iter()
-            .map(|name| Ok(tables.sections.find(name)?.part(0.0, 1.0)))
-            .collect()
+        let whole = |name: Fragment<'_>| {
+            let (name, profile) = named(name)?;
+            let (section, taper) = profile.part([0.0, 1.0]);
+            Ok((name, section, taper))
+        };
+        names.into_iter().map(whole).collect()
     }
 
     /// Length of every segment \[m\].
@@ -257,12 +269,11 @@ impl<'a> Run<'_, 'a> {
 fn check(member: &Member, span: &Vector3<f64>, material: &Material) -> Result<(), ElementError> {
     element_frame(span, member.y_axis.as_ref())?;
     let length = span.norm();
-    match &member.taper {
+    match member.change_of_section()? {
         None => {
             Beam::new(material, &member.section, length / member.elements as f64)?;
         }
-        Some(to) => {
-            let taper = Taper::new(member.section.clone(), to.clone())?;
+        Some(taper) => {
             TaperedBeam::new(material, &taper, length)?;
         }
     }

@@ -11,6 +11,7 @@ use crate::fields::Fields;
 use crate::fragment::{Entry, Fragment, first_at};
 use crate::materials::Profile;
 use crate::table::Table;
+use crate::value_names::Given;
 use crate::{beams, flexible, names};
 
 /// The name of the fixed body.
@@ -49,11 +50,12 @@ pub(crate) fn check_name(entry: &Entry<'_>, what: &str) -> Result<(), LoadError>
         .with_help("results name a body's point `body.point`"))
 }
 
-/// Adds the body of `entry` to the model.
+/// Adds the body of `entry` to the model, and to `given` what its segments are given by.
 pub(crate) fn read(
     entry: &Entry<'_>,
     tables: &Tables,
     model: &mut Model,
+    given: &mut Vec<Given>,
 ) -> Result<BodyId, LoadError> {
     const KINDS: [&str; 4] = ["Beam", "Rigid", "Frame", "Flexible"];
     check_name(entry, "body")?;
@@ -80,7 +82,8 @@ pub(crate) fn read(
         "Beam" => {
             let known = ["through", "section", "material", "y_axis", "elements"];
             let fields = fields(&known)?;
-            (beams::beam(&entry.name, &fields, tables, model)?, fields)
+            let body = beams::beam(&entry.name, &fields, tables, model, given)?;
+            (body, fields)
         }
         "Rigid" => {
             let fields = fields(&["points"])?;
@@ -93,7 +96,8 @@ pub(crate) fn read(
         "Frame" => {
             let known = ["members", "section", "material", "y_axis", "elements"];
             let fields = fields(&known)?;
-            (beams::frame(&entry.name, &fields, tables, model)?, fields)
+            let body = beams::frame(&entry.name, &fields, tables, model, given)?;
+            (body, fields)
         }
         "Flexible" => {
             let fields = fields(&["points", "stiffness"])?;

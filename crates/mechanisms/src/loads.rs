@@ -27,6 +27,11 @@ impl Acting {
         Self(FIELDS.map(|name| fields.get(name).map(Fragment::place)))
     }
 
+    /// Whether masses are given.
+    pub(crate) fn has_masses(&self) -> bool {
+        self.0[3].is_some()
+    }
+
     /// Reads the fields that are given, each in place of what the model has; see [`read`].
     pub(crate) fn read(
         &self,

@@ -1,5 +1,6 @@
 //! Materials and sections, as tables of a mechanism file or in place in a prebuilt one.
 
+use hyperstat_assembly::Tapering;
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape, Taper};
 
 use crate::error::LoadError;
@@ -17,21 +18,13 @@ pub(crate) enum Profile {
 }
 
 impl Profile {
-    /// The section at both ends.
-    pub(crate) fn ends(&self) -> [Section; 2] {
-        match self {
-            Self::Uniform(section) => [section.clone(), section.clone()],
-            Self::Tapered(taper) => [taper.from().clone(), taper.to().clone()],
-        }
-    }
-
-    /// The section at `first` and, where it changes, that at `last` (0 to 1).
-    pub(crate) fn part(&self, first: f64, last: f64) -> (Section, Option<Section>) {
+    /// The section and its change over this part (0 to 1) of what it is used for.
+    pub(crate) fn part(&self, part: [f64; 2]) -> (Section, Option<Tapering>) {
         match self {
             Self::Uniform(section) => (section.clone(), None),
             Self::Tapered(taper) => {
-                let part = taper.part(first, last);
-                (part.from().clone(), Some(part.to().clone()))
+                let to = taper.to().clone();
+                (taper.from().clone(), Some(Tapering { to, part }))
             }
         }
     }

@@ -1,7 +1,6 @@
 //! One mechanism, as a file describes it.
 
 use hyperstat_assembly::{BodyId, JointId, Model};
-use hyperstat_elements::{Material, Section};
 use nalgebra::Point3;
 
 use crate::bodies::{self, Tables, check_name};
@@ -12,7 +11,8 @@ use crate::loads::{Acting, Home};
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::table::Table;
-use crate::{joints, loads, materials, nodes};
+use crate::value_names::{Given, Replaced};
+use crate::{joints, loads, materials, nodes, value_names};
 
 /// A mechanism read from a file: its model, and the place of every part of it.
 #[derive(Debug, Clone)]
@@ -23,8 +23,12 @@ pub struct Mechanism {
     joints: Vec<Place>,
     loads: Vec<Place>,
     output: Place,
-    materials: Vec<(String, Material)>,
-    sections: Vec<(String, [Section; 2])>,
+    /// The file's text.
+    root: Place,
+    /// What the segments are given by.
+    given: Vec<Given>,
+    /// Whether the masses are the file's own.
+    own_masses: bool,
 }
 
 impl Mechanism {
@@ -58,8 +62,9 @@ impl Mechanism {
             })?,
         };
         let mut bodies = Vec::new();
+        let mut given = Vec::new();
         for entry in fields.required("bodies")?.map()? {
-            bodies::read(&entry, &tables, &mut model)?;
+            bodies::read(&entry, &tables, &mut model, &mut given)?;
             bodies.push(entry.key.place());
         }
         let mut joints = Vec::new();
@@ -78,12 +83,9 @@ impl Mechanism {
             joints,
             loads,
             output: output.place(),
-            materials: (tables.materials.entries())
-                .map(|(name, material)| (name.to_owned(), material.clone()))
-                .collect(),
-            sections: (tables.sections.entries())
-                .map(|(name, profile)| (name.to_owned(), profile.ends()))
-                .collect(),
+            root: fragment.place(),
+            given,
+            own_masses: true,
         })
     }
 
@@ -93,17 +95,21 @@ impl Mechanism {
         if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
             self.loads = loads;
         }
+        self.own_masses = !acting.has_masses();
         Ok(())
     }
 
-    /// The materials by their names in the file.
-    pub fn materials(&self) -> &[(String, Material)] {
-        &self.materials
+    /// Names values of `model`, which is this mechanism's in any configuration, by their paths in
+    /// the file, as `vary` takes them ([`Model::name_value`]): every value of a section and a
+    /// material, masses, and stiffnesses of joints that no other joint has alike.
+    pub fn name_values(&self, model: &mut Model) {
+        self.name_others(&[], model);
     }
 
-    /// The sections by their names in the file: what each is at its two ends.
-    pub fn sections(&self) -> &[(String, [Section; 2])] {
-        &self.sections
+    /// The same where something stands in for parts of the text.
+    pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
+        let root = Fragment::at(&self.root);
+        value_names::of_file(root, replaced, &self.given, self.own_masses, model);
     }
 
     /// Place of a body's name.

@@ -28,7 +28,7 @@ pub(crate) fn find<'a>(root: Fragment<'a>, key: Fragment<'_>) -> Result<Fragment
     }
 }
 
-/// All numbers in `root`, each with its path.
+/// All numbers in `root` that a path leads to, each with its path.
 pub(crate) fn numbers(root: Fragment<'_>) -> Vec<(String, Fragment<'_>)> {
     let mut found = Vec::new();
     add_numbers(root, "", &mut found);
@@ -60,13 +60,35 @@ fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fra
             return;
         }
     };
-    for (name, part) in parts.into_iter().flatten() {
+    let parts: Vec<_> = parts.into_iter().flatten().collect();
+    let dotted = parts.iter().any(|(name, _)| name.contains('.'));
+    let before = path.len() + usize::from(!path.is_empty());
+    for (name, part) in &parts {
         let path = match path {
-            "" => name,
+            "" => name.clone(),
             path => format!("{path}.{name}"),
         };
-        add_numbers(part, &path, found);
+        let start = found.len();
+        add_numbers(*part, &path, found);
+        // Where a name goes on as another one does, a path may lead there.
+        let longer = |other: &&(String, Fragment<'a>)| {
+            let rest = other.0.strip_prefix(name.as_str());
+            rest.is_some_and(|rest| rest.starts_with('.'))
+        };
+        for (other, _) in parts.iter().filter(|_| dotted).filter(longer) {
+            let mut place = 0;
+            found.retain(|(path, _)| {
+                place += 1;
+                place <= start || !starts_with(&path[before..], other)
+            });
+        }
     }
+}
+
+/// Whether the first steps of a path are this name.
+fn starts_with(path: &str, name: &str) -> bool {
+    let rest = path.strip_prefix(name);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// The next step of a path.
@@ -117,11 +139,7 @@ impl Step<'_> {
         names: Vec<(String, Fragment<'a>)>,
     ) -> Result<(Fragment<'a>, usize), LoadError> {
         let rest = &self.path[self.walked..];
-        let fits = |name: &str| {
-            let after = rest.strip_prefix(name);
-            after.is_some_and(|after| after.is_empty() || after.starts_with('.'))
-        };
-        let fitting = names.iter().filter(|(name, _)| fits(name));
+        let fitting = names.iter().filter(|(name, _)| starts_with(rest, name));
         match fitting.max_by_key(|(name, _)| name.len()) {
             Some((name, value)) => Ok((*value, name.len())),
             None => {

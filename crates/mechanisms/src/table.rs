@@ -36,16 +36,6 @@ impl<T> Table<T> {
         Ok(table)
     }
 
-    /// Names and values in the order of the file.
-    pub(crate) fn entries(&self) -> impl Iterator<Item = (&str, &T)> {
-        let value = |name: &'_ String| self.values.get(name);
-        let named = self
-            .names
-            .iter()
-            .filter_map(move |name| Some((name, value(name)?)));
-        named.map(|(name, value)| (name.as_str(), value))
-    }
-
     /// The value that a name in the file refers to.
     pub(crate) fn find(&self, name: Fragment<'_>) -> Result<&T, LoadError> {
         let text = name.string()?;

@@ -9,7 +9,7 @@ use hyperstat_elements::Section;
 use nalgebra::{Vector3, Vector6};
 
 use crate::beam::{Element, join};
-use crate::taper::{points, section};
+use crate::taper::{along_change, points, section};
 
 /// What acts along one element.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,17 +86,26 @@ fn deformations(
     segment: &Segment,
     strain: impl Fn(&Section, f64) -> Vector6<f64>,
 ) -> [f64; 6] {
-    let [first, last] = element.part;
     let x = element.frame.column(0).into_owned();
+    // Along the whole change of section, where there is one.
+    let part = element.part.map(|place| match &segment.taper {
+        Some(change) => along_change(change, place),
+        None => place,
+    });
+    let [first, last] = part;
     let places = match &segment.taper {
-        Some(to) => points(&segment.section, to, element.part),
+        Some(change) => points(&segment.section, &change.to, part),
         None => gauss(first, last).to_vec(),
+    };
+    let section_there = |place: f64| match &segment.taper {
+        Some(change) => section(&segment.section, &change.to, place),
+        None => segment.section.clone(),
     };
     let rows = element.deformations();
     let mut sums = [0.0; 6];
     for (place, weight) in places {
         let xi = (place - first) / (last - first);
-        let strain = strain(&section_at(segment, place), xi);
+        let strain = strain(&section_there(place), xi);
         let length = weight * element.length / (last - first);
         for (row, sum) in rows.iter().zip(&mut sums) {
             let (_, on_first) = &row.terms[0];
@@ -110,7 +119,7 @@ fn deformations(
 
 fn section_at(segment: &Segment, place: f64) -> Section {
     match &segment.taper {
-        Some(to) => section(&segment.section, to, place),
+        Some(change) => section(&segment.section, &change.to, along_change(change, place)),
         None => segment.section.clone(),
     }
 }

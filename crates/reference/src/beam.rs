@@ -50,7 +50,7 @@ impl Element {
         part: [f64; 2],
     ) -> Self {
         let taper = segment.taper.as_ref();
-        let taper = taper.map(|to| TaperFlexibility::new(segment, to, part, length));
+        let taper = taper.map(|change| TaperFlexibility::new(segment, change, part, length));
         let length = length * (part[1] - part[0]);
         let (material, section) = (&segment.material, &segment.section);
         let bending = [section.iz(), section.iy()].map(|i| material.young() * i);

@@ -2,7 +2,7 @@
 //!
 //! Formed here anew: `hyperstat-elements` interpolates the section and integrates in other ways.
 
-use hyperstat_assembly::Segment;
+use hyperstat_assembly::{Segment, Tapering};
 use hyperstat_elements::{Section, SectionShape};
 
 /// Step of the quadrature in its own variable.
@@ -34,9 +34,13 @@ pub(crate) struct TaperBending {
 
 impl TaperFlexibility {
     /// Of the part of a segment of length `length` [m] between two places (0 to 1) along it, where
-    /// its section runs from its own to `to`.
-    pub fn new(segment: &Segment, to: &Section, part: [f64; 2], length: f64) -> Self {
+    /// its section runs from its own to another.
+    pub fn new(segment: &Segment, change: &Tapering, part: [f64; 2], length: f64) -> Self {
         let (young, shear) = (segment.material.young(), segment.material.shear());
+        // From here on all along the whole change.
+        let to = &change.to;
+        let part = part.map(|place| along_change(change, place));
+        let length = length / (change.part[1] - change.part[0]);
         let at = |xi: f64| section(&segment.section, to, xi);
         let places = points(&segment.section, to, part);
         let integral = |value: &dyn Fn(&Section, f64) -> f64| -> f64 {
@@ -66,6 +70,12 @@ impl TaperFlexibility {
             bending,
         }
     }
+}
+
+/// The place along a change of section, of a place along a segment that has a part of it.
+pub(crate) fn along_change(change: &Tapering, place: f64) -> f64 {
+    let [first, last] = change.part;
+    first + (last - first) * place
 }
 
 /// The section at `xi`: dimensions linear, general properties as those of a scaled shape, shear

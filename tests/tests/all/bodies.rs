@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Plan, Solution, SolveError, solve,
+    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Plan, Solution, SolveError,
+    Tapering, solve,
 };
 use hyperstat_elements::{Beam, Section, SectionShape, element_frame, rotate_matrix12};
 use hyperstat_joints::{DofSet, Fixed, Revolute, frame_from_axis};
@@ -75,7 +76,8 @@ fn with_changes(model: &Model, change: impl Fn(usize) -> Change) -> Model {
                         ends: segment.ends.map(|n| place(n).expect("a node of the body")),
                         material: segment.material.clone(),
                         section: segment.section.clone(),
-                        taper: (change == Change::Taper).then(|| rectangle(0.055, 0.022)),
+                        taper: (change == Change::Taper)
+                            .then(|| Tapering::whole(rectangle(0.055, 0.022))),
                         y_axis: geometry.y_axes[id.0],
                         elements: if change == Change::Taper { 2 } else { 1 },
                     }

@@ -31,3 +31,4 @@ mod states;
 mod tapers;
 mod traditional;
 mod trajectories;
+mod units;

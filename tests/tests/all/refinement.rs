@@ -1,6 +1,6 @@
 //! Segments divided into elements: nothing changes, and the nodes inside are where they should be.
 
-use hyperstat_assembly::{Member, Model, SegmentId, Solution, solve};
+use hyperstat_assembly::{Member, Model, SegmentId, Solution, Tapering, solve};
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::{Fixed, Universal};
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt};
@@ -137,7 +137,7 @@ fn bent_bar(elements: usize, divided: bool) -> Model {
             let mut next = member(ends, &steel(), &rectangle(0.02, 0.05));
             if segment == 0 {
                 next.section = sides((piece - 1) as f64 / pieces as f64);
-                next.taper = Some(sides(share));
+                next.taper = Some(Tapering::whole(sides(share)));
             }
             next.elements = if divided { 1 } else { elements };
             next.y_axis = Some(Vector3::new(0.2, -0.3, 1.0));

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hyperstat_assembly::{JointStiffness, Member, Model, solve};
+use hyperstat_assembly::{JointStiffness, Member, Model, Tapering, solve};
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::Universal;
 use hyperstat_mechanisms::{Registry, mechanism_from_str};
@@ -34,7 +34,7 @@ fn a_tapered_console_follows_its_closed_form() {
             ([0, 1], d1, d2)
         };
         let tapered = Member {
-            taper: Some(circle(to)),
+            taper: Some(Tapering::whole(circle(to))),
             ..member(ends, &steel(), &circle(from))
         };
         model
@@ -71,7 +71,7 @@ fn absorbed_joints_inside_tapered_runs_agree_with_the_independent_solver() {
         .map(|ends| member(ends, &steel(), &rectangle(0.02, 0.05)))
         .into();
     for tapered in &mut members {
-        tapered.taper = Some(rectangle(0.06, 0.03));
+        tapered.taper = Some(Tapering::whole(rectangle(0.06, 0.03)));
     }
     model.add_elastic("run", &points, &members).expect("a body");
     model

@@ -10,7 +10,7 @@ use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
 use super::{LANES, Lanes};
-use crate::model::{Connection, Geometry, JointStiffness, Member, Model};
+use crate::model::{Connection, Geometry, JointStiffness, Member, Model, Tapering};
 use crate::plan::Plan;
 use crate::solve::PoseResult;
 
@@ -151,7 +151,7 @@ fn mechanism(random: &mut Random) -> Option<Model> {
                     },
                     material: steel.clone(),
                     section: random.section(round),
-                    taper: (random.unit() < 0.3).then(|| random.section(round)),
+                    taper: (random.unit() < 0.3).then(|| Tapering::whole(random.section(round))),
                     y_axis: None,
                     elements: 1,
                 })

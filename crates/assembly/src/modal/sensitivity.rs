@@ -11,7 +11,9 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use hyperstat_elements::{BeamLoad, MassShape, Matrix12, StraightBeam, rotate_vector6};
+use hyperstat_elements::{
+    BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, rotate_vector6,
+};
 use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 
 use super::system::each_deformation;
@@ -83,8 +85,7 @@ impl ModalPlan {
     /// frequencies.
     ///
     /// # Errors
-    /// As [`ModalPlan::modes`]; a section so near the limits of its kind that its dimension cannot
-    /// be varied.
+    /// As [`ModalPlan::modes`].
     pub fn sensitivities(&self, geometry: &Geometry) -> Result<ModalSensitivities, SolveError> {
         let wanted = self.options.count;
         let mut asked = wanted + SPARE;
@@ -302,6 +303,7 @@ impl ModalPlan {
         let density = segment.material.density().unwrap_or(0.0);
         let lumped = options.mass == BeamMass::Lumped;
         let (shape, rotary) = (options.shape, options.rotary_inertia);
+        let fixed = (MassShape::Cubic, RotaryInertia::Left);
         let sections = |xi| part.change.sections(part.along(xi));
         let rigidities = |xi| part.change.rigidities(part.along(xi));
         Ok(match part.change {
@@ -313,8 +315,8 @@ impl ModalPlan {
                     false => unit.consistent(beam, shape, rotary),
                 })
             }
-            // Elastic constants only change the shapes that depend on them.
-            SegmentChange::Elastic(_) if lumped || shape == MassShape::Cubic => None,
+            // Elastic constants only change the beam's own shapes.
+            SegmentChange::Elastic(_) if lumped || (shape, rotary) == fixed => None,
             _ => {
                 let line = line_mass(segment, density)?;
                 Some(match lumped {

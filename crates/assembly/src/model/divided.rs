@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Geometry, Model, Node, NodeId, Segment, SegmentId};
+use super::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering};
 use crate::cluster::segment_beam;
 use crate::error::SolveError;
 
@@ -22,7 +22,6 @@ impl Model {
         }
         for segment in &self.segments {
             let count = segment.elements;
-            let taper = segment.change_of_section()?;
             let place = |k: usize| k as f64 / count as f64;
             let mut first = segment.ends[0];
             for k in 0..count {
@@ -31,18 +30,17 @@ impl Model {
                 } else {
                     whole.add_inner_node(segment, k + 1)
                 };
-                let part = taper.as_ref().map(|t| t.part(place(k), place(k + 1)));
-                let (section, taper) = match part {
-                    Some(part) => (part.from().clone(), Some(part.to().clone())),
-                    None => (segment.section.clone(), None),
-                };
+                let taper = segment.taper.as_ref().map(|whole| Tapering {
+                    to: whole.to.clone(),
+                    part: [k, k + 1].map(|k| whole.along(place(k))),
+                });
                 let id = SegmentId(whole.segments.len());
                 whole.bodies[segment.body.0].segments.push(id);
                 whole.segments.push(Segment {
                     body: segment.body,
                     ends: [first, last],
                     material: segment.material.clone(),
-                    section,
+                    section: segment.section.clone(),
                     taper,
                     elements: 1,
                     y_axis_given: segment.y_axis_given,

@@ -11,7 +11,7 @@ pub enum ValuePlace {
     Dimension {
         /// The segment.
         segment: SegmentId,
-        /// Whether the section is the one at the second end of a segment that tapers.
+        /// Whether the section is the one that the segment's change of section ends with.
         second: bool,
         /// The dimension.
         dimension: &'static str,
@@ -30,6 +30,11 @@ pub enum ValuePlace {
         /// The direction.
         direction: Dof,
     },
+    /// The mass of a node.
+    Mass {
+        /// Its place among [`Model::masses`].
+        mass: usize,
+    },
 }
 
 impl Model {
@@ -38,7 +43,10 @@ impl Model {
         let mut values = Vec::new();
         for (k, own) in self.segments.iter().enumerate() {
             let segment = SegmentId(k);
-            let ends = [(false, Some(&own.section)), (true, own.taper.as_ref())];
+            let ends = [
+                (false, Some(&own.section)),
+                (true, own.taper.as_ref().map(|t| &t.to)),
+            ];
             for (second, section) in ends {
                 let dimensions = section.into_iter().flat_map(|s| s.dimensions());
                 values.extend(dimensions.map(|(dimension, value)| {

@@ -1,21 +1,55 @@
-//! What a parameter of a mechanism is called.
+//! What the parameters of a mechanism are called.
+
+use std::collections::HashMap;
 
 use hyperstat_assembly::{BodyId, JointId, Model, Parameter};
 use hyperstat_joints::Dof;
 
-use crate::case::Case;
-
 /// Names that are listed one by one.
 const FEW: usize = 3;
 
-/// The name of a parameter: the one that its values have; its path in the mechanism file, as `vary`
-/// takes it, where the mechanism is one of a file with a table that holds it; else the bodies or
-/// joints that have it.
-pub(super) fn name(case: &Case, named: Option<&str>, parameter: &Parameter) -> String {
-    let model = &case.model;
-    if let Some(name) = named {
-        return name.into();
+/// Names of a model's parameters, each once: the name that its values have, which is the path that
+/// `vary` takes; else in words, by the bodies or joints that have it.
+pub(super) fn names<'a>(
+    model: &Model,
+    parameters: impl Iterator<Item = (Option<&'a str>, &'a Parameter)>,
+) -> Vec<String> {
+    let parameters: Vec<_> = parameters.collect();
+    let name = |(named, parameter): &(Option<&str>, &Parameter), few: usize| match named {
+        Some(name) => (*name).to_owned(),
+        None => in_words(model, parameter, few),
+    };
+    let mut names: Vec<String> = parameters.iter().map(|p| name(p, FEW)).collect();
+    // Shortened lists may be the same; equal parts of one body are numbered.
+    let counts = counted(&names);
+    for (own, parameter) in names.iter_mut().zip(&parameters) {
+        if counts[own] > 1 {
+            *own = name(parameter, usize::MAX);
+        }
     }
+    let counts = counted(&names);
+    let mut told: HashMap<String, usize> = HashMap::new();
+    for own in &mut names {
+        let count = counts[own];
+        if count > 1 {
+            let place = told.entry(own.clone()).or_insert(0);
+            *place += 1;
+            *own += &format!(" ({place} of {count})");
+        }
+    }
+    names
+}
+
+fn counted(names: &[String]) -> HashMap<String, usize> {
+    let mut counts = HashMap::new();
+    for name in names {
+        *counts.entry(name.clone()).or_insert(0) += 1;
+    }
+    counts
+}
+
+/// A parameter in words; more than `few` names are shortened.
+fn in_words(model: &Model, parameter: &Parameter, few: usize) -> String {
     match parameter {
         Parameter::Section {
             section,
@@ -23,87 +57,55 @@ pub(super) fn name(case: &Case, named: Option<&str>, parameter: &Parameter) -> S
             dimension,
             bodies,
         } => {
-            let named = case.mechanism().into_iter().flat_map(|m| m.sections());
-            let names: Vec<_> = named
-                .filter_map(|(name, ends)| {
-                    let path = format!("sections.{name}");
-                    let tapers = ends[0] != ends[1];
-                    match (tapers, second) {
-                        (false, false) if ends[0] == *section => Some(path),
-                        (true, false) if ends[0] == *section => Some(path + ".from"),
-                        (true, true) if ends[1] == *section => Some(path + ".to"),
-                        _ => None,
-                    }
-                })
-                .collect();
-            let end = if *second { "second end of " } else { "" };
-            of(names, dimension, || {
-                format!("{end}{}", body_names(model, bodies))
-            })
+            let segments = bodies.iter().flat_map(|b| &model.bodies()[b.0].segments);
+            let mut segments = segments.map(|s| &model.segments()[s.0]);
+            let end = match second {
+                true => "second end of ",
+                false if segments.any(|s| s.section == *section && s.taper.is_some()) => {
+                    "first end of "
+                }
+                false => "",
+            };
+            format!("{dimension} of {end}{}", body_names(model, bodies, few))
         }
         Parameter::Material {
-            material,
-            constant,
-            bodies,
-        } => {
-            let named = case.mechanism().into_iter().flat_map(|m| m.materials());
-            let names = named
-                .filter(|(_, own)| own.constants() == material.constants())
-                .map(|(name, _)| format!("materials.{name}"))
-                .collect();
-            of(names, constant, || body_names(model, bodies))
-        }
+            constant, bodies, ..
+        } => format!("{constant} of {}", body_names(model, bodies, few)),
         Parameter::Joint { direction, joints } => {
-            let direction = direction.map_or("stiffness", letter);
-            match joints.as_slice() {
-                [one] if case.mechanism().is_some() && direction != "stiffness" => {
-                    let joint = &model.joints()[one.0].name;
-                    format!("joints.{joint}.stiffness.{direction}")
-                }
-                _ => format!("stiffness {direction} of {}", joint_names(model, joints)),
+            let joints = joint_names(model, joints, few);
+            match direction {
+                Some(direction) => format!("stiffness {} of {joints}", letter(*direction)),
+                None => format!("stiffness of {joints}"),
             }
         }
         Parameter::Mass { mass, inertia } => {
-            let node = || model.node_name(model.masses()[*mass].node);
-            match (case.is_file(), inertia) {
-                (true, false) => format!("masses.{mass}.mass"),
-                (_, false) => format!("mass on {}", node()),
-                (_, true) => format!("inertia on {}", node()),
-            }
+            let what = if *inertia { "inertia" } else { "mass" };
+            let node = model.masses()[*mass].node;
+            format!("{what} on {}", model.node_name(node))
         }
     }
 }
 
-/// `path.what` where the tables have one or more paths, else `what of …`.
-fn of(paths: Vec<String>, what: &str, owners: impl Fn() -> String) -> String {
-    match paths.as_slice() {
-        [] => format!("{what} of {}", owners()),
-        paths => {
-            let paths: Vec<_> = paths.iter().map(|path| format!("{path}.{what}")).collect();
-            paths.join(" = ")
-        }
-    }
-}
-
-fn body_names(model: &Model, bodies: &[BodyId]) -> String {
+fn body_names(model: &Model, bodies: &[BodyId], few: usize) -> String {
     let names: Vec<_> = bodies
         .iter()
         .map(|b| model.bodies()[b.0].name.as_str())
         .collect();
-    short(&names)
+    short(&names, few)
 }
 
-fn joint_names(model: &Model, joints: &[JointId]) -> String {
+fn joint_names(model: &Model, joints: &[JointId], few: usize) -> String {
     let names: Vec<_> = joints
         .iter()
         .map(|j| model.joints()[j.0].name.as_str())
         .collect();
-    short(&names)
+    short(&names, few)
 }
 
-/// A few names, or of many what they are without the numbers at their ends: `roda*, rodb* (6)`.
-fn short(names: &[&str]) -> String {
-    if names.len() <= FEW {
+/// No more than `few` names, or what they are without the numbers at their ends:
+/// `roda*, rodb* (6)`.
+fn short(names: &[&str], few: usize) -> String {
+    if names.len() <= few {
         return names.join(", ");
     }
     let mut stems: Vec<String> = Vec::new();
@@ -142,8 +144,8 @@ mod tests {
 
     #[test]
     fn many_names_are_told_by_their_stems() {
-        assert_eq!(short(&["arm1", "arm2", "arm3"]), "arm1, arm2, arm3");
+        assert_eq!(short(&["arm1", "arm2", "arm3"], 3), "arm1, arm2, arm3");
         let rods = ["roda1", "rodb1", "roda2", "rodb2", "bar"];
-        assert_eq!(short(&rods), "roda*, rodb*, bar (5)");
+        assert_eq!(short(&rods, 3), "roda*, rodb*, bar (5)");
     }
 }

@@ -57,9 +57,11 @@ impl SensitivityReport {
         relative: impl Fn(&Sensitivity) -> Option<f64>,
     ) -> Result<Vec<Self>, SolveError> {
         let found = influence.sensitivities(solution)?;
-        let mut all: Vec<Self> = (found.iter())
-            .map(|s| Self {
-                parameter: parameters::name(case, s.name.as_deref(), &s.parameter),
+        let named = found.iter().map(|s| (s.name.as_deref(), &s.parameter));
+        let names = parameters::names(&case.model, named);
+        let mut all: Vec<Self> = (found.iter().zip(names))
+            .map(|(s, parameter)| Self {
+                parameter,
                 value: s.value,
                 relative: relative(s),
                 displacement: s.displacement.as_ref().map(numbers),
@@ -101,16 +103,20 @@ impl SensitivityReport {
 impl FrequencyReport {
     /// Those of a model, one a group of equal frequencies.
     pub(crate) fn all(case: &Case, found: &ModalSensitivities) -> Vec<Self> {
+        let named = found.parameters.iter();
+        let named = named.map(|s| (s.name.as_deref(), &s.parameter));
+        let names = parameters::names(&case.model, named);
         let group = |group: &std::ops::Range<usize>| {
-            let own = |s: &FrequencySensitivity| FrequencySensitivityReport {
-                parameter: parameters::name(case, s.name.as_deref(), &s.parameter),
+            let own = |(s, name): (&FrequencySensitivity, &String)| FrequencySensitivityReport {
+                parameter: name.clone(),
                 value: s.value,
                 relative: (group.clone())
                     .map(|place| s.relative(&found.frequencies, place))
                     .collect(),
                 derivative: s.derivatives[group.clone()].to_vec(),
             };
-            let mut sensitivities: Vec<_> = found.parameters.iter().map(own).collect();
+            let all = found.parameters.iter().zip(&names);
+            let mut sensitivities: Vec<_> = all.map(own).collect();
             sensitivities.sort_by(|a, b| b.size().total_cmp(&a.size()));
             Self {
                 modes: group.clone().map(|place| place + 1).collect(),

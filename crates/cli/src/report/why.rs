@@ -414,7 +414,7 @@ impl MeasuresReport {
         ];
         for (name, principal) in principals {
             for (value, direction) in principal.values.iter().zip(principal.directions) {
-                let row = [*value].into_iter().chain(direction.map(clean));
+                let row = [*value].into_iter().chain(direction.map(|c| clean(c, 1.0)));
                 table.row(&[name], row);
             }
         }
@@ -433,13 +433,16 @@ impl MeasuresReport {
             let first = [screw.eigenvalue, screw.stiffness, screw.pitch];
             let places = screw
                 .direction
-                .map(clean)
+                .map(|c| clean(c, 1.0))
                 .into_iter()
-                .chain(screw.point.map(clean));
+                .chain(screw.point.map(|c| clean(c, self.characteristic_length)));
             table.row(&[], first.into_iter().chain(places));
         }
         section(text, "Eigenscrews of the stiffness", table);
-        let point = |p: [f64; 3]| p.map(|c| number(clean(c))).join(", ");
+        let point = |p: [f64; 3]| {
+            p.map(|c| number(clean(c, self.characteristic_length)))
+                .join(", ")
+        };
         let body = format!(
             "  centre of stiffness   ({}) m\n  centre of compliance  ({}) m\n  \
              condition number      {} with rotations times {} m\n  \
@@ -455,9 +458,9 @@ impl MeasuresReport {
     }
 }
 
-/// What is rounding beside a length of 1, shown as 0.
-fn clean(component: f64) -> f64 {
-    if component.abs() < 1e-12 {
+/// What is rounding beside this size, shown as 0.
+fn clean(component: f64, size: f64) -> f64 {
+    if component.abs() < 1e-12 * size {
         0.0
     } else {
         component

@@ -10,6 +10,7 @@ mod help;
 mod messages;
 mod misfits;
 mod modes;
+mod parameters;
 mod plot;
 mod run;
 mod shapes;

@@ -253,6 +253,96 @@ fn pinned_timoshenko_beam() {
     }
 }
 
+/// A clamped, stubby bar (steel, 20 mm round, 0.2 m, κA = 0.9 A) against the first three roots of
+/// Timoshenko's frequency equation (Huang 1961), in Hz. Whatever the shapes of the masses they
+/// converge to these, by h².
+#[test]
+fn clamped_timoshenko_beam() {
+    let material = Material::new(2.1e11, Elasticity::Poisson(0.3), None).unwrap();
+    let (length, density) = (0.2, 7850.0);
+    let area = PI * 1e-4;
+    let shape = SectionShape::Circle { diameter: 0.02 };
+    let section = Section::new(shape, Some(0.9 * area), Some(0.9 * area)).unwrap();
+    let mass = LineMass::new(density, Taper::constant(section.clone())).unwrap();
+    for (rotary, expected) in [
+        (
+            RotaryInertia::Included,
+            [359.766_338_06, 2_183.222_522_92, 5_833.618_552_61],
+        ),
+        (
+            RotaryInertia::Left,
+            [360.279_866_67, 2_203.615_515_02, 5_947.237_695_29],
+        ),
+    ] {
+        for shape in [MassShape::Cubic, MassShape::Exact] {
+            let found = [16, 32, 64].map(|count| {
+                let beam = Beam::new(&material, &section, length / count as f64).unwrap();
+                let consistent = mass.consistent(&beam, shape, rotary);
+                cantilever(&vec![(beam.stiffness(), consistent); count])
+            });
+            for (k, expected) in expected.into_iter().enumerate() {
+                let square = (expected * TAU).powi(2);
+                let errors = found.each_ref().map(|all| all[k] / square - 1.0);
+                let once = [0, 1].map(|n| (4.0 * errors[n + 1] - errors[n]) / 3.0);
+                let twice = (16.0 * once[1] - once[0]) / 15.0;
+                let what = format!("{rotary:?} {shape:?} {k}: {errors:?}");
+                // Eigenvalues are good to rounding of the largest of them.
+                let rounding = f64::EPSILON * found[2].amax() / found[2][k];
+                let near = |found: f64, expected: f64| {
+                    (found - expected).abs() < 0.05 * expected + rounding
+                };
+                assert!(near(errors[1] / 4.0, errors[2]), "{what}");
+                // Each extrapolation leaves a part of about (k l)² of the error before, l the coarser
+                // of its two.
+                let part = ([1.875_f64, 4.694, 7.855][k] / 32.0).powi(2);
+                assert!(
+                    twice.abs() < part * once[1].abs() + rounding,
+                    "{what}: {twice:e}"
+                );
+                // What inertia shears between the nodes: (k l)²/12, k the wave number that shear
+                // alone would have; /20 where the centre line is a cubic without shear.
+                let shear = 0.9 * material.shear() / density;
+                let wave = square / shear * (length / 64.0_f64).powi(2);
+                let expected = match shape {
+                    MassShape::Exact => wave / 12.0,
+                    MassShape::Cubic => wave / 20.0,
+                };
+                assert!(near(errors[2], expected), "{what}: {expected:e}");
+            }
+        }
+    }
+}
+
+/// Tension and torsion of a clamped round bar: ω = (n − ½) π c/L; linear shapes bound ω² from above
+/// by (k l)²/12 of itself, k the wave number and l an element's length.
+#[test]
+fn tension_and_torsion_converge_by_squares() {
+    let material = Material::new(2.1e11, Elasticity::Poisson(0.3), None).unwrap();
+    let (length, density, count) = (0.5, 7850.0, 32);
+    let section = circle(0.02);
+    let mass = LineMass::new(density, Taper::constant(section.clone())).unwrap();
+    let beam = Beam::new(&material, &section, length / count as f64).unwrap();
+    let consistent = mass.consistent(&beam, MassShape::Cubic, RotaryInertia::Left);
+    let mut frame = Frame::new(count + 1);
+    for k in 0..count {
+        frame.add([k, k + 1], &beam.stiffness(), &consistent);
+    }
+    for (component, modulus) in [(0, material.young()), (3, material.shear())] {
+        let moving: Vec<usize> = (1..=count).map(|n| 6 * n + component).collect();
+        let found = frame.eigenvalues(&moving, &[]);
+        for n in 0..3 {
+            let wave = (n as f64 + 0.5) * PI / length;
+            let exact = wave * wave * modulus / density;
+            let expected = (wave * length / count as f64).powi(2) / 12.0;
+            let error = found[n] / exact - 1.0;
+            assert!(
+                (error - expected).abs() < 0.02 * expected,
+                "{component} {n}: {error:e} {expected:e}"
+            );
+        }
+    }
+}
+
 /// Kirchhoff (1879; Blevins, Table 8-11): a wedge of constant width and a cone that end in a point
 /// have ω = 5.315 and 8.719 √(E I / ρ A L⁴) of the clamped end.
 #[test]

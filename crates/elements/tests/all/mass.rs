@@ -30,7 +30,8 @@ fn difference(found: &Matrix12, expected: &Matrix12) -> f64 {
 
 /// Przemieniecki, Theory of Matrix Structural Analysis (1968), Eq. 11.29: the consistent mass
 /// matrix of a beam with shear deformation (Φ = 12 EI / G A_s L²) and rotary inertia (r² = I/A),
-/// as a part of ρ A L; rows and columns v1 θ1 v2 θ2.
+/// as a part of ρ A L; rows and columns v1 θ1 v2 θ2. Its first terms are the motion of the centre
+/// line, those with r the turning of the sections.
 fn przemieniecki(l: f64, phi: f64, r: f64) -> [[f64; 4]; 4] {
     let (p2, q, d) = (phi * phi, (r / l).powi(2), (1.0 + phi).powi(2));
     let vv = 13.0 / 35.0 + 7.0 / 10.0 * phi + p2 / 3.0 + 6.0 / 5.0 * q;
@@ -50,9 +51,10 @@ fn przemieniecki(l: f64, phi: f64, r: f64) -> [[f64; 4]; 4] {
     rows.map(|row| row.map(|entry| entry / d))
 }
 
-/// The 12×12 matrix of a prismatic beam from Przemieniecki's planes (Φ and r of bending along y
-/// and along z; r = 0 leaves rotary inertia out) and linear tension and torsion.
-fn published(section: &Section, l: f64, planes: [(f64, f64); 2]) -> Matrix12 {
+/// The 12×12 matrix of a prismatic beam from Przemieniecki's planes (Φ of the centre line's motion,
+/// Φ of the sections' turning, and r, of bending along y and along z; r = 0 leaves rotary inertia
+/// out) and linear tension and torsion.
+fn published(section: &Section, l: f64, planes: [(f64, f64, f64); 2]) -> Matrix12 {
     let mass = DENSITY * section.area() * l;
     let polar = DENSITY * (section.iy() + section.iz()) * l;
     let mut m = Matrix12::zeros();
@@ -63,13 +65,15 @@ fn published(section: &Section, l: f64, planes: [(f64, f64); 2]) -> Matrix12 {
         m[(row + 6, row)] = whole / 6.0;
     }
     let places = [([1, 5, 7, 11], 1.0), ([2, 4, 8, 10], -1.0)];
-    for ((phi, r), (rows, sign)) in planes.into_iter().zip(places) {
-        let entries = przemieniecki(l, phi, r);
+    for ((phi, turned, r), (rows, sign)) in planes.into_iter().zip(places) {
+        let moved = przemieniecki(l, phi, 0.0);
+        let (with, without) = (przemieniecki(l, turned, r), przemieniecki(l, turned, 0.0));
+        let entry = |i: usize, j: usize| moved[i][j] + (with[i][j] - without[i][j]);
         // A slope of deflection along z is a turn of −φy.
         let signs = [1.0, sign, 1.0, sign];
         for i in 0..4 {
             for j in 0..4 {
-                m[(rows[i], rows[j])] = mass * entries[i][j] * signs[i] * signs[j];
+                m[(rows[i], rows[j])] = mass * entry(i, j) * signs[i] * signs[j];
             }
         }
     }
@@ -94,10 +98,11 @@ fn prismatic_beams_of_przemieniecki() {
         let phi_y = flexibility(section.iz(), section.shear_y());
         let phi_z = flexibility(section.iy(), section.shear_z());
         for (shape, rotary, planes) in [
-            (Exact, Included, [(phi_y, rz), (phi_z, ry)]),
-            (Exact, Left, [(phi_y, 0.0), (phi_z, 0.0)]),
-            (Cubic, Included, [(0.0, rz), (0.0, ry)]),
-            (Cubic, Left, [(0.0, 0.0), (0.0, 0.0)]),
+            (Exact, Included, [(phi_y, phi_y, rz), (phi_z, phi_z, ry)]),
+            (Exact, Left, [(phi_y, phi_y, 0.0), (phi_z, phi_z, 0.0)]),
+            // Sections with shear areas do not turn with the slope.
+            (Cubic, Included, [(0.0, phi_y, rz), (0.0, phi_z, ry)]),
+            (Cubic, Left, [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0)]),
         ] {
             let found = line(&section).consistent(&beam, shape, rotary);
             assert_eq!(found, found.transpose());

@@ -91,7 +91,7 @@ fn by_dimensions_of_sections() {
             for (name, value) in end.dimensions() {
                 let change: Along<'_> = &|xi| match taper.is_constant() {
                     true => end.logarithmic_derivative(name),
-                    false => taper.logarithmic_derivative(second, name, xi).unwrap(),
+                    false => taper.logarithmic_derivative(second, name, xi),
                 };
                 let line = |taper: &Taper| LineMass::new(DENSITY, taper.clone()).unwrap();
                 let sides = [1.0 + STEP, 1.0 - STEP];
@@ -135,8 +135,11 @@ fn by_constants_of_materials() {
     let (young, poisson) = (2.1e11, 0.3);
     let own = material(young, poisson);
     let none: Along<'_> = &|_| Vector6::zeros();
-    let (shape, rotary) = (MassShape::Exact, RotaryInertia::Included);
-    for taper in tapers() {
+    let rotary = RotaryInertia::Included;
+    for (taper, shape) in tapers()
+        .into_iter()
+        .flat_map(|taper| [MassShape::Exact, MassShape::Cubic].map(|shape| (taper.clone(), shape)))
+    {
         let line = LineMass::new(DENSITY, taper.clone()).unwrap();
         let of = |m: &Material| line.consistent(&*beam(m, &taper), shape, rotary);
         let mut changes = Vec::new();
@@ -159,7 +162,7 @@ fn by_constants_of_materials() {
         let cubic = line.consistent_derivative(
             &*beam(&own, &taper),
             MassShape::Cubic,
-            rotary,
+            RotaryInertia::Left,
             none,
             &|_| own.logarithmic_derivative("poisson"),
         );

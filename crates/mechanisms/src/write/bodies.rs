@@ -129,7 +129,11 @@ struct Member<'a> {
 
 fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Parts) -> Member<'a> {
     let segment = &model.segments()[id.0];
-    let profile = (segment.section.clone(), segment.taper.clone());
+    // A segment's own part of a change of section; a model has none that cannot be formed.
+    let profile = match segment.change_of_section() {
+        Ok(Some(taper)) => (taper.from().clone(), Some(taper.to().clone())),
+        _ => (segment.section.clone(), None),
+    };
     let material = parts.materials.name(&segment.material, body);
     let mut rest = format!("material: {material:?}");
     if let Some(y_axis) = model.geometry().y_axes[id.0] {

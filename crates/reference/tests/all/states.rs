@@ -35,7 +35,7 @@ fn beam(sections: [&Section; 2], elements: usize, held: &[&'static str]) -> Mode
         ends: [0, 1],
         material: steel(),
         section: section.clone(),
-        taper: (section != taper).then(|| taper.clone()),
+        taper: (section != taper).then(|| hyperstat_assembly::Tapering::whole(taper.clone())),
         y_axis: None,
         elements,
     };

@@ -46,6 +46,33 @@ fn deflections_of_a_console() {
     near(heated("diameter"), 0.0, "temperature");
 }
 
+/// A cone of d₁ at the wall and d₂ at the tip bends by 64 F L³/(3π E d₁³ d₂), however many segments
+/// it runs over: its diameters are one parameter each.
+#[test]
+fn a_taper_over_several_segments() {
+    for (points, through) in [
+        ("", ""),
+        ("\"M\": (0.25, 0.0, 0.0), ", "\"M\", "),
+        (
+            "\"M\": (0.1, 0.0, 0.0), \"N\": (0.4, 0.0, 0.0), ",
+            "\"M\", \"N\", ",
+        ),
+    ] {
+        let text = console(
+            "Tapered(from: Circle(diameter: 0.02), to: Circle(diameter: 0.01))",
+            1,
+            "loads: [(on: (\"bar\", \"B\"), force: (0.0, 0.0, -10.0))],",
+        );
+        let text = text
+            .replace("points: {", &format!("points: {{{points}"))
+            .replace("[\"A\", ", &format!("[\"A\", {through}"));
+        let found = of_deflection(&text, 2);
+        near(found("diameter"), -3.0, through);
+        near(found("diameter to"), -1.0, through);
+        near(found("young"), -1.0, through);
+    }
+}
+
 /// Mechanisms with weight, masses, temperatures, misfits and loads along beams; open, closed,
 /// over-constrained, joints absorbed or not. Under the loads of the file and of a case.
 #[test]

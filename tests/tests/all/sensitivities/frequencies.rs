@@ -101,10 +101,31 @@ fn samples() -> Vec<Sample> {
         rotary_inertia: RotaryInertia::Included,
         ..ModalOptions::lowest(6)
     };
+    let cubic = ModalOptions {
+        shape: MassShape::Cubic,
+        ..timoshenko.clone()
+    };
     let lumped = ModalOptions {
         mass: BeamMass::Lumped,
         ..ModalOptions::lowest(6)
     };
+    let stubby = console(
+        "Tapered(from: Tube(outer: 0.08, inner: 0.02, shear_y: 0.0025, shear_z: 0.002), \
+         to: Tube(outer: 0.05, inner: 0.01, shear_y: 0.0012, shear_z: 0.001))",
+        3,
+        "",
+    );
+    let of_stubby = vec![
+        ("outer", "outer: 0.08"),
+        ("outer to", "outer: 0.05"),
+        ("inner", "inner: 0.02"),
+        ("inner to", "inner: 0.01"),
+        ("shear_y", "shear_y: 0.0025"),
+        ("shear_z to", "shear_z: 0.001"),
+        ("young", "young: 210000000000.0"),
+        ("poisson", "poisson: 0.3"),
+        ("density", "density: 7850.0"),
+    ];
     let of_delta = vec![
         ("diameter", "\"arm\": Circle(diameter: 0.03"),
         ("diameter", "\"bar\": Circle(diameter: 0.02"),
@@ -122,23 +143,24 @@ fn samples() -> Vec<Sample> {
     vec![
         Sample {
             name: "stubby console",
-            text: console(
-                "Tapered(from: Tube(outer: 0.08, inner: 0.02, shear_y: 0.0025, shear_z: 0.002), \
-                 to: Tube(outer: 0.05, inner: 0.01, shear_y: 0.0012, shear_z: 0.001))",
-                3,
-                "",
-            ),
-            parameters: vec![
-                ("outer", "outer: 0.08"),
-                ("outer to", "outer: 0.05"),
-                ("inner", "inner: 0.02"),
-                ("inner to", "inner: 0.01"),
-                ("shear_y", "shear_y: 0.0025"),
-                ("shear_z to", "shear_z: 0.001"),
-                ("young", "young: 210000000000.0"),
-                ("poisson", "poisson: 0.3"),
-                ("density", "density: 7850.0"),
-            ],
+            text: stubby.clone(),
+            parameters: of_stubby.clone(),
+            options: timoshenko.clone(),
+        },
+        Sample {
+            name: "stubby console, cubic shapes",
+            text: stubby.clone(),
+            parameters: of_stubby.clone(),
+            options: cubic,
+        },
+        Sample {
+            name: "stubby console in three segments",
+            text: (stubby.replace(
+                "points: {",
+                "points: {\"M\": (0.1, 0.0, 0.0), \"N\": (0.35, 0.0, 0.0), ",
+            ))
+            .replace("[\"A\", \"B\"]", "[\"A\", \"M\", \"N\", \"B\"]"),
+            parameters: of_stubby,
             options: timoshenko.clone(),
         },
         Sample {

@@ -156,3 +156,23 @@ fn parameters_of_designs() {
     // They are there all the same, without a name.
     assert!(last.contains(&(String::new(), 0.04)), "{last:?}");
 }
+
+/// Values of 0 are told apart as others are.
+#[test]
+fn values_of_zero_have_names_of_their_own() {
+    let text = DELTA
+        .replace(
+            "arm: (section: Circle(diameter: 0.030)",
+            "arm: (section: Tube(outer: 0.030, inner: 0.0)",
+        )
+        .replace(
+            "rod: (section: Circle(diameter: 0.016)",
+            "rod: (section: Tube(outer: 0.016, inner: 0.0)",
+        );
+    let found = sensitivities(&model(&text, "delta", 0));
+    for name in ["arm.section.inner", "rod.section.inner"] {
+        let mut own = found.iter().filter(|s| s.name.as_deref() == Some(name));
+        assert_eq!(own.next().expect(name).value, 0.0);
+        assert!(own.next().is_none(), "{name} twice");
+    }
+}
