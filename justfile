@@ -38,6 +38,10 @@ peak:
 paper:
     cargo run --release -- run examples/paper.ron --out out
 
+# All fuzz targets, for so many seconds in total (needs nightly Rust and cargo-fuzz)
+fuzz seconds="3600":
+    bash fuzz/run.sh {{seconds}}
+
 # Everything that CI runs
 ci:
     bash .ci/run

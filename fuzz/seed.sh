@@ -1,12 +1,19 @@
 #!/usr/bin/env bash
-# Copies the seeds of the loader's fuzz target into fuzz/corpus/loader: every mechanism, batch and
-# broken file of the repository.
+# Copies the seeds of the fuzz targets into fuzz/corpus: every mechanism, batch and table of the
+# repository, those that are wrong too.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-mkdir -p fuzz/corpus/loader
+mkdir -p fuzz/corpus/files fuzz/corpus/tables fuzz/corpus/solved
 for folder in tests/reference examples examples/own-joints crates/mechanisms/tests/broken; do
-    for file in "$folder"/*.ron; do
-        cp "$file" "fuzz/corpus/loader/$(basename "$folder")-$(basename "$file")"
+    for file in "$folder"/*.ron "$folder"/*.csv; do
+        [ -f "$file" ] || continue
+        name="$(basename "$folder")-$(basename "$file")"
+        case "$file" in
+            *.csv) cp "$file" "fuzz/corpus/tables/$name" ;;
+            *) cp "$file" "fuzz/corpus/files/$name" && cp "$file" "fuzz/corpus/solved/$name" ;;
+        esac
     done
 done
-echo "$(find fuzz/corpus/loader -type f | wc -l) seeds"
+for target in files tables solved; do
+    echo "$target: $(find "fuzz/corpus/$target" -type f | wc -l) seeds"
+done

@@ -121,7 +121,9 @@ impl<'a> Sweep<'a> {
     pub fn dense(&mut self, pose: usize) {
         let placed = self.job.place(pose, &mut self.geometry);
         black_box(placed.expect("a pose within reach"));
-        self.model.set_geometry(self.geometry.clone());
+        self.model
+            .set_geometry(self.geometry.clone())
+            .expect("a geometry of this model");
         let found = traditional(&self.model, &SPRINGS);
         black_box(found.expect("a result"));
     }

@@ -1,13 +1,13 @@
 //! Agreement of two solutions of one mechanism, with what each number is measured by.
 
-use hyperstat_assembly::{Model, Solution, SolveError, Warning, solve};
+use hyperstat_assembly::{Floor, Model, Solution, SolveError, Warning, solve};
 use nalgebra::{Matrix6, Vector6};
 use proptest::prelude::*;
 
-use crate::{stiffness_difference, vector_differences};
+use crate::vector_differences;
 
-/// What 10 N give the stiffest part of a mechanism here [m, rad].
-const ROUNDING_FLOOR: f64 = 1e-9;
+/// Where nothing acts, everything is zero.
+const NOTHING: f64 = 1e-300;
 
 /// Compares a mechanism with the independent solver; `Ok(true)` where both solved it.
 ///
@@ -31,21 +31,34 @@ pub fn agrees_with_reference(model: &Model) -> Result<bool, TestCaseError> {
     prop_assert_eq!(ours.overconstraint, theirs.overconstraint);
     prop_assert_eq!(ours.idle.len(), theirs.idle_modes);
     prop_assert_eq!(ours.output.free_motions.len(), theirs.free_motions.len());
-    stiffnesses_agree(ours.output.stiffness.as_ref(), theirs.stiffness.as_ref())?;
-    compliances_agree(ours.output.compliance.as_ref(), theirs.compliance.as_ref())?;
-    let floor = displacement_floor(model);
+    let floor = &ours.floor;
+    stiffnesses_agree(
+        ours.output.stiffness.as_ref(),
+        theirs.stiffness.as_ref(),
+        floor,
+    )?;
+    compliances_agree(
+        ours.output.compliance.as_ref(),
+        theirs.compliance.as_ref(),
+        floor,
+    )?;
     let held = ours.idle.is_empty() && ours.output.free_motions.is_empty();
     if held {
         displacements_agree(ours.displacements.iter().zip(&theirs.displacements), floor)?;
     }
-    wrenches_agree(ours.joint_wrenches.iter().zip(&theirs.joint_wrenches))?;
+    wrenches_agree(
+        ours.joint_wrenches.iter().zip(&theirs.joint_wrenches),
+        floor,
+    )?;
     prop_assert_eq!(ours.cases.len(), theirs.cases.len());
     for (ours, theirs) in ours.cases.iter().zip(&theirs.cases) {
+        let floor = &ours.state.floor;
         if held {
             let pairs = ours.state.displacements.iter().zip(&theirs.displacements);
             displacements_agree(pairs, floor)?;
         }
-        wrenches_agree(ours.state.joint_wrenches.iter().zip(&theirs.joint_wrenches))?;
+        let pairs = ours.state.joint_wrenches.iter().zip(&theirs.joint_wrenches);
+        wrenches_agree(pairs, floor)?;
     }
     Ok(true)
 }
@@ -56,24 +69,19 @@ pub fn nearly_singular(solution: &Solution) -> bool {
     solution.warnings.iter().any(near)
 }
 
-/// Output stiffness, by its diagonal; below 1e3 N/m and 1e2 N·m/rad it is soft for its size.
+/// Output stiffness, by its diagonal.
 ///
 /// # Errors
 /// What differs.
 pub fn stiffnesses_agree(
     found: Option<&Matrix6<f64>>,
     expected: Option<&Matrix6<f64>>,
+    floor: &Floor,
 ) -> Result<(), TestCaseError> {
     let Some((found, expected)) = both("stiffness", found, expected)? else {
         return Ok(());
     };
-    let mut floor = *expected;
-    for k in 0..6 {
-        floor[(k, k)] = floor[(k, k)].max(if k < 3 { 1e3 } else { 1e2 });
-    }
-    let difference = stiffness_difference(&(found - expected + floor), &floor);
-    prop_assert!(difference < 1e-8, "K_o {:e}", difference);
-    Ok(())
+    matrices_agree("K_o", found, expected, floor.stiffness_scales(expected))
 }
 
 /// Output compliance, by its diagonal.
@@ -83,39 +91,39 @@ pub fn stiffnesses_agree(
 pub fn compliances_agree(
     found: Option<&Matrix6<f64>>,
     expected: Option<&Matrix6<f64>>,
+    floor: &Floor,
 ) -> Result<(), TestCaseError> {
     let Some((found, expected)) = both("compliance", found, expected)? else {
         return Ok(());
     };
-    let level = |k: usize| expected[(k, k)].max(1e-12);
+    matrices_agree("C_o", found, expected, floor.compliance_scales(expected))
+}
+
+fn matrices_agree(
+    name: &str,
+    found: &Matrix6<f64>,
+    expected: &Matrix6<f64>,
+    scales: [f64; 6],
+) -> Result<(), TestCaseError> {
     let off = |r: usize, c: usize| {
-        (found[(r, c)] - expected[(r, c)]).abs() / (level(r) * level(c)).sqrt()
+        (found[(r, c)] - expected[(r, c)]).abs() / (scales[r] * scales[c]).sqrt()
     };
     let largest = (0..36).map(|k| off(k / 6, k % 6)).fold(0.0, f64::max);
-    prop_assert!(largest < 1e-8, "C_o {:e}", largest);
+    prop_assert!(largest < 1e-8, "{name} {largest:e}");
     Ok(())
 }
 
-/// Displacements [m, rad] below this are zero to rounding: what heat gives a metre of a beam that
-/// nothing holds, and what 10 N give the stiffest part of the mechanisms here.
-pub fn displacement_floor(model: &Model) -> f64 {
-    let strains = model.segments().iter().map(|segment| {
-        let change = model.bodies()[segment.body.0].temperature;
-        (segment.material.expansion().unwrap_or(0.0) * change).abs()
-    });
-    strains.fold(ROUNDING_FLOOR, f64::max)
-}
-
-/// Displacements found and expected, by the largest of their kind, or by `floor` where all are
-/// smaller ([`displacement_floor`]).
+/// Displacements found and expected, by the largest of their kind, or by what acts where all are
+/// smaller.
 ///
 /// # Errors
 /// What differs.
 pub fn displacements_agree<'a>(
     pairs: impl IntoIterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)>,
-    floor: f64,
+    floor: &Floor,
 ) -> Result<(), TestCaseError> {
-    let [linear, angular] = vector_differences(pairs, [floor; 2]);
+    let least = floor.least_displacement().max(NOTHING);
+    let [linear, angular] = vector_differences(pairs, [least, least / floor.size]);
     prop_assert!(
         linear < 1e-8 && angular < 1e-8,
         "u {:e} {:e}",
@@ -125,19 +133,22 @@ pub fn displacements_agree<'a>(
     Ok(())
 }
 
-/// Wrenches found and expected, by the largest of their kind; the same ones are undetermined.
+/// Wrenches found and expected, by the largest of their kind, or by what acts where all are
+/// smaller; the same ones are undetermined.
 ///
 /// # Errors
 /// What differs.
 pub fn wrenches_agree<'a>(
     pairs: impl IntoIterator<Item = (&'a Option<Vector6<f64>>, &'a Option<Vector6<f64>>)>,
+    floor: &Floor,
 ) -> Result<(), TestCaseError> {
     let mut determined = Vec::new();
     for (k, (found, expected)) in pairs.into_iter().enumerate() {
         let name = format!("wrench of joint {k}");
         determined.extend(both(&name, found.as_ref(), expected.as_ref())?);
     }
-    let [forces, moments] = vector_differences(determined, [1.0, 1.0]);
+    let least = floor.least_force().max(NOTHING);
+    let [forces, moments] = vector_differences(determined, [least, least * floor.size]);
     prop_assert!(
         forces < 1e-7 && moments < 1e-7,
         "wrenches {:e} {:e}",

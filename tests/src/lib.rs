@@ -2,6 +2,7 @@
 
 pub mod agreement;
 pub mod build;
+pub mod extended;
 pub mod gripper;
 pub mod lattice;
 pub mod prebuilt;
@@ -148,7 +149,8 @@ pub fn rebuilt_with(
     if let Some(output) = model.output() {
         new.set_output(output);
     }
-    new.set_geometry(geometry.clone());
+    new.set_geometry(geometry.clone())
+        .expect("a geometry of this model");
     new
 }
 
@@ -168,7 +170,8 @@ pub fn moved(model: &Model, rotation: &Rotation3<f64>, translation: &Vector3<f64
         y_axes: old.y_axes.iter().map(|y| y.map(|y| rotation * y)).collect(),
         frames: old.frames.iter().map(|f| rotation * f).collect(),
         rotations: old.rotations.iter().map(|r| rotation * r).collect(),
-    });
+    })
+    .expect("a geometry of this model");
     new.clear_loads();
     for load in model.loads() {
         let wrench = turned(rotation, &load.wrench);

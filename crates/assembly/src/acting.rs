@@ -161,6 +161,11 @@ impl Acting {
         joints.get(wrench.checked_sub(*first)?).copied()
     }
 
+    /// Loads along segments that have any, element frames.
+    pub fn segments(&self) -> &[(SegmentId, BeamLoad)] {
+        &self.segments
+    }
+
     /// Load along a segment, element frame.
     pub fn on_segment(&self, segment: SegmentId) -> Option<&BeamLoad> {
         let place = self.segments.binary_search_by_key(&segment, |s| s.0).ok()?;

@@ -80,7 +80,10 @@ impl Influence<'_> {
     pub fn budget(&self, solution: &Solution, along: &Vector6<f64>) -> Budget {
         let total = solution.output.displacement.dot(along);
         let misfits = self.misfit_parts(along);
-        self.budget_of(&self.state(solution), total, along, misfits)
+        let rounding = solution
+            .floor
+            .rounding_along(&solution.output.displacement, along);
+        self.budget_of(&self.state(solution), total, along, misfits, rounding)
     }
 
     /// The budget of the compliance along a unit wrench: of the displacement along it that it
@@ -92,16 +95,21 @@ impl Influence<'_> {
             total,
             along,
             Vec::new(),
+            0.0,
         )
     }
 
+    /// The budget of `total`; what is below `rounding`, it and its parts, is zero.
     fn budget_of(
         &self,
         loaded: &State,
         total: f64,
         along: &Vector6<f64>,
         mut found: Vec<(PartSource, Deformation, f64)>,
+        rounding: f64,
     ) -> Budget {
+        let clean = |value: f64| if value.abs() <= rounding { 0.0 } else { value };
+        let total = clean(total);
         let virtual_state = State::combined(&self.units, along);
         let model = self.model;
         for (k, body) in model.bodies().iter().enumerate() {
@@ -139,7 +147,7 @@ impl Influence<'_> {
             ]);
         }
         let accounted: f64 = found.iter().map(|(_, _, work)| work).sum();
-        found.retain(|(_, _, work)| *work != 0.0);
+        found.retain(|(_, _, work)| clean(*work) != 0.0);
         found.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
         let parts = found
             .into_iter()
@@ -153,7 +161,7 @@ impl Influence<'_> {
             along: *along,
             total,
             parts: parts.collect(),
-            rest: total - accounted,
+            rest: clean(total - accounted),
         }
     }
 }

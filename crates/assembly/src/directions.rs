@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, Matrix6, Rotation3, Vector6};
 use crate::model::{Connection, JointStiffness};
 
 /// The directions of a joint, sorted by what they do, with the elastic ones' stiffness.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Directions {
     /// Held without give.
     pub rigid: DofSet,
@@ -24,16 +24,31 @@ pub(crate) struct Directions {
     pub compliance: Option<Matrix6<f64>>,
 }
 
+impl Connection {
+    /// The directions that count as free, in mobility and over-constraint as in loop closure: those
+    /// that are free by the joint's kind, be they locked or elastic, and those that a stiffness of
+    /// zero frees. Every other direction counts as a constraint, elastic or not.
+    pub fn released(&self) -> DofSet {
+        let elasticity = Elasticity::of(self);
+        self.joint.free().union(elasticity.freed(self))
+    }
+
+    /// The directions that a spring holds.
+    pub fn elastic(&self) -> DofSet {
+        Elasticity::of(self).elastic
+    }
+}
+
 impl Directions {
     /// Directions of a connection, by the rules of the file format: a stiffness in the file
     /// replaces the joint's own; zero on a locked direction leaves it locked, on a constrained
     /// one frees it.
     pub fn of(connection: &Connection) -> Self {
         let elasticity = Elasticity::of(connection);
-        let by_kind = connection.joint.free();
-        let open = by_kind.difference(connection.locked);
-        let freed = elasticity.given.difference(by_kind);
-        let free = open.union(freed).difference(elasticity.elastic);
+        let open = connection.joint.free().difference(connection.locked);
+        let free = open
+            .difference(elasticity.elastic)
+            .union(elasticity.freed(connection));
         Self {
             rigid: free.union(elasticity.elastic).complement(),
             elastic: elasticity.elastic,
@@ -71,6 +86,12 @@ struct Elasticity {
 }
 
 impl Elasticity {
+    /// Directions that a stiffness of zero frees although the kind holds them.
+    fn freed(&self, connection: &Connection) -> DofSet {
+        let zero = self.given.difference(self.elastic);
+        zero.difference(connection.joint.free().union(connection.locked))
+    }
+
     fn of(connection: &Connection) -> Self {
         match (&connection.stiffness, connection.joint.compliance()) {
             (JointStiffness::Matrix(k), _) => {

@@ -69,6 +69,42 @@ pub enum ModelError {
         /// Index of the segment on the body, from 0.
         segment: usize,
     },
+    /// An id that is not one of the model: it is one of another model, or no model's.
+    #[error("{what} {index} is not one of this model, whose {what} ids end before {count}")]
+    ForeignId {
+        /// Body, node, segment or joint.
+        what: &'static str,
+        /// The id.
+        index: usize,
+        /// How many the model has.
+        count: usize,
+    },
+    /// A geometry that belongs to another model.
+    #[error(
+        "the geometry holds {found:?} nodes, segments, joints and flexible bodies, this model \
+         {expected:?}"
+    )]
+    ForeignGeometry {
+        /// Numbers of nodes, segments, joints and flexible bodies of the model.
+        expected: [usize; 4],
+        /// Those of the geometry.
+        found: [usize; 4],
+    },
+    /// A joint between two nodes that do not lie at one point.
+    #[error(
+        "joint `{joint}` joins `{first}` and `{second}`, which lie {distance:.6e} m apart: both nodes \
+         of a joint lie at one point; a lever between them is a body of its own"
+    )]
+    Apart {
+        /// Name of the joint.
+        joint: String,
+        /// `body.point` of its first node.
+        first: String,
+        /// `body.point` of its second node.
+        second: String,
+        /// How far apart they are (m).
+        distance: f64,
+    },
     /// A joint that joins a body to itself or ground to ground.
     #[error("joint `{joint}` joins a body to itself")]
     SelfJoined {
@@ -132,6 +168,19 @@ pub enum SolveError {
     /// The model has no output node.
     #[error("the model has no output")]
     NoOutput,
+    /// A model whose parts do not belong together, a load or geometry that is not of it.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A model that is not like the one that a plan was made for: other bodies or joints, another
+    /// output, other stiffness of joints.
+    #[error(
+        "this is not the model that the plan was made for, nor one with the same bodies, joints and \
+         output: make a plan for it"
+    )]
+    ForeignModel,
+    /// Buffers that another plan made.
+    #[error("these buffers were made by another plan")]
+    ForeignWorkspace,
     /// Bodies that no chain of joints connects to the ground.
     #[error("nothing holds {}", names(bodies))]
     Unheld {
@@ -187,11 +236,15 @@ pub enum SolveError {
     /// Loads or stiffnesses so large or small that results overflow.
     #[error("the results overflow: loads or stiffnesses are out of all proportion")]
     Overflow,
-    /// A matrix too large for this machine.
-    #[error("a model of {unknowns} unknowns is too large")]
+    /// A model of which something grows too large to be held in memory.
+    #[error("the model is too large: {what} ask for {numbers} numbers, and {limit} are the limit")]
     TooLarge {
-        /// Number of unknowns.
-        unknowns: usize,
+        /// What asks for them.
+        what: &'static str,
+        /// How many numbers it asks for.
+        numbers: usize,
+        /// How many it may.
+        limit: usize,
     },
     /// An elastic body whose mass is not known.
     #[error(

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector6};
 
 use crate::directions::{Directions, to_directions};
 use crate::elimination::Elimination;
+use crate::error::SolveError;
 use crate::kinematics::{characteristic_length, echelon};
 use crate::model::{BodyId, Connection, Geometry, JointId, Model};
 use crate::solution::Motion;
@@ -75,7 +76,7 @@ impl Eliminated {
 }
 
 impl Jacobian {
-    /// Rows of the directions that every joint constrains by kind.
+    /// Rows of the directions that every joint constrains, drives released.
     pub fn released(model: &Model, geometry: &Geometry) -> Self {
         Self::new(model, geometry, released_rows, is_large(model))
     }
@@ -172,13 +173,16 @@ impl Jacobian {
 
     /// A basis of the motions that meet the conditions: of few bodies each, largest entry 1 with
     /// translations over `size`.
-    pub fn motions(&self, eliminated: &Eliminated, size: f64) -> Vec<Motion> {
-        match eliminated {
+    ///
+    /// # Errors
+    /// Too many motions of too many bodies each.
+    pub fn motions(&self, eliminated: &Eliminated, size: f64) -> Result<Vec<Motion>, SolveError> {
+        Ok(match eliminated {
             Eliminated::Dense(solved) => self.echelon_motions(solved.null_space(), size),
             Eliminated::Sparse(solved) => {
-                let basis = solved.null_space();
+                let basis = solved.null_space()?;
                 if basis.len() > FEW {
-                    return basis.iter().map(|v| self.motion(v, size)).collect();
+                    return Ok(basis.iter().map(|v| self.motion(v, size)).collect());
                 }
                 let full = |v: &SparseVector| {
                     let mut full = DVector::zeros(6 * self.bodies);
@@ -189,14 +193,17 @@ impl Jacobian {
                 };
                 self.echelon_motions(basis.iter().map(full).collect(), size)
             }
-        }
+        })
     }
 
     /// With doubtful conditions left out, the motion that breaks them most; translations over
     /// `size`.
-    pub fn nearly_free(&self, size: f64) -> Option<Motion> {
+    ///
+    /// # Errors
+    /// Too many motions of too many bodies each.
+    pub fn nearly_free(&self, size: f64) -> Result<Option<Motion>, SolveError> {
         let basis: Vec<SparseVector> = if self.large {
-            SparseElimination::without_doubtful(self.sparse(), 6 * self.bodies).null_space()
+            SparseElimination::without_doubtful(self.sparse(), 6 * self.bodies).null_space()?
         } else {
             let solved = Elimination::without_doubtful(self.dense());
             echelon(solved.null_space()).iter().map(entries).collect()
@@ -218,8 +225,8 @@ impl Jacobian {
             products.fold(0.0, |most: f64, product: f64| most.max(product.abs()))
         };
         let motions = basis.into_iter().map(|motion| (broken(&motion), motion));
-        let (_, motion) = motions.max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(self.motion(&motion, size))
+        let worst = motions.max_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(worst.map(|(_, motion)| self.motion(&motion, size)))
     }
 
     /// Motions of a basis in echelon form, whose translations are over `size` already.
@@ -299,13 +306,13 @@ fn entries(vector: &DVector<f64>) -> SparseVector {
     entries.filter(|(_, value)| *value != 0.0).collect()
 }
 
-/// Rows of the directions that a joint constrains by kind.
+/// Rows of the directions that a joint constrains with its drives released.
 fn released_rows(
     joint: &Connection,
     local: &Matrix6<f64>,
     size: f64,
 ) -> Vec<(Dof, RowVector6<f64>)> {
-    let set = joint.joint.free().complement();
+    let set = joint.released().complement();
     set.iter().zip(condition_rows(local, set, size)).collect()
 }
 

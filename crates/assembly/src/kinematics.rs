@@ -9,6 +9,7 @@ use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::directions::{Directions, to_directions};
 use crate::elimination::RANK_TOLERANCE;
+use crate::error::SolveError;
 use crate::jacobian::Jacobian;
 use crate::model::{BodyId, BodyKind, Geometry, JointId, Model, NodeId};
 use crate::solution::Motion;
@@ -18,7 +19,8 @@ use crate::solution::Motion;
 #[non_exhaustive]
 pub struct Kinematics {
     /// Instantaneous mobility, with every direction that is free by its joint's kind released
-    /// (locked or elastic though it may be); idle motions included.
+    /// (locked or elastic though it may be), and those that a stiffness of zero frees; idle motions
+    /// included.
     pub mobility: usize,
     /// Constraints less their rank.
     pub overconstraint: usize,
@@ -33,26 +35,32 @@ pub struct Kinematics {
 }
 
 /// Mobility, over-constraint and motions without energy of a model as it stands.
-pub fn analyse(model: &Model) -> Kinematics {
+///
+/// # Errors
+/// [`SolveError::TooLarge`]: motions too many, of too many bodies each.
+pub fn analyse(model: &Model) -> Result<Kinematics, SolveError> {
     analyse_at(model, model.geometry())
 }
 
 /// [`analyse`] in another configuration.
-pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Kinematics {
+pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Result<Kinematics, SolveError> {
     let constraints = Jacobian::released(model, geometry);
     let released = constraints.eliminated();
     let conditions = Jacobian::held(model, geometry);
     let held = conditions.eliminated();
     let size = characteristic_length(geometry);
-    let nearly_free = held.doubtful().and_then(|_| conditions.nearly_free(size));
-    let motions = conditions.motions(&held, size);
-    Kinematics {
+    let nearly_free = match held.doubtful() {
+        Some(_) => conditions.nearly_free(size)?,
+        None => None,
+    };
+    let motions = conditions.motions(&held, size)?;
+    Ok(Kinematics {
         mobility: 6 * model.bodies().len() - released.rank(),
         overconstraint: constraints.directions.len() - released.rank(),
         motions,
         doubtful: held.doubtful().or(released.doubtful()),
         nearly_free,
-    }
+    })
 }
 
 /// Diagonal of the box around all nodes (m); 1 where they coincide.

@@ -19,6 +19,8 @@ mod directions;
 mod dissection;
 mod elimination;
 mod error;
+mod floor;
+mod form;
 mod influence;
 mod jacobian;
 mod kinematics;
@@ -34,9 +36,11 @@ mod orientation;
 mod parameters;
 mod parts;
 mod plan;
+mod precision;
 mod recover;
 mod redundancy;
 mod restraint;
+mod room;
 mod sensitivity;
 mod solution;
 mod solve;
@@ -47,6 +51,7 @@ mod worst;
 
 pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource};
 pub use error::{ModelError, SolveError};
+pub use floor::Floor;
 pub use influence::Influence;
 pub use kinematics::{Kinematics, analyse, describe_motions};
 pub use lanes::{LANES, Lanes};
@@ -54,7 +59,7 @@ pub use modal::{
     BeamMass, FrequencySensitivity, ModalOptions, ModalPlan, ModalSensitivities, Mode, Modes, modes,
 };
 pub use model::{
-    Axes, Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId,
+    Axes, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry, JointId,
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
     NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };

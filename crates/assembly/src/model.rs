@@ -1,6 +1,8 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
+mod checks;
 mod divided;
+mod doubts;
 mod misfits;
 mod turn;
 mod values;
@@ -8,7 +10,7 @@ mod values;
 use std::collections::{HashMap, HashSet};
 
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
-use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
+use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
 pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
@@ -16,6 +18,9 @@ pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
     Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
 };
+pub(crate) use checks::fresh_revision;
+use checks::{check_semidefinite, check_stiffness};
+pub use doubts::Doubt;
 pub use values::ValuePlace;
 
 /// A mechanism in one configuration.
@@ -41,6 +46,11 @@ pub struct Model {
     /// Nodes of every body by the name of their point, sorted.
     by_point: Vec<Vec<NodeId>>,
     value_names: HashMap<ValuePlace, String>,
+    /// Changes with what plans depend on: models of one revision have the same bodies, joints and
+    /// output.
+    revision: u64,
+    /// Changes with what acts on the model.
+    acting: u64,
 }
 
 impl Model {
@@ -69,6 +79,8 @@ impl Model {
             joint_names: HashSet::new(),
             by_point: Vec::new(),
             value_names: HashMap::new(),
+            revision: fresh_revision(),
+            acting: fresh_revision(),
         }
     }
 
@@ -219,6 +231,7 @@ impl Model {
                 return Err(ModelError::NotFinite { what: "a position" });
             }
         }
+        self.revision = fresh_revision();
         let body = BodyId(self.bodies.len());
         let mut nodes = Vec::with_capacity(points.len());
         for (point, position) in points {
@@ -247,8 +260,9 @@ impl Model {
     /// Adds a joint whose frame (columns x, y, z in global axes) is `frame`.
     ///
     /// # Errors
-    /// A repeated joint name, a joint of a body with itself, a stiffness that is not
-    /// finite, not symmetric or not positive semidefinite.
+    /// A repeated joint name, a node that is not one of this model, a joint of a body with itself, a
+    /// stiffness that is not finite, not symmetric or not positive semidefinite. That the two nodes
+    /// lie at one point is checked once the model is whole: [`Model::check`].
     pub fn add_joint(
         &mut self,
         connection: Connection,
@@ -257,6 +271,9 @@ impl Model {
         let joint = || connection.name.clone();
         if self.joint_names.contains(&connection.name) {
             return Err(ModelError::RepeatedName { name: joint() });
+        }
+        for node in connection.between.into_iter().flatten() {
+            self.check_node(node)?;
         }
         let body = |n: Option<NodeId>| n.map(|n| self.nodes[n.0].body);
         if body(connection.between[0]) == body(connection.between[1]) {
@@ -271,6 +288,7 @@ impl Model {
                 joint: joint(),
                 what,
             })?;
+        self.revision = fresh_revision();
         self.joint_names.insert(connection.name.clone());
         self.joints.push(connection);
         self.geometry.frames.push(frame);
@@ -280,10 +298,11 @@ impl Model {
     /// Adds a load: a wrench (force (N), moment (N·m), global axes) on a node.
     ///
     /// # Errors
-    /// A wrench that is not finite.
+    /// A wrench that is not finite, a node that is not one of this model.
     pub fn add_load(&mut self, node: NodeId, wrench: Vector6<f64>) -> Result<(), ModelError> {
         let load = LoadSet::on(node, wrench);
-        check_loads(&load)?;
+        self.check_loads(&load)?;
+        self.acting = fresh_revision();
         self.loads.nodes.extend(load.nodes);
         Ok(())
     }
@@ -291,44 +310,52 @@ impl Model {
     /// Puts loads in place of the model's own.
     ///
     /// # Errors
-    /// A load that is not finite.
+    /// A load that is not finite, a node, segment or body that is not one of this model.
     pub fn set_loads(&mut self, loads: LoadSet) -> Result<(), ModelError> {
-        check_loads(&loads)?;
+        self.check_loads(&loads)?;
+        self.acting = fresh_revision();
         self.loads = loads;
         Ok(())
     }
 
     /// Takes all loads off; cases stay.
     pub fn clear_loads(&mut self) {
+        self.acting = fresh_revision();
         self.loads = LoadSet::default();
     }
 
     /// Adds a case: loads that act together, beside the model's own loads and without them.
     ///
     /// # Errors
-    /// A repeated name, a load that is not finite.
+    /// A repeated name, a load that is not finite, a node, segment or body that is not one of this
+    /// model.
     pub fn add_case(&mut self, case: LoadCase) -> Result<(), ModelError> {
         if self.cases.iter().any(|other| other.name == case.name) {
             return Err(ModelError::RepeatedName { name: case.name });
         }
-        check_loads(&case.loads)?;
+        self.check_loads(&case.loads)?;
+        self.acting = fresh_revision();
         self.cases.push(case);
         Ok(())
     }
 
     /// Takes all cases off.
     pub fn clear_cases(&mut self) {
+        self.acting = fresh_revision();
         self.cases.clear();
     }
 
     /// Adds a mass at a node, beside the mass that beams have by their density: its inertia in
-    /// global axes, the model being in the configuration it is in now.
+    /// global axes, the model being in the configuration it is in now. That the node is one of this
+    /// model is checked once the model is whole: [`Model::check`].
     pub fn add_mass(&mut self, node: NodeId, mass: RigidMass) {
+        self.acting = fresh_revision();
         self.masses.push(NodeMass { node, mass });
     }
 
     /// Takes all masses off.
     pub fn clear_masses(&mut self) {
+        self.acting = fresh_revision();
         self.masses.clear();
     }
 
@@ -349,6 +376,7 @@ impl Model {
                 body: self.bodies[segment.body.0].name.clone(),
             });
         }
+        self.acting = fresh_revision();
         self.gravity = acceleration;
         Ok(())
     }
@@ -357,15 +385,13 @@ impl Model {
     ///
     /// # Errors
     /// A change that is not finite; a body that is not made of beams, or whose material has no
-    /// coefficient of expansion.
-    ///
-    /// # Panics
-    /// If the body is not one of this model.
+    /// coefficient of expansion; a body that is not one of this model.
     pub fn set_temperature(&mut self, body: BodyId, change: f64) -> Result<(), ModelError> {
         if !change.is_finite() {
             let what = "a temperature";
             return Err(ModelError::NotFinite { what });
         }
+        self.check_body(body)?;
         let entry = &self.bodies[body.0];
         let body_name = || entry.name.clone();
         if entry.kind != BodyKind::Elastic {
@@ -375,22 +401,33 @@ impl Model {
         if materials.any(|material| material.expansion().is_none()) {
             return Err(ModelError::NoExpansion { body: body_name() });
         }
+        self.acting = fresh_revision();
         self.bodies[body.0].temperature = change;
         Ok(())
     }
 
-    /// Makes `node` the output.
+    /// Makes `node` the output. That it is one of this model is checked once the model is whole:
+    /// [`Model::check`].
     pub fn set_output(&mut self, node: NodeId) {
+        self.revision = fresh_revision();
         self.output = Some(node);
     }
 
     /// Puts the mechanism into another configuration of the same topology: `geometry` has as
     /// many positions, directions and frames as the model's own.
     /// Masses of nodes turn with their bodies.
-    pub fn set_geometry(&mut self, geometry: Geometry) {
-        debug_assert_eq!(geometry.positions.len(), self.nodes.len());
+    ///
+    /// # Errors
+    /// A geometry of another size, a mass on a node that is not one of this model; the model is
+    /// then as it was.
+    pub fn set_geometry(&mut self, geometry: Geometry) -> Result<(), ModelError> {
+        self.check_size(&geometry)?;
+        for mass in &self.masses {
+            self.check_node(mass.node)?;
+        }
         self.masses = self.masses_at(&geometry);
         self.geometry = geometry;
+        Ok(())
     }
 
     /// All bodies.
@@ -457,20 +494,19 @@ impl Model {
     pub fn node(&self, body: &str, point: &str) -> Option<NodeId> {
         self.node_of(self.body(body)?, point)
     }
-    /// The node of a body at `point`.
-    ///
-    /// # Panics
-    /// If the body is not one of this model.
+    /// The node of a body at `point`; `None` where there is none, or no such body.
     pub fn node_of(&self, body: BodyId, point: &str) -> Option<NodeId> {
-        let nodes = &self.by_point[body.0];
+        let nodes = self.by_point.get(body.0)?;
         let name = |n: &NodeId| self.nodes[n.0].point.as_str();
         let place = nodes.binary_search_by(|n| name(n).cmp(point)).ok()?;
         Some(nodes[place])
     }
-    /// `body.point` of a node.
+    /// `body.point` of a node; its number where it is not one of this model.
     pub fn node_name(&self, node: NodeId) -> String {
-        let node = &self.nodes[node.0];
-        format!("{}.{}", self.bodies[node.body.0].name, node.point)
+        match self.nodes.get(node.0) {
+            Some(node) => format!("{}.{}", self.bodies[node.body.0].name, node.point),
+            None => format!("node {}", node.0),
+        }
     }
 }
 
@@ -490,56 +526,4 @@ fn loose_point(points: usize, members: &[Member]) -> Option<usize> {
         }
     }
     connected.iter().position(|connected| !connected)
-}
-
-/// Refuses loads that are not finite.
-fn check_loads(loads: &LoadSet) -> Result<(), ModelError> {
-    let nodes = loads.nodes.iter().map(|load| &load.wrench);
-    let lines = loads.lines.iter().flat_map(|load| &load.ends);
-    if nodes.chain(lines).flatten().all(|c| c.is_finite()) {
-        return Ok(());
-    }
-    Err(ModelError::NotFinite { what: "a load" })
-}
-
-fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
-    match stiffness {
-        JointStiffness::Directions(values) => {
-            if values
-                .iter()
-                .flatten()
-                .any(|k| !(k.is_finite() && *k >= 0.0))
-            {
-                return Err("a stiffness is a finite number, zero or more");
-            }
-        }
-        JointStiffness::Matrix(k) => check_semidefinite(k)?,
-    }
-    Ok(())
-}
-
-/// A stiffness or compliance matrix: finite, symmetric, positive semidefinite (to 1e-9).
-fn check_semidefinite(matrix: &Matrix6<f64>) -> Result<(), &'static str> {
-    if !matrix.iter().all(|v| v.is_finite()) {
-        return Err("the stiffness matrix holds a number that is not finite");
-    }
-    let scale = |r: usize, c: usize| (matrix[(r, r)].abs() * matrix[(c, c)].abs()).sqrt();
-    let places = (0..6).flat_map(|r| (0..6).map(move |c| (r, c)));
-    for (r, c) in places.clone() {
-        if (matrix[(r, c)] - matrix[(c, r)]).abs() > 1e-9 * scale(r, c) {
-            return Err("the stiffness matrix is not symmetric");
-        }
-    }
-    let coupled_to_nothing = places
-        .into_iter()
-        .any(|(r, c)| scale(r, c) == 0.0 && matrix[(r, c)] != 0.0);
-    let negative = matrix.diagonal().iter().any(|v| *v < 0.0);
-    let unit = Matrix6::from_fn(|r, c| {
-        let s = scale(r, c);
-        if s > 0.0 { matrix[(r, c)] / s } else { 0.0 }
-    });
-    if coupled_to_nothing || negative || unit.symmetric_eigenvalues().min() < -1e-9 {
-        return Err("the stiffness matrix is not positive semidefinite");
-    }
-    Ok(())
 }

@@ -37,6 +37,7 @@ pub(crate) fn evaluate(
     acting: &[Acting],
     workspace: &mut Workspace,
 ) -> Result<(), Fault> {
+    plan.check_sets(model, acting.len())?;
     plan.make_room(workspace, acting.len());
     workspace.doubtful = None;
     workspace.tree.evaluate(&plan.topology, model, geometry)?;

@@ -14,13 +14,12 @@ impl Model {
     /// A frame that turns with a body, in the model's configuration: from its points, the local y
     /// of its segments where it was given, its stiffness's axes, and the axes of joints that are
     /// fixed in it. A point that slides along its body with a joint is left out. `None` where these
-    /// lie along one line, so that the body's turn about it is not known.
+    /// lie along one line, so that the body's turn about it is not known, or where the body is not
+    /// one of this model.
     ///
     /// The frame itself means nothing; the turn between two configurations is `now · thenᵀ`.
-    ///
-    /// # Panics
-    /// If the body is not one of this model.
     pub fn body_frame(&self, body: BodyId) -> Option<Rotation3<f64>> {
+        self.bodies().get(body.0)?;
         body_frame(self, self.geometry(), body)
     }
 }
@@ -70,7 +69,7 @@ fn directions(model: &Model, geometry: &Geometry, body: BodyId) -> Vec<Vector3<f
     for (joint, frame) in model.joints().iter().zip(&geometry.frames) {
         for (side, node) in joint.between.iter().enumerate() {
             if node.is_some_and(|n| model.nodes()[n.0].body == body) {
-                for column in fixed_axes(joint.joint.free(), side) {
+                for column in fixed_axes(joint.released(), side) {
                     directions.push(frame.matrix().column(*column).into_owned());
                 }
             }
@@ -88,7 +87,7 @@ fn slides(model: &Model, node: NodeId) -> bool {
         return false;
     };
     let travels = [Dof::X, Dof::Y, Dof::Z];
-    let free = joint.joint.free();
+    let free = joint.released();
     model.output() != Some(node)
         && (travels.iter().any(|dof| free.contains(*dof))
             || joint.joint.basis() != Matrix6::identity())

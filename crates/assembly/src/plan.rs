@@ -13,15 +13,24 @@ use crate::condense::LOADS;
 use crate::coordinates::TreeBlocks;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
+use crate::form::Form;
 use crate::jacobian::Jacobian;
 use crate::kinematics::characteristic_length;
-use crate::model::{BodyId, Geometry, JointId, Model, NodeId};
+use crate::model::{BodyId, Geometry, JointId, Model, NodeId, fresh_revision};
+use crate::room::{self, MOST_ELIMINATED, MOST_NUMBERS};
 use crate::sparse::{Factor, Pattern};
 use crate::topology::Topology;
 
 /// A topology made ready: one plan serves every pose of a mechanism.
 #[derive(Debug)]
 pub struct Plan {
+    /// A number that no other plan has.
+    pub(crate) id: u64,
+    /// What the plan is made for, and the [revision](Model) of the model that it was made from.
+    pub(crate) form: Form,
+    pub(crate) revision: u64,
+    /// How far apart (m) two nodes of a joint may lie.
+    pub(crate) one_point: f64,
     pub(crate) topology: Topology,
     pub(crate) output: NodeId,
     /// IDC of every tree coordinate, where its component has no closing joint.
@@ -87,6 +96,8 @@ pub(crate) struct ElementPlan {
 /// Buffers of one thread; made by [`Plan::workspace`].
 #[derive(Debug)]
 pub struct Workspace {
+    /// The plan that it was made by.
+    pub(crate) plan: u64,
     pub(crate) tree: TreeBlocks,
     pub(crate) reduced: Vec<f64>,
     /// Which component of which node every IDC is, in this pose.
@@ -138,8 +149,9 @@ impl Plan {
     /// Plan of a model in its own configuration.
     ///
     /// # Errors
-    /// No output, bodies that no chain of joints connects to the ground or the output, a segment
-    /// or joint that cannot be formed, a model too large for memory.
+    /// No output, a model that is not one whole ([`Model::check`]), bodies that no chain of joints
+    /// connects to the ground or the output, a segment or joint that cannot be formed, a model too
+    /// large for memory.
     pub fn new(model: &Model) -> Result<Self, SolveError> {
         Self::at(model, model.geometry())
     }
@@ -156,9 +168,13 @@ impl Plan {
         absorbs: bool,
     ) -> Result<Self, SolveError> {
         let output = model.output().ok_or(SolveError::NoOutput)?;
+        model.check()?;
+        let one_point = model.one_point();
+        model.check_geometry(geometry, one_point)?;
         check_held(model, output)?;
-        let topology = Topology::new(model, geometry, output, absorbs);
+        let topology = Topology::new(model, geometry, output, absorbs)?;
         check_stiffness(model, &topology)?;
+        check_loops(&topology)?;
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, model, geometry)?;
         let size = characteristic_length(geometry);
@@ -248,6 +264,8 @@ impl Plan {
                 .root
                 .into_iter()
                 .chain(component.ties.iter().map(|t| t.child));
+            let size = room::matrix(6 * (component.ties.len() + 1), closed.idcs.len());
+            room::check(LOOPS, reduced_len + size, MOST_NUMBERS)?;
             for carrier in members {
                 columns[carrier].clone_from(&closed.idcs);
                 reduced_starts[carrier] = Some(reduced_len);
@@ -256,17 +274,23 @@ impl Plan {
         }
 
         let mut elements = elements(model, &topology, &columns);
+        let couplings = elements.iter().map(|e| e.columns.len() * e.columns.len());
+        let couplings = room::sum(couplings);
+        room::check(COUPLINGS, couplings, MOST_NUMBERS)?;
         let mut inner_groups: Vec<Vec<usize>> = Vec::with_capacity(elements.len());
         for element in &elements {
             let inner_columns = element.columns.iter().copied().filter(|c| *c < inner);
             inner_groups.push(inner_columns.collect());
         }
         let groups = inner_groups.iter().map(Vec::as_slice);
-        let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))
-            .ok_or(SolveError::TooLarge { unknowns })?;
+        let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))?;
         let places = places(&mut elements, &pattern);
         let deformations = elements.iter().map(|e| e.rows).sum();
         Ok(Self {
+            id: fresh_revision(),
+            form: Form::of(model),
+            revision: model.revision(),
+            one_point,
             topology,
             output,
             idc_of,
@@ -297,14 +321,19 @@ impl Plan {
         if model.output() != Some(self.output) || !self.closed.is_empty() {
             return Self::new(model);
         }
+        model.check()?;
         let geometry = model.geometry();
-        let topology = Topology::new(model, geometry, self.output, true);
+        let topology = Topology::new(model, geometry, self.output, true)?;
         if !topology.is_like(&self.topology) {
             return Self::new(model);
         }
         check_stiffness(model, &topology)?;
         TreeBlocks::new(&topology).evaluate(&topology, model, geometry)?;
         Ok(Self {
+            id: fresh_revision(),
+            form: Form::of(model),
+            revision: model.revision(),
+            one_point: model.one_point(),
             topology,
             output: self.output,
             idc_of: self.idc_of.clone(),
@@ -342,6 +371,7 @@ impl Plan {
             factor: Matrix6::zeros(),
         };
         let mut workspace = Workspace {
+            plan: self.id,
             tree: TreeBlocks::new(&self.topology),
             reduced: vec![0.0; self.reduced_len],
             identities: vec![(NodeId(0), Dof::X); self.unknowns],
@@ -366,6 +396,14 @@ impl Plan {
         };
         self.make_room(&mut workspace, 1);
         workspace
+    }
+
+    /// Refuses more sets of loads than there is room for, in the buffers or in their results.
+    pub(crate) fn check_sets(&self, model: &Model, sets: usize) -> Result<(), SolveError> {
+        const SETS: &str = "its cases, each with displacements and forces of its own,";
+        let results = 6 * (model.nodes().len() + model.joints().len() + 4 * model.segments().len());
+        let size = results.max(self.unknowns).max(self.deformations);
+        room::check(SETS, room::matrix(LOADS + sets, size), MOST_NUMBERS)
     }
 
     /// Makes room in the buffers for this many sets of loads.
@@ -478,6 +516,28 @@ fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
         }
     }
     places
+}
+
+/// What asks for too much room where loops are closed.
+const LOOPS: &str = "its loops of rigid bodies and joints, eliminated as one dense matrix,";
+/// What asks for too much room where elements depend on many coordinates.
+const COUPLINGS: &str = "its elastic parts at the ends of chains of rigid bodies";
+
+/// Refuses loops whose elimination would not end, or not fit into memory.
+fn check_loops(topology: &Topology) -> Result<(), SolveError> {
+    for component in topology.components.iter() {
+        let rigid = |joint: &JointId| topology.joints[joint.0].moving.complement().len();
+        let height = component.closings.iter().map(rigid).sum::<usize>();
+        let count = component.coordinates.len();
+        if height > 0 {
+            room::check(
+                LOOPS,
+                room::matrix(count, height.max(count)),
+                MOST_ELIMINATED,
+            )?;
+        }
+    }
+    Ok(())
 }
 
 /// Refuses springs with coordinates of their own that are rigid in some combination of them.

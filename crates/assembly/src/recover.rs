@@ -11,11 +11,13 @@ use crate::coordinates::shift;
 use crate::directions::{rotation6, to_directions};
 use crate::elimination::{Elimination, RANK_TOLERANCE};
 use crate::error::SolveError;
+use crate::floor::Floor;
 use crate::kinematics::characteristic_length;
 use crate::misfit::loose_preload;
 use crate::model::{Geometry, Model, NodeId, SegmentId};
 use crate::numeric::{multiply, node_displacement};
 use crate::plan::{Plan, Source, Workspace};
+use crate::room::{self, MOST_ELIMINATED};
 use crate::solution::{SegmentForces, State};
 
 /// What is recovered from the IDCs.
@@ -26,14 +28,14 @@ pub(crate) struct Recovered {
 }
 
 /// Recovers displacements and forces under a set of loads, from its column of the solutions; the
-/// displacement of the output is known.
+/// displacement of the output is known. What is rounding beside what acts is zero.
 pub(crate) fn recover(
     plan: &Plan,
     model: &Model,
     geometry: &Geometry,
     workspace: &Workspace,
     set: usize,
-    acting: &Acting,
+    (acting, floor): (&Acting, &Floor),
     output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
     let column = LOADS + set;
@@ -119,15 +121,29 @@ pub(crate) fn recover(
             }
         }
     }
-    Ok(Recovered {
-        state: State {
-            output,
-            displacements,
-            joint_wrenches,
-            segments: segments.into_iter().flatten().collect(),
-        },
-        doubtful,
-    })
+    let mut state = State {
+        output,
+        displacements,
+        joint_wrenches,
+        segments: segments.into_iter().flatten().collect(),
+        floor: *floor,
+    };
+    state.clear_rounding();
+    Ok(Recovered { state, doubtful })
+}
+
+impl State {
+    /// Sets to zero what is rounding beside what acts.
+    fn clear_rounding(&mut self) {
+        let floor = self.floor;
+        let displacements = self.displacements.iter_mut();
+        displacements
+            .chain([&mut self.output])
+            .for_each(|u| floor.clear_displacement(u));
+        let ends = self.segments.iter_mut().flat_map(|s| &mut s.ends);
+        let wrenches = self.joint_wrenches.iter_mut().flatten();
+        wrenches.chain(ends).for_each(|w| floor.clear_wrench(w));
+    }
 }
 
 /// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
@@ -250,7 +266,8 @@ fn joint_wrenches(
     let unknown: Vec<usize> = (0..count)
         .filter(|k| !joints[*k].unknown.is_empty())
         .collect();
-    for group in groups(carriers.len(), &unknown, &ends) {
+    let end_carriers = |joint: usize| between(plan, model, joint);
+    for group in groups(carriers.len(), &unknown, end_carriers) {
         let found = equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
         doubtful = doubtful.or(found);
     }
@@ -269,10 +286,33 @@ struct Group {
     joints: Vec<usize>,
 }
 
+/// Refuses groups whose equilibrium would not be found, or not fit into memory.
+pub(crate) fn check_recovery(plan: &Plan, model: &Model) -> Result<(), SolveError> {
+    const EQUILIBRIUM: &str =
+        "the forces in its rigid joints, which rigid bodies tie together to one dense matrix,";
+    let held = |joint: usize| plan.topology.joints[joint].moving.complement().len();
+    let unknown = (0..model.joints().len()).filter(|k| held(*k) > 0);
+    let unknown: Vec<usize> = unknown.collect();
+    let ends = |joint: usize| between(plan, model, joint);
+    for group in groups(plan.topology.carriers.len(), &unknown, ends) {
+        let columns = room::sum(group.joints.iter().map(|joint| held(*joint)));
+        let longer = columns.max(6 * group.carriers.len());
+        room::check(EQUILIBRIUM, room::matrix(longer, columns), MOST_ELIMINATED)?;
+    }
+    Ok(())
+}
+
+/// The carriers that a joint lies between, the ground apart.
+fn between(plan: &Plan, model: &Model, joint: usize) -> [Option<usize>; 2] {
+    let nodes = model.joints()[joint].between;
+    nodes.map(|node| node.map(|node| plan.topology.carrier_of[node.0]))
+}
+
+/// Groups of carriers that `joints` connect, each between `ends`.
 fn groups(
     carriers: usize,
     joints: &[usize],
-    ends: &[Vec<(usize, f64, Matrix6<f64>)>],
+    ends: impl Fn(usize) -> [Option<usize>; 2],
 ) -> Vec<Group> {
     let mut group_of: Vec<usize> = (0..carriers).collect();
     fn find(group_of: &mut [usize], mut k: usize) -> usize {
@@ -283,18 +323,18 @@ fn groups(
         k
     }
     for &joint in joints {
-        if let [(a, ..), (b, ..)] = ends[joint].as_slice() {
-            let (a, b) = (find(&mut group_of, *a), find(&mut group_of, *b));
+        if let [Some(a), Some(b)] = ends(joint) {
+            let (a, b) = (find(&mut group_of, a), find(&mut group_of, b));
             group_of[b] = a;
         }
     }
     let mut groups: Vec<Group> = Vec::new();
     let mut place = vec![usize::MAX; carriers];
     for &joint in joints {
-        let Some((carrier, ..)) = ends[joint].first() else {
+        let Some(carrier) = ends(joint).into_iter().flatten().next() else {
             continue;
         };
-        let root = find(&mut group_of, *carrier);
+        let root = find(&mut group_of, carrier);
         if place[root] == usize::MAX {
             place[root] = groups.len();
             groups.push(Group {
@@ -377,7 +417,7 @@ fn equilibrium(
 /// curve between the displacements of its ends, under the load between them (`None`: no load).
 ///
 /// # Errors
-/// A segment that cannot be formed.
+/// A segment that cannot be formed; a segment, geometry or displacements of another model.
 pub fn segment_displacement(
     model: &Model,
     geometry: &Geometry,
@@ -398,6 +438,7 @@ pub(crate) fn inner_displacements(
     segment: SegmentId,
     load: &BeamLoad,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
+    model.check_segment(segment)?;
     let elements = model.segments()[segment.0].elements;
     let places = (1..elements).map(|k| k as f64 / elements as f64);
     curve(model, geometry, displacements, segment, Some(load), places)
@@ -412,6 +453,11 @@ fn curve(
     load: Option<&BeamLoad>,
     places: impl IntoIterator<Item = f64>,
 ) -> Result<Vec<Vector6<f64>>, SolveError> {
+    model.check_segment(segment)?;
+    model.check_size(geometry)?;
+    if displacements.len() != model.nodes().len() {
+        return Err(SolveError::ForeignModel);
+    }
     let load = load.filter(|load| **load != BeamLoad::none());
     let (beam, frame, _) = segment_beam(model, geometry, segment)?;
     let to_local = frame.inverse();

@@ -34,8 +34,10 @@ pub(crate) struct Restraint {
 }
 
 impl Restraint {
-    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Self {
-        let kinematics = analyse_at(model, geometry);
+    /// # Errors
+    /// Motions too many and too long for memory.
+    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Result<Self, SolveError> {
+        let kinematics = analyse_at(model, geometry)?;
         let size = characteristic_length(geometry);
         let (idle, moving) = split(&kinematics.motions, size, |motion| {
             scaled(&node_twist(motion, model, geometry, output.0), size)
@@ -44,13 +46,13 @@ impl Restraint {
             .iter()
             .map(|m| scaled(&node_twist(m, model, geometry, output.0), size));
         let free_twists = orthonormal(twists.collect());
-        Self {
+        Ok(Self {
             kinematics,
             idle,
             moving,
             free_twists,
             size,
-        }
+        })
     }
 
     /// Refuses loads that work on a motion that nothing resists.

@@ -10,6 +10,7 @@
 use nalgebra::{Matrix6, Vector6};
 
 use crate::error::SolveError;
+use crate::floor::ROUNDING;
 use crate::influence::{Influence, State};
 use crate::measures::compliance_along;
 use crate::parameters::{Parameter, Varied, parameters};
@@ -41,7 +42,8 @@ impl Sensitivity {
     pub fn relative(&self, displacement: &Vector6<f64>, along: &Vector6<f64>) -> Option<f64> {
         let own = displacement.dot(along);
         let change = self.displacement?.dot(along);
-        (own != 0.0).then(|| change * self.value / own)
+        let rounding = ROUNDING * displacement.component_mul(along).abs().sum();
+        (own.abs() > rounding).then(|| change * self.value / own)
     }
 
     /// The relative change of the compliance along a unit wrench per relative change of the

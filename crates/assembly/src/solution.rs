@@ -6,6 +6,7 @@ use hyperstat_elements::BeamLoad;
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::error::SolveError;
+use crate::floor::Floor;
 use crate::model::{BodyId, JointId, Model, SegmentId};
 use crate::recover::inner_displacements;
 
@@ -30,6 +31,9 @@ pub struct Solution {
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     /// End forces of every segment, by `SegmentId`.
     pub segments: Vec<SegmentForces>,
+    /// What acts: the floor that the displacements and forces are measured by. What is rounding
+    /// beside it is zero.
+    pub floor: Floor,
     /// The model's cases, in their order.
     pub cases: Vec<CaseSolution>,
     /// What the user should know about the numbers.
@@ -58,9 +62,18 @@ pub struct State {
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     /// As [`Solution::segments`].
     pub segments: Vec<SegmentForces>,
+    /// As [`Solution::floor`].
+    pub floor: Floor,
 }
 
 impl State {
+    pub(crate) fn is_finite(&self) -> bool {
+        let ends = self.segments.iter().flat_map(|segment| &segment.ends);
+        let vectors = self.displacements.iter().chain([&self.output]).chain(ends);
+        let vectors = vectors.chain(self.joint_wrenches.iter().flatten());
+        vectors.flatten().all(|number| number.is_finite())
+    }
+
     /// As [`Solution::inner_displacements`].
     ///
     /// # Errors
@@ -70,8 +83,18 @@ impl State {
         model: &Model,
         segment: SegmentId,
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
-        let load = &self.segments[segment.0].load;
+        let forces = self.segments.get(segment.0);
+        let load = &forces.ok_or(SolveError::ForeignModel)?.load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
+    }
+}
+
+impl Output {
+    pub(crate) fn is_finite(&self) -> bool {
+        let matrices = self.stiffness.iter().chain(&self.compliance).flatten();
+        let vectors = self.rigid_directions.iter().chain(&self.free_motions);
+        let vectors = vectors.chain([&self.displacement]).flatten();
+        matrices.chain(vectors).all(|number| number.is_finite())
     }
 }
 
@@ -95,11 +118,13 @@ impl Solution {
             displacements,
             joint_wrenches,
             segments,
+            floor,
         } = case.state.clone();
         let mut solution = Self {
             displacements,
             joint_wrenches,
             segments,
+            floor,
             ..self.clone()
         };
         solution.output.displacement = output;
@@ -119,7 +144,8 @@ impl Solution {
         model: &Model,
         segment: SegmentId,
     ) -> Result<Vec<Vector6<f64>>, SolveError> {
-        let load = &self.segments[segment.0].load;
+        let forces = self.segments.get(segment.0);
+        let load = &forces.ok_or(SolveError::ForeignModel)?.load;
         inner_displacements(model, model.geometry(), &self.displacements, segment, load)
     }
 }
@@ -175,10 +201,11 @@ pub enum Warning {
         /// held mechanism's.
         motion: Option<String>,
     },
-    /// Refinement could not bring the solution to rounding: digits are lost.
+    /// Digits are lost.
     LostDigits {
-        /// Relative size of the last correction.
-        residual: f64,
+        /// How far results may be off: stiffness and compliance by √(K_ii K_jj), displacements by
+        /// the largest of their kind. An estimate on the safe side.
+        error: f64,
     },
 }
 
@@ -198,10 +225,42 @@ impl fmt::Display for Warning {
                     None => Ok(()),
                 }
             }
-            Self::LostDigits { residual } => write!(
+            Self::LostDigits { error } => write!(
                 f,
-                "parts of very different stiffness: results are good to about {residual:.0e} only"
+                "parts of very different stiffness: results are good to {} only, by an estimate",
+                one_digit_up(*error)
             ),
+        }
+    }
+}
+
+/// A number to one digit, rounded up: what is stated is on the safe side.
+fn one_digit_up(value: f64) -> String {
+    let down = format!("{value:.0e}");
+    match down.parse::<f64>() {
+        Ok(rounded) if rounded < value => {
+            let unit = 10.0_f64.powf(value.log10().floor());
+            format!("{:.0e}", rounded + unit)
+        }
+        _ => down,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::one_digit_up;
+
+    #[test]
+    fn what_is_stated_is_never_less() {
+        for (value, text) in [
+            (4.0e-9, "4e-9"),
+            (4.1e-9, "5e-9"),
+            (3.9e-9, "4e-9"),
+            (9.6e-7, "1e-6"),
+            (9.4e-7, "1e-6"),
+            (1.0e-10, "1e-10"),
+        ] {
+            assert_eq!(one_digit_up(value), text);
         }
     }
 }

@@ -7,12 +7,13 @@ use crate::condense::{LOADS, UNITS};
 use crate::coordinates::read;
 use crate::elimination::Elimination;
 use crate::error::SolveError;
-use crate::kinematics::echelon;
+use crate::floor::Floor;
+use crate::kinematics::{characteristic_length, echelon};
 use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
 use crate::numeric::{Fault, evaluate, node_displacement};
 use crate::plan::{Plan, Workspace};
-use crate::recover::recover;
+use crate::recover::{check_recovery, recover};
 use crate::restraint::{Restraint, scaled};
 use crate::solution::{CaseSolution, Output, Solution, State, Warning};
 
@@ -20,7 +21,7 @@ use crate::solution::{CaseSolution, Output, Solution, State, Warning};
 const ROUNDING: f64 = 1e-15;
 /// A sweep stops refining at a correction this small: the next would be of its square.
 const ENOUGH_IN_SWEEP: f64 = 1e-8;
-/// A last correction above this share of the solution is worth a warning.
+/// An error above this, or a last correction above this share of the solution, is worth a warning.
 const LOST_DIGITS: f64 = 1e-10;
 /// Pivots of the scaled output stiffness below this ask for a look at the mechanism's freedom.
 const SUSPICIOUS_PIVOT: f64 = 1e-9;
@@ -42,6 +43,15 @@ pub struct PoseResult {
     pub cases: Vec<Vector6<f64>>,
 }
 
+impl PoseResult {
+    fn is_finite(&self) -> bool {
+        let displacements = self.displacement.iter().chain(&self.cases);
+        let numbers = self.stiffness.iter().flatten();
+        let mut numbers = numbers.chain(displacements.flatten());
+        numbers.all(|number| number.is_finite())
+    }
+}
+
 /// What a full solve finds.
 struct Solved {
     restraint: Restraint,
@@ -61,12 +71,14 @@ pub fn solve(model: &Model) -> Result<Solution, SolveError> {
 }
 
 impl Plan {
-    /// Everything about the model's own configuration. The model has the topology that the plan
-    /// was made for.
+    /// Everything about the model's own configuration. The model is the one that the plan was made
+    /// for, or one with the same bodies, joints and output.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`solve`]; [`SolveError::ForeignModel`].
     pub fn solve(&self, model: &Model) -> Result<Solution, SolveError> {
+        model.check()?;
+        self.check_model(model)?;
         let geometry = model.geometry();
         let acting = Acting::of_model(model, geometry)?;
         let solved = self.solve_all(model, geometry, &acting)?;
@@ -83,6 +95,7 @@ impl Plan {
             displacements: base.displacements,
             joint_wrenches: base.joint_wrenches,
             segments: base.segments,
+            floor: base.floor,
             cases: cases
                 .map(|(case, state)| CaseSolution {
                     name: case.name.clone(),
@@ -97,8 +110,13 @@ impl Plan {
     /// model's loads, weight and temperatures. One factorization serves all of them.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`Plan::solve`]; loads on what is not of the model.
     pub fn respond(&self, model: &Model, sets: &[LoadSet]) -> Result<Vec<State>, SolveError> {
+        model.check()?;
+        self.check_model(model)?;
+        for set in sets {
+            model.check_loads(set)?;
+        }
         let geometry = model.geometry();
         let acting: Result<Vec<_>, _> = sets
             .iter()
@@ -129,21 +147,26 @@ impl Plan {
     /// model the plan was made for, `workspace` to this plan.
     ///
     /// # Errors
-    /// As [`solve`].
+    /// As [`solve`]; a model, geometry or workspace that is not of this plan.
     pub fn sweep(
         &self,
         model: &Model,
         geometry: &Geometry,
         workspace: &mut Workspace,
     ) -> Result<PoseResult, SolveError> {
+        self.check(model, geometry, workspace)?;
         let acting = Acting::of_model(model, geometry)?;
-        match self.sweep_pose(model, geometry, &acting, workspace) {
-            Ok(result) => Ok(result),
-            Err(Fault::Error(error)) => Err(error),
+        let result = match self.sweep_pose(model, geometry, &acting, workspace) {
+            Ok(result) => result,
+            Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
-                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))
+                settled(plan.sweep_pose(model, geometry, &acting, &mut plan.workspace()))?
             }
+        };
+        match result.is_finite() {
+            true => Ok(result),
+            false => Err(SolveError::Overflow),
         }
     }
 
@@ -154,26 +177,33 @@ impl Plan {
         acting: &[Acting],
         workspace: &mut Workspace,
     ) -> Result<Solved, Fault> {
-        let restraint = Restraint::new(model, geometry, self.output);
+        check_recovery(self, model)?;
+        let restraint = Restraint::new(model, geometry, self.output)?;
         restraint.check_loads(model, geometry, acting)?;
         evaluate(self, model, geometry, acting, workspace)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         let condensed = self.condense(workspace, &pins, ROUNDING)?;
-        let (output, displacements, settled) =
-            self.output(geometry, workspace, &pins, &restraint)?;
+        let at_rest = Floor::at_rest(model, geometry);
+        let floors = acting.iter().map(|a| at_rest.under(model, geometry, a));
+        let floors: Vec<Floor> = floors.collect();
+        let works: Vec<f64> = floors.iter().map(Floor::least_work).collect();
+        let (mut output, displacements, settled) =
+            self.output(geometry, workspace, &pins, &restraint, &works)?;
         let mut warnings = Vec::new();
         let mut doubtful = restraint.kinematics.doubtful.or(workspace.doubtful);
         let mut states = Vec::with_capacity(acting.len());
-        for (set, (acting, displacement)) in acting.iter().zip(displacements).enumerate() {
+        let each = acting.iter().zip(&floors).zip(displacements);
+        for (set, (acting, displacement)) in each.enumerate() {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
-            let wrenches = state.joint_wrenches.iter().flatten();
-            let numbers = state.displacements.iter().chain(wrenches).flatten();
-            if !numbers.into_iter().all(|v| v.is_finite()) {
+            if !state.is_finite() {
                 return Err(SolveError::Overflow.into());
             }
             states.push(state);
+        }
+        if !output.is_finite() {
+            return Err(SolveError::Overflow.into());
         }
         if let Some(value) = doubtful {
             let nearly_free = restraint.kinematics.nearly_free.as_ref();
@@ -182,9 +212,13 @@ impl Plan {
                 motion: nearly_free.map(|motion| motion.describe(model)),
             });
         }
-        let lost = condensed.max(settled);
-        if lost > LOST_DIGITS {
-            warnings.push(Warning::LostDigits { residual: lost });
+        if let Some(first) = states.first() {
+            output.displacement = first.output;
+        }
+        let lost = self.lost(model, geometry, workspace, &output, &states)?;
+        let error = lost.max(condensed).max(settled);
+        if error > LOST_DIGITS {
+            warnings.push(Warning::LostDigits { error });
         }
         Ok(Solved {
             restraint,
@@ -206,13 +240,16 @@ impl Plan {
         let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
         if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
             let stiffness = self.stiffness_by_energy(workspace);
-            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT) {
+            // Next to nothing may be nothing: then it is looked at, whatever the plan's own
+            // configuration was.
+            let held = !is_nearly_free(&stiffness, characteristic_length(geometry));
+            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
                 let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
                 let mut displacement = |column| {
                     if even {
                         compliance * self.output_force(workspace, column)
                     } else {
-                        self.settle(workspace, &[], &compliance, column);
+                        self.settle(workspace, &[], &compliance, column, 0.0);
                         self.output_displacement(workspace, column)
                     }
                 };
@@ -223,14 +260,17 @@ impl Plan {
                 });
             }
         }
-        let restraint = Restraint::new(model, geometry, self.output);
+        let restraint = Restraint::new(model, geometry, self.output)?;
         restraint.check_loads(model, geometry, acting)?;
         let pins = restraint.pins(self, model, geometry, workspace);
         // A sweep has no place for a warning: what does not settle is refused.
         if !converged(self.condense(workspace, &pins, ENOUGH_IN_SWEEP)) {
             return Err(SolveError::Singular.into());
         }
-        let (output, displacements, _) = self.output(geometry, workspace, &pins, &restraint)?;
+        // Nothing is said of digits here, so that no work is too small.
+        let works = vec![0.0; acting.len()];
+        let (output, displacements, _) =
+            self.output(geometry, workspace, &pins, &restraint, &works)?;
         let held = output.free_motions.is_empty();
         let mut displacements = displacements.into_iter().filter(|_| held);
         Ok(PoseResult {
@@ -241,7 +281,8 @@ impl Plan {
     }
 
     /// The output's stiffness, compliance and displacement under the first set of loads; its
-    /// displacements under all sets; and the relative size of the last correction of these.
+    /// displacements under all sets; and the relative size of the last correction of these, by
+    /// `works`: one a set, the least that a correction's work is measured by.
     /// Completes the sets' columns.
     fn output(
         &self,
@@ -249,6 +290,7 @@ impl Plan {
         workspace: &mut Workspace,
         pins: &[usize],
         restraint: &Restraint,
+        works: &[f64],
     ) -> Result<(Output, Vec<Vector6<f64>>, f64), SolveError> {
         let sets = LOADS..workspace.columns();
         let size = restraint.size;
@@ -303,8 +345,8 @@ impl Plan {
         };
         let mut last = 0.0_f64;
         let mut displacements = Vec::with_capacity(sets.len());
-        for column in sets {
-            last = last.max(self.settle(workspace, pins, &compliance, column));
+        for (column, least) in sets.zip(works) {
+            last = last.max(self.settle(workspace, pins, &compliance, column, *least));
             for twist in &restraint.free_twists {
                 self.remove_free_motion(workspace, twist, size, column);
             }
@@ -346,16 +388,18 @@ impl Plan {
 
     /// Completes a set's column, found with the output clamped: corrections of the output
     /// first (the first finds its displacement), each followed by one of the rest. Returns the
-    /// relative size of the output's last correction, by the work it does.
+    /// relative size of the output's last correction, by the work it does: over that of its
+    /// displacement, and where this is rounding beside what acts over `least`.
     fn settle(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         compliance: &Matrix6<f64>,
         column: usize,
+        least: f64,
     ) -> f64 {
         let n = self.unknowns;
-        let (mut first, mut last) = (0.0, 0.0);
+        let (mut first, mut last) = (0.0_f64, 0.0);
         for correction in 0..CORRECTIONS {
             let force = self.output_force(workspace, column);
             let step = compliance * force;
@@ -369,6 +413,7 @@ impl Plan {
             self.residuals(workspace, column..column + 1);
             self.correct(workspace, pins, column..column + 1);
         }
+        let first = first.max(least);
         if first > 0.0 {
             (last / first).sqrt()
         } else {
@@ -475,6 +520,14 @@ fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
     Some(Matrix6::from_fn(|r, c| {
         inverse[(r, c)] / (scale[r] * scale[c])
     }))
+}
+
+/// Whether the output's stiffness along or about some axis is next to nothing beside the largest, those
+/// of translations at the mechanism's size: it may be rounding.
+pub(crate) fn is_nearly_free(stiffness: &Matrix6<f64>, size: f64) -> bool {
+    let along = |k: usize| stiffness[(k, k)] * scale_of(k, size).powi(2);
+    let largest = (0..6).map(along).fold(0.0, f64::max);
+    (0..6).any(|k| along(k) <= SUSPICIOUS_PIVOT * largest)
 }
 
 /// A fault of a plan made for this very configuration.

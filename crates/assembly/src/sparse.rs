@@ -18,6 +18,11 @@ use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra::Point3;
 
 use crate::dissection::nested_dissection;
+use crate::error::SolveError;
+use crate::room::{self, MOST_FACTORED};
+
+/// What asks for too much room where the factor fills.
+const FACTOR: &str = "the factors of its stiffness matrix";
 
 /// From this number of coordinates on, nested dissection is tried too.
 const LARGE: usize = 5_000;
@@ -53,11 +58,14 @@ impl Pattern {
     /// The pattern that couples all coordinates within each of `groups` (indices below `size`,
     /// ascending within a group); every diagonal entry is present. `places`, where they
     /// are known: the node that each coordinate belongs to, and the nodes' positions.
+    ///
+    /// # Errors
+    /// A factor too large for memory.
     pub fn new<'a>(
         size: usize,
         groups: impl Iterator<Item = &'a [usize]>,
         places: Option<(&[usize], &[Point3<f64>])>,
-    ) -> Option<Self> {
+    ) -> Result<Self, SolveError> {
         let mut columns: Vec<Vec<usize>> = (0..size).map(|k| vec![k]).collect();
         for group in groups {
             for (k, &column) in group.iter().enumerate() {
@@ -80,7 +88,13 @@ impl Pattern {
                 SymbolicSparseColMatRef::new_checked(size, size, &column_starts, None, &rows);
             let factor = |order: SymmetricOrdering<'_, usize>| {
                 let params = CholeskySymbolicParams::default();
-                factorize_symbolic_cholesky(structure, Side::Lower, order, params).ok()
+                let found = factorize_symbolic_cholesky(structure, Side::Lower, order, params);
+                // It overflows, or there is no room for the structure alone.
+                found.map_err(|_| SolveError::TooLarge {
+                    what: FACTOR,
+                    numbers: usize::MAX,
+                    limit: MOST_FACTORED,
+                })
             };
             let mut best = factor(SymmetricOrdering::Amd)?;
             if let Some((nodes, positions)) = places.filter(|_| size >= LARGE) {
@@ -95,9 +109,10 @@ impl Pattern {
                     best = other;
                 }
             }
+            room::check(FACTOR, best.len_val(), MOST_FACTORED)?;
             Some(best)
         };
-        Some(Self {
+        Ok(Self {
             size,
             column_starts,
             rows,

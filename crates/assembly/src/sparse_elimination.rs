@@ -12,6 +12,8 @@ use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
 use crate::elimination::{DOUBTFUL, RANK_TOLERANCE};
+use crate::error::SolveError;
+use crate::room::{self, MOST_NUMBERS};
 
 /// A pivot is at least this share of the largest entry of its row and of its column.
 const THRESHOLD: f64 = 0.25;
@@ -87,7 +89,10 @@ impl SparseElimination {
     }
 
     /// A basis of the null space: one vector for each column without a pivot, 1 there.
-    pub fn null_space(&self) -> Vec<SparseVector> {
+    ///
+    /// # Errors
+    /// Vectors that together have too many entries.
+    pub fn null_space(&self) -> Result<Vec<SparseVector>, SolveError> {
         let mut has_pivot = vec![false; self.columns];
         let mut users: Vec<Vec<usize>> = vec![Vec::new(); self.columns];
         for (k, (&(_, column), upper)) in self.pivots.iter().zip(&self.upper).enumerate() {
@@ -97,8 +102,9 @@ impl SparseElimination {
             }
         }
         let mut values = vec![0.0; self.columns];
-        let free = (0..self.columns).filter(|c| !has_pivot[*c]);
-        free.map(|start| {
+        let mut basis = Vec::new();
+        let mut held = 0;
+        for start in (0..self.columns).filter(|c| !has_pivot[*c]) {
             let mut reached = Reached::new();
             values[start] = 1.0;
             let mut entries = vec![start];
@@ -112,11 +118,13 @@ impl SparseElimination {
                     reached.push_all(&users[column]);
                 }
             }
+            held += entries.len();
+            room::check("its motions without energy", held, MOST_NUMBERS / 4)?;
             entries.sort_unstable();
             let take = |c| (c, std::mem::take(&mut values[c]));
-            entries.into_iter().map(take).collect()
-        })
-        .collect()
+            basis.push(entries.into_iter().map(take).collect());
+        }
+        Ok(basis)
     }
 
     /// The combination of rows that is zero: 1 on a redundant row, the rest on rows with pivots.
@@ -426,7 +434,7 @@ mod tests {
                 continue;
             }
             assert_eq!(found.rank(), dense.rank(), "case {case}");
-            let basis = found.null_space();
+            let basis = found.null_space().expect("few entries");
             assert_eq!(basis.len(), columns - found.rank());
             for vector in &basis {
                 let left = &matrix * full(vector, columns);
@@ -448,7 +456,7 @@ mod tests {
         let matrix = conditions(&mut numbers, 20, 40);
         let found = SparseElimination::new(sparse(&matrix), 40);
         let columns: Vec<usize> = found.pivot_columns().collect();
-        for vector in found.null_space() {
+        for vector in found.null_space().expect("few entries") {
             let free = vector.iter().filter(|(c, _)| !columns.contains(c));
             assert_eq!(free.count(), 1);
         }
@@ -465,7 +473,10 @@ mod tests {
         assert_eq!(found.rank(), 2);
         assert!(found.doubtful.is_some());
         let without = SparseElimination::without_doubtful(rows, 2);
-        assert_eq!(without.null_space(), [vec![(0, 1.0), (1, 1.0)]]);
+        assert_eq!(
+            without.null_space().expect("few entries"),
+            [vec![(0, 1.0), (1, 1.0)]]
+        );
     }
 
     #[test]

@@ -14,11 +14,16 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::cluster::segment_beam;
 use crate::directions::Directions;
+use crate::error::SolveError;
 use crate::model::{BodyKind, FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
+use crate::room::{self, MOST_NUMBERS};
 
-/// A joint softer than this share of the beam's own stiffness keeps coordinates of its own:
-/// absorbed, its compliance would swallow the beam's digits.
-const SOFTEST_ABSORBED: f64 = 1e-8;
+/// A joint softer than this share of the beam's own stiffness keeps coordinates of its own: across the
+/// beam's axes a matrix of doubles holds its stiffness to 1e-16 over this share, whatever formed
+/// it, which no refinement brings back.
+const SOFTEST_ABSORBED: f64 = 1e-4;
+/// What asks for too much room where trees are deep.
+const CHAINS: &str = "its chains of rigid bodies and joints, one after another,";
 /// Most segments that absorbed joints join into one run.
 pub(crate) const LONGEST_CLUSTER: usize = 8;
 
@@ -99,7 +104,15 @@ pub(crate) struct Topology {
 impl Topology {
     /// The topology of a model; `absorbs`: elastic joints go into the subassemblies where they
     /// can, else each keeps coordinates of its own.
-    pub fn new(model: &Model, geometry: &Geometry, output: NodeId, absorbs: bool) -> Self {
+    ///
+    /// # Errors
+    /// Chains of joints too long.
+    pub fn new(
+        model: &Model,
+        geometry: &Geometry,
+        output: NodeId,
+        absorbs: bool,
+    ) -> Result<Self, SolveError> {
         let (mut carriers, carrier_of) = carriers(model, output);
         let joints = roles(model, geometry, output, absorbs);
         let clusters = clusters(model, &joints);
@@ -111,8 +124,8 @@ impl Topology {
             &carrier_of,
             carrier_of[output.0],
             &mut coordinates,
-        );
-        Self {
+        )?;
+        Ok(Self {
             carriers,
             carrier_of,
             joints,
@@ -120,7 +133,7 @@ impl Topology {
             clusters,
             coordinates,
             output_start,
-        }
+        })
     }
 
     /// Whether another topology is the same but for the joints' stiffness.
@@ -391,7 +404,7 @@ fn components(
     carrier_of: &[usize],
     output: usize,
     coordinates: &mut usize,
-) -> (Vec<Component>, usize) {
+) -> Result<(Vec<Component>, usize), SolveError> {
     struct Edge {
         joint: usize,
         ends: [Option<usize>; 2],
@@ -415,6 +428,8 @@ fn components(
     let mut components = Vec::with_capacity(members.len());
     let mut reached = vec![false; carriers.len()];
     let mut output_start = 0;
+    // Every carrier depends on all coordinates between it and its root.
+    let mut handed_on = 0;
     for group in members {
         let start = *coordinates;
         let grounded = group
@@ -480,6 +495,8 @@ fn components(
             *coordinates += count;
             let mut columns = parent.map_or(Vec::new(), |p| carriers[p].coordinates.clone());
             columns.extend(range.clone());
+            handed_on += 6 * columns.len();
+            room::check(CHAINS, handed_on, MOST_NUMBERS)?;
             carriers[child].coordinates = columns;
             carriers[child].reference = child_node;
             reached[child] = true;
@@ -502,7 +519,7 @@ fn components(
             coordinates: start..*coordinates,
         });
     }
-    (components, output_start)
+    Ok((components, output_start))
 }
 
 /// Groups of carriers connected by edges, ground apart, in order of their first carrier.

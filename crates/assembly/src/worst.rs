@@ -40,7 +40,7 @@ pub struct WorstPoint {
 impl Solution {
     /// The worst point of a body of the model that was solved: that of the largest utilisation
     /// where all its materials have a yield strength, else of the largest von Mises stress. `None`
-    /// for a body without beams, and where no section has stresses.
+    /// for a body without beams or of another model, and where no section has stresses.
     pub fn worst_point(&self, model: &Model, body: BodyId) -> Option<WorstPoint> {
         worst_of_body(model, body, &self.segments)
     }
@@ -55,9 +55,9 @@ impl State {
 
 /// The worst point of a body, where these are the forces of all segments.
 fn worst_of_body(model: &Model, body: BodyId, forces: &[SegmentForces]) -> Option<WorstPoint> {
-    let segments = &model.bodies()[body.0].segments;
+    let segments = &model.bodies().get(body.0)?.segments;
     let points: Vec<_> = (segments.iter())
-        .filter_map(|id| worst_of(model, *id, &forces[id.0]))
+        .filter_map(|id| worst_of(model, *id, forces.get(id.0)?))
         .collect();
     let by_utilisation = points.iter().all(|point| point.utilisation.is_some());
     let measure = |point: &WorstPoint| match point.utilisation {
@@ -103,13 +103,15 @@ fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<Wors
 
 /// Section wrench (N Vy Vz T My Mz, element frame) at `xi` along a segment of the model, 0 at its
 /// first node and 1 at its second: what the part beyond exerts on the part before, about the
-/// centroid. `None` for a segment that cannot be formed, which none of a solved model is.
+/// centroid. `None` for a segment that cannot be formed, which none of a solved model is, and for one
+/// of another model.
 pub fn section_wrench(
     model: &Model,
     segment: SegmentId,
     forces: &SegmentForces,
     xi: f64,
 ) -> Option<Vector6<f64>> {
+    model.check_segment(segment).ok()?;
     let (beam, _, _) = segment_beam(model, model.geometry(), segment).ok()?;
     let beam = beam.straight();
     Some(beam.loaded_section_wrench(xi, &forces.ends[1], &forces.load))

@@ -1,7 +1,7 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{
     BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
@@ -22,6 +22,8 @@ use crate::verification::Verification;
 #[derive(Debug)]
 pub(crate) struct Case {
     pub(crate) model: Model,
+    /// All files that were read for it.
+    pub(crate) files: Vec<PathBuf>,
     origin: Origin,
 }
 
@@ -38,7 +40,9 @@ enum Origin {
 impl Case {
     /// Loads what the command line names.
     pub(crate) fn load(input: &args::Input, registry: &Registry) -> Result<Self, CliError> {
-        match hyperstat_mechanisms::load(&input.file, registry)? {
+        let loaded = hyperstat_mechanisms::load(&input.file, registry)?;
+        let files = loaded.files();
+        match loaded {
             Input::Mechanism(mechanism) => {
                 for (option, given) in [
                     ("--job", input.job.is_some()),
@@ -52,17 +56,19 @@ impl Case {
                 }
                 Ok(Self {
                     model: mechanism.model.clone(),
+                    files,
                     origin: Origin::Mechanism(Box::new(mechanism)),
                 })
             }
             Input::Batch(batch) => {
                 let job = choose(batch.jobs, input)?;
-                Self::of_job(job, input.design.unwrap_or(0), input.pose.unwrap_or(0))
+                let (design, pose) = (input.design.unwrap_or(0), input.pose.unwrap_or(0));
+                Self::of_job(job, design, pose, files)
             }
         }
     }
 
-    fn of_job(job: Job, design: usize, pose: usize) -> Result<Self, CliError> {
+    fn of_job(job: Job, design: usize, pose: usize, files: Vec<PathBuf>) -> Result<Self, CliError> {
         if design >= job.designs() {
             return Err(CliError::NoSuchDesign {
                 location: Box::new(job.location()),
@@ -83,6 +89,7 @@ impl Case {
         match design_model(&design, pose) {
             Ok(model) => Ok(Self {
                 model,
+                files,
                 origin: Origin::Job {
                     job: Box::new(job),
                     design,
@@ -240,6 +247,14 @@ impl Case {
         Some(solution.idle)
     }
 
+    /// The mechanism file that it is from, where it is from one.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { design, .. } => design.mechanism(),
+        }
+    }
+
     /// The error that a solution means on the command line: an output that moves freely.
     pub(crate) fn free_output(&self, solution: &Solution) -> Option<CliError> {
         if solution.output.free_motions.is_empty() {
@@ -290,12 +305,12 @@ impl Case {
     }
 }
 
-/// The model of a job's first design at one of its poses.
+/// The model of a job's first design that can be, at one of its poses.
 pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, PoseError> {
     let mut model = job.model()?;
     let mut geometry = model.geometry().clone();
     job.place(pose, &mut geometry)?;
-    model.set_geometry(geometry);
+    model.set_geometry(geometry)?;
     Ok(model)
 }
 
@@ -304,7 +319,7 @@ fn design_model(design: &Design, pose: usize) -> Result<Model, PoseError> {
     let mut model = design.model()?;
     let mut geometry = model.geometry().clone();
     design.place(pose, &mut geometry)?;
-    model.set_geometry(geometry);
+    model.set_geometry(geometry)?;
     Ok(model)
 }
 

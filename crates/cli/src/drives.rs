@@ -19,7 +19,7 @@ pub(crate) struct MissingDrives {
 impl MissingDrives {
     /// Of a body that moves with all drives locked.
     pub(crate) fn of(model: &Model, body: BodyId) -> Self {
-        let mut motions = hyperstat_assembly::analyse(model).motions;
+        let mut motions = hyperstat_assembly::analyse(model).map_or(Vec::new(), |k| k.motions);
         motions.retain(|motion| motion.twists.iter().any(|(moved, _)| *moved == body));
         let directions = motions.iter().flat_map(|m| m.free_directions(model));
         let mut directions: Vec<(JointId, Dof)> = directions.collect();

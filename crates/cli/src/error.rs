@@ -1,7 +1,7 @@
 //! Why a command ends without its result, and the exit status that says so.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::SolveError;
 use hyperstat_figures::FigureError;
@@ -92,6 +92,27 @@ pub(crate) enum CliError {
         location: Box<Location>,
         source: WriteError,
     },
+    /// An output that is a file that was read.
+    #[error("{} would be overwritten: {}", .output.display(), read_as(.output, .input))]
+    Overwrites { output: PathBuf, input: PathBuf },
+    /// Two outputs that are one file.
+    #[error("{} and {} are the same file", .first.display(), .second.display())]
+    SameOutput { first: PathBuf, second: PathBuf },
+    /// A job whose outputs have names that are too long.
+    #[error(
+        "the name of job `{job}` is too long: {file} would have a name of {length} bytes while it is written"
+    )]
+    NameTooLong {
+        location: Box<Location>,
+        job: String,
+        file: String,
+        length: u64,
+        /// What the longest name of a job would have.
+        longest: u64,
+    },
+    /// A run that is larger than it was probably meant to be.
+    #[error("{why}")]
+    NotAgreed { why: String },
     /// Threads that cannot be had.
     #[error("the threads cannot be started: {0}")]
     Threads(#[from] ThreadPoolBuildError),
@@ -104,13 +125,11 @@ pub(crate) enum CliError {
     /// A table that cannot be drawn, or does not hold what is asked for.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// A map of a quantity that the job's table will not hold.
-    #[error("job `{job}`: there is no quantity `{value}` to draw a map of")]
-    UnknownQuantity {
+    /// A map that the job's table will not hold.
+    #[error("{source}")]
+    JobMap {
         location: Box<Location>,
-        job: String,
-        value: String,
-        help: String,
+        source: Box<PlotError>,
     },
     /// A figure that could not be drawn.
     #[error("cannot draw {}: {source}", .path.display())]
@@ -136,7 +155,8 @@ impl CliError {
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
-            | Self::UnknownQuantity { location, .. }
+            | Self::JobMap { location, .. }
+            | Self::NameTooLong { location, .. }
             | Self::Export { location, .. } => Some(location),
             _ => None,
         }
@@ -147,7 +167,7 @@ impl CliError {
         match self {
             Self::Load(error) => error.help().map(Into::into),
             Self::Plot(error) => error.help(),
-            Self::UnknownQuantity { help, .. } => Some(help.clone()),
+            Self::JobMap { source, .. } => source.help(),
             Self::NotABatch { option, .. } => Some(format!("leave `{option}` out")),
             Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
                 Some(format!("its jobs are {}", known.join(", ")))
@@ -182,6 +202,15 @@ impl CliError {
                     .into(),
             ),
             Self::Unsolvable {
+                source: SolveError::TooLarge { .. },
+                ..
+            } => Some(
+                "weld rigid bodies that move as one into one body, make links elastic (`Beam`), or \
+                 joints (`stiffness`): loops and chains of rigid bodies alone are eliminated as dense \
+                 matrices"
+                    .into(),
+            ),
+            Self::Unsolvable {
                 source: SolveError::Misfit { .. },
                 ..
             } => Some(
@@ -201,6 +230,18 @@ impl CliError {
                 "{}; `solve --allow-free` takes it as it is",
                 drives.help()
             )),
+            Self::Overwrites { .. } => {
+                Some("write to another folder or name: what is read stays as it is".into())
+            }
+            Self::SameOutput { .. } => Some("remove the link, or write to another folder".into()),
+            Self::NameTooLong { longest, .. } => Some(format!(
+                "give it a name of at most {longest} characters: that of each of its files must \
+                 fit the file system"
+            )),
+            Self::NotAgreed { .. } => Some(
+                "give fewer poses or designs, another `--out`, or `--yes` if that is what is meant"
+                    .into(),
+            ),
             Self::Unverified(_) => Some("leave `--verify` out".into()),
             Self::Threads(_) => Some("give a smaller number of `--threads`".into()),
             _ => None,
@@ -231,6 +272,14 @@ fn load_message(error: &LoadError) -> String {
     match error {
         LoadError::At { message, .. } => message.clone(),
         other => other.to_string(),
+    }
+}
+
+/// How an output that would be overwritten was read.
+fn read_as(output: &Path, input: &Path) -> String {
+    match output == input {
+        true => "it was read".into(),
+        false => format!("it was read as {}", input.display()),
     }
 }
 

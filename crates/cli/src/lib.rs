@@ -6,17 +6,24 @@ mod args;
 mod atomic;
 mod batch;
 mod case;
+mod cells;
+mod destination;
 mod diagnostic;
+mod disk;
 mod drawing;
 mod drives;
 mod error;
+mod outputs;
+mod plausibility;
 mod plot;
 mod report;
+mod terminal;
 mod verification;
 mod vtu;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -33,13 +40,39 @@ use report::{Asked, CheckReport, ModesReport, SolveReport, json};
 ///
 /// Results go to standard output, errors to standard error. The exit status is 0 where all is
 /// done, 1 where a run finished in which some pose has no result, 2 where the input cannot be
-/// used (the command line itself too), 3 where an output could not be written.
+/// used (the command line itself too), 3 where an output could not be written. A panic ends here,
+/// with a message that it is a bug, and the status 70.
 pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
-    let cli = match Cli::try_parse_from(args) {
+    // Nothing of what a panic may leave half done is used again.
+    let outcome = catch_unwind(AssertUnwindSafe(|| run_commands(args, registry)));
+    outcome.unwrap_or_else(|_| {
+        // Nothing is left to be told where standard error is closed.
+        let _ = io::stderr().write_all(BUG.as_bytes());
+        ExitCode::from(70)
+    })
+}
+
+/// What is said after the message of a panic.
+const BUG: &str = "\
+error: this is a bug in hyperstat, or in a kind of joint that was added to it; it is not your fault
+  = help: please report it to where you have hyperstat from, with the lines above, the command, and
+          the files that it reads
+";
+
+fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
+    let args: Vec<OsString> = args.into_iter().collect();
+    let cli = match Cli::try_parse_from(&args) {
         Ok(cli) => cli,
         Err(error) => {
             // `--help` and `--version` come here too: they go to standard output and end with 0.
-            let printed = error.print();
+            let steers = |arg: &OsString| arg.to_string_lossy().contains(terminal::steers);
+            let printed = match error.use_stderr() && args.iter().any(steers) {
+                // The message repeats what was typed, or the name of a file.
+                true => {
+                    io::stderr().write_all(terminal::plain(&error.render().to_string()).as_bytes())
+                }
+                false => error.print(),
+            };
             let status = if error.use_stderr() { 2 } else { 0 };
             return ExitCode::from(if printed.is_err() && status == 0 {
                 3
@@ -52,8 +85,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
-        Command::Run(args) => batch::run(args, registry, print),
-        Command::Plot(args) => plot::run(args, registry, print),
+        Command::Run(args) => batch::run(args, registry, tell),
+        Command::Plot(args) => plot::run(args, registry, tell),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,
@@ -71,6 +104,7 @@ pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> Exi
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.vtu.as_deref(), &case.files)?;
     if args.why {
         case.name_values();
     }
@@ -136,7 +170,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
             return Err(error);
         }
     };
-    let kinematics = hyperstat_assembly::analyse(&case.model);
+    let kinematics = hyperstat_assembly::analyse(&case.model).ok();
     let (solution, error) = match case.solve() {
         Ok(solution) => {
             let error = case.free_output(&solution);
@@ -144,7 +178,12 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
         }
         Err(error) => (None, Some(error)),
     };
-    let report = CheckReport::new(&case, &kinematics, solution.as_ref(), error.as_ref());
+    let report = CheckReport::new(
+        &case,
+        kinematics.as_ref(),
+        solution.as_ref(),
+        error.as_ref(),
+    );
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,
@@ -155,6 +194,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
 /// `hyperstat export`
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     let case = Case::load(&args.input, registry)?;
+    outputs::refuse(args.out.as_deref(), &case.files)?;
     let text = case.mechanism_file(registry)?;
     match &args.out {
         None => print(&text)?,
@@ -168,9 +208,18 @@ fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     Ok(true)
 }
 
+/// Prints what is said of results that are files: who closes standard output, as `head` does, has no
+/// need of it.
+fn tell(text: &str) -> Result<(), CliError> {
+    match print(text) {
+        Err(error) if error.is_closed_pipe() => Ok(()),
+        printed => printed,
+    }
+}
+
 fn print(text: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())
+    out.write_all(terminal::plain(text).as_bytes())
         .and_then(|()| out.flush())
         .map_err(CliError::Print)
 }

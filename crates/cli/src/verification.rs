@@ -1,6 +1,6 @@
 //! A solution beside that of the independent solver (`solve --verify`).
 
-use hyperstat_assembly::{BodyId, Model, Segment, Solution};
+use hyperstat_assembly::{BodyId, Floor, Model, Solution};
 use hyperstat_reference::ReferenceSolution;
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;
@@ -9,9 +9,6 @@ use crate::report::Entries;
 
 /// Two solutions that agree this well are equal for every use of them.
 const AGREEMENT: f64 = 1e-8;
-/// Diagonal entries of a stiffness below this share of the largest of their kind are zero: a
-/// direction in which the output is free.
-const FREE: f64 = 1e-12;
 
 /// The largest differences between a solution and the independent solver's. Field names are those
 /// of the JSON output.
@@ -41,38 +38,35 @@ struct StateDifferences {
     joint_wrenches: f64,
 }
 
-/// What displacements and wrenches are compared by.
-struct Measures {
-    /// Whether a node's body moves freely, by node.
-    free: Vec<bool>,
-    /// The mechanism's size [m].
-    size: f64,
-    /// The largest force with which a heated beam would push between walls, E A α ΔT [N]: where
-    /// nothing holds it, what is left of that is rounding.
-    push: f64,
-    /// What a force gives the stiffest beam, L/(E A) [m/N]: smaller displacements are rounding.
-    give: f64,
-}
-
 impl Verification {
     /// Compares `solution` with `reference`, both of `model`.
     pub(crate) fn new(model: &Model, solution: &Solution, reference: &ReferenceSolution) -> Self {
-        let measures = Measures::of(model);
-        let both = |found: &Option<Matrix6<f64>>, expected: &Option<Matrix6<f64>>| {
-            let pair = found.as_ref().zip(expected.as_ref());
-            pair.map(|(found, expected)| matrix_difference(found, expected))
-        };
+        let moving = bodies_that_move(model);
+        let nodes = model.nodes().iter();
+        let held: Vec<bool> = nodes.map(|node| !moving.contains(&node.body)).collect();
+        let floor = &solution.floor;
+        let output = &solution.output;
+        let stiffness = output.stiffness.zip(reference.stiffness);
+        let compliance = output.compliance.zip(reference.compliance);
         let cases = solution.cases.iter().zip(&reference.cases);
         Self {
-            stiffness: both(&solution.output.stiffness, &reference.stiffness),
-            compliance: both(&solution.output.compliance, &reference.compliance),
-            state: measures.compare(
+            stiffness: stiffness.map(|(found, expected)| {
+                matrix_difference(&found, &expected, floor.stiffness_scales(&expected))
+            }),
+            compliance: compliance.map(|(found, expected)| {
+                matrix_difference(&found, &expected, floor.compliance_scales(&expected))
+            }),
+            state: StateDifferences::new(
+                floor,
+                &held,
                 [&solution.displacements, &reference.displacements],
                 [&solution.joint_wrenches, &reference.joint_wrenches],
             ),
             cases: cases
                 .map(|(case, reference)| {
-                    let differences = measures.compare(
+                    let differences = StateDifferences::new(
+                        &case.state.floor,
+                        &held,
                         [&case.state.displacements, &reference.displacements],
                         [&case.state.joint_wrenches, &reference.joint_wrenches],
                     );
@@ -114,50 +108,25 @@ impl Verification {
     }
 }
 
-impl Measures {
-    fn of(model: &Model) -> Self {
-        let moving = bodies_that_move(model);
-        let stretching = |segment: &Segment| {
-            let [a, b] = segment.ends.map(|node| model.geometry().positions[node.0]);
-            segment.material.young() * segment.section.area() / (b - a).norm()
-        };
-        let push = |segment: &Segment| {
-            let change = model.bodies()[segment.body.0].temperature;
-            let strain = segment.material.expansion().unwrap_or(0.0) * change;
-            (segment.material.young() * segment.section.area() * strain).abs()
-        };
-        let nodes = model.nodes().iter();
-        Self {
-            free: nodes.map(|node| moving.contains(&node.body)).collect(),
-            size: size(model),
-            push: largest(model.segments().iter().map(push)),
-            give: 1.0 / largest(model.segments().iter().map(stretching)),
-        }
-    }
-
-    /// Compares displacements and wrenches, found and expected.
-    fn compare(
-        &self,
+impl StateDifferences {
+    /// Of displacements and wrenches, found and expected, by what acts where all are smaller;
+    /// displacements of the nodes that are `held`.
+    fn new(
+        floor: &Floor,
+        held: &[bool],
         [found, expected]: [&[Vector6<f64>]; 2],
         [wrenches, expected_wrenches]: [&[Option<Vector6<f64>>]; 2],
-    ) -> StateDifferences {
-        let pairs = found.iter().zip(expected).zip(&self.free);
-        let held = pairs.filter(|(_, free)| !**free).map(|(pair, _)| pair);
+    ) -> Self {
+        let pairs = found.iter().zip(expected).zip(held);
+        let held = pairs.filter(|(_, held)| **held).map(|(pair, _)| pair);
         let wrenches = wrenches.iter().zip(expected_wrenches);
         let determined =
             wrenches.filter_map(|(found, expected)| found.as_ref().zip(expected.as_ref()));
-        let moments = [self.size, 1.0];
-        let least = self.push * self.size;
-        let carried = scale(determined.clone(), moments, least);
-        // Without beams nothing gives.
-        let give = if self.give.is_finite() {
-            self.give
-        } else {
-            0.0
-        };
-        StateDifferences {
-            displacements: vector_difference(held, [1.0, self.size], give * carried / self.size),
-            joint_wrenches: vector_difference(determined, moments, least),
+        let displacement = |u: &Vector6<f64>| floor.as_displacement(u);
+        let force = |wrench: &Vector6<f64>| floor.as_force(wrench);
+        Self {
+            displacements: vector_difference(held, displacement, floor.least_displacement()),
+            joint_wrenches: vector_difference(determined, force, floor.least_force()),
         }
     }
 }
@@ -213,67 +182,43 @@ fn disagreements(model: &Model, solution: &Solution, reference: &ReferenceSoluti
 
 /// Bodies that move without energy, drives locked: their displacements are not defined.
 fn bodies_that_move(model: &Model) -> Vec<BodyId> {
-    let motions = hyperstat_assembly::analyse(model).motions;
+    let motions = hyperstat_assembly::analyse(model).map_or(Vec::new(), |k| k.motions);
     let twists = motions.into_iter().flat_map(|motion| motion.twists);
     twists.map(|(body, _)| body).collect()
 }
 
-/// Diagonal of the box around all nodes (m); 1 where they coincide.
-fn size(model: &Model) -> f64 {
-    let positions = &model.geometry().positions;
-    let Some(first) = positions.first() else {
-        return 1.0;
-    };
-    let (low, high) = positions
-        .iter()
-        .fold((*first, *first), |(low, high), p| (low.inf(p), high.sup(p)));
-    let diagonal = (high - low).norm();
-    if diagonal > 0.0 { diagonal } else { 1.0 }
-}
-
-/// Largest |Δ_ij| / √(K_ii K_jj).
-fn matrix_difference(found: &Matrix6<f64>, expected: &Matrix6<f64>) -> f64 {
-    let scale: [f64; 6] = std::array::from_fn(|k| {
-        let kind = 3 * (k / 3);
-        let largest = (kind..kind + 3).fold(0.0_f64, |largest, d| largest.max(expected[(d, d)]));
-        let own = expected[(k, k)];
-        if own > FREE * largest { own } else { largest }
-    });
+/// Largest |Δ_ij| / √(s_i s_j).
+fn matrix_difference(found: &Matrix6<f64>, expected: &Matrix6<f64>, scales: [f64; 6]) -> f64 {
     let differences = (0..36).map(|entry| {
         let (r, c) = (entry / 6, entry % 6);
         ratio(
             (found[(r, c)] - expected[(r, c)]).abs(),
-            (scale[r] * scale[c]).sqrt(),
+            (scales[r] * scales[c]).sqrt(),
         )
     });
     largest(differences)
 }
 
-/// Largest difference over the largest expected entry, linear and angular parts times `units`;
-/// over `least` where all of these are smaller.
+/// Largest difference over the largest expected vector, by `size`; over `least` where all of these
+/// are smaller.
 fn vector_difference<'a>(
     pairs: impl Iterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)> + Clone,
-    units: [f64; 2],
+    size: impl Fn(&Vector6<f64>) -> f64,
     least: f64,
 ) -> f64 {
     let apart = pairs.clone().map(|(found, expected)| found - expected);
-    let difference = largest(apart.map(|apart| longest(&apart, units)));
-    ratio(difference, scale(pairs, units, least))
+    let difference = largest(apart.map(|apart| size_of(&apart, &size)));
+    let expected = pairs.map(|(_, expected)| size_of(expected, &size));
+    ratio(difference, largest(expected.chain([least])))
 }
 
-/// The largest expected entry; `least` where all are smaller.
-fn scale<'a>(
-    pairs: impl Iterator<Item = (&'a Vector6<f64>, &'a Vector6<f64>)>,
-    units: [f64; 2],
-    least: f64,
-) -> f64 {
-    let expected = pairs.map(|(_, expected)| longest(expected, units));
-    largest(expected.chain([least]))
-}
-
-/// The largest entry, linear and angular part times `units`.
-fn longest(vector: &Vector6<f64>, units: [f64; 2]) -> f64 {
-    largest((0..6).map(|k| vector[k].abs() * units[k / 3]))
+/// The size of a vector; NaN where a component is.
+fn size_of(vector: &Vector6<f64>, size: impl Fn(&Vector6<f64>) -> f64) -> f64 {
+    if vector.iter().any(|component| component.is_nan()) {
+        f64::NAN
+    } else {
+        size(vector)
+    }
 }
 
 /// `difference / scale`, and 0 for no difference from nothing.
@@ -300,22 +245,24 @@ fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_difference_is_taken_on_the_scale_of_its_row_and_column() {
-        let stiff = Matrix6::from_diagonal(&Vector6::new(1e8, 1e8, 1e4, 1e5, 1e5, 10.0));
-        let mut found = stiff;
-        found[(2, 5)] += 1.0;
-        let expected = 1.0 / (1e4_f64 * 10.0).sqrt();
-        assert_eq!(matrix_difference(&found, &stiff), expected);
-        assert_eq!(matrix_difference(&stiff, &stiff), 0.0);
+    /// Forces count as they are, moments over a length.
+    fn by(length: f64) -> impl Fn(&Vector6<f64>) -> f64 {
+        move |v| {
+            (0..6).fold(0.0, |m: f64, k| {
+                m.max(v[k].abs() / if k < 3 { 1.0 } else { length })
+            })
+        }
     }
 
     #[test]
-    fn rounding_in_a_free_direction_is_no_difference() {
-        let free = Matrix6::from_diagonal(&Vector6::new(1e8, 0.0, 1e4, 1e5, 1e5, 10.0));
-        let mut found = free;
-        found[(1, 1)] = 1e-8;
-        assert_eq!(matrix_difference(&found, &free), 1e-16);
+    fn a_difference_is_taken_on_the_scale_of_its_row_and_column() {
+        let scales = [1e8, 1e8, 1e4, 1e5, 1e5, 10.0];
+        let stiff = Matrix6::from_diagonal(&Vector6::from(scales));
+        let mut found = stiff;
+        found[(2, 5)] += 1.0;
+        let expected = 1.0 / (1e4_f64 * 10.0).sqrt();
+        assert_eq!(matrix_difference(&found, &stiff, scales), expected);
+        assert_eq!(matrix_difference(&stiff, &stiff, scales), 0.0);
     }
 
     #[test]
@@ -323,12 +270,10 @@ mod tests {
         let zero = Vector6::zeros();
         let nan = Vector6::repeat(f64::NAN);
         let one = Vector6::repeat(1.0);
-        assert_eq!(
-            vector_difference([(&zero, &zero)].into_iter(), [1.0, 1.0], 0.0),
-            0.0
-        );
+        let none = vector_difference([(&zero, &zero)].into_iter(), by(1.0), 0.0);
+        assert_eq!(none, 0.0);
         let pairs = [(&nan, &one), (&one, &one)];
-        assert!(vector_difference(pairs.into_iter(), [1.0, 1.0], 1.0).is_nan());
+        assert!(vector_difference(pairs.into_iter(), by(1.0), 1.0).is_nan());
         let verification = Verification {
             stiffness: Some(f64::NAN),
             compliance: None,
@@ -354,11 +299,11 @@ mod tests {
     }
 
     #[test]
-    fn rotations_count_with_the_size() {
+    fn what_acts_is_the_floor() {
         let expected = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
         let found = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.01);
         let pair = [(&found, &expected)];
-        assert_eq!(vector_difference(pair.into_iter(), [1.0, 2.0], 0.5), 0.02);
-        assert_eq!(vector_difference(pair.into_iter(), [1.0, 2.0], 4.0), 0.005);
+        assert_eq!(vector_difference(pair.into_iter(), by(0.5), 0.5), 0.02);
+        assert_eq!(vector_difference(pair.into_iter(), by(0.5), 4.0), 0.005);
     }
 }

@@ -36,10 +36,11 @@ impl LoopClosure {
     /// The rigid mechanism of a model, at home in the model's configuration.
     ///
     /// # Errors
-    /// No output, a segment without a frame, a kind of joint whose basis does not say how it
-    /// moves.
+    /// No output, a model that is not one whole ([`Model::check`]) or too large, a segment without a
+    /// frame, a kind of joint whose basis does not say how it moves.
     pub fn new(model: &Model) -> Result<Self, ClosureError> {
         let node = model.output().ok_or(ClosureError::NoOutput)?;
+        model.check()?;
         let (centre, size) = middle_and_size(model.geometry());
         let place = model.geometry().positions[node.0].coords - centre;
         let system = System {
@@ -77,13 +78,14 @@ impl LoopClosure {
     /// compared.
     ///
     /// # Errors
-    /// A target that is not finite or is no drive's, that is out of reach, singular, reached only
+    /// A configuration of another mechanism; a target that is not finite or is no drive's, that is out of reach, singular, reached only
     /// in another assembly mode, or that the output cannot follow.
     pub fn reach(
         &self,
         from: &Configuration,
         target: &Target<'_>,
     ) -> Result<Configuration, ClosureError> {
+        self.check(from)?;
         match target {
             Target::Output(asked) => {
                 finite(asked.iter().flatten())?;
@@ -100,7 +102,16 @@ impl LoopClosure {
 
     /// The output's position x y z (m) and rotation vector rx ry rz (rad) from home, in global
     /// axes.
-    pub fn pose(&self, configuration: &Configuration) -> [f64; 6] {
+    ///
+    /// # Errors
+    /// A configuration of another mechanism.
+    pub fn pose(&self, configuration: &Configuration) -> Result<[f64; 6], ClosureError> {
+        self.check(configuration)?;
+        Ok(self.pose_of(configuration))
+    }
+
+    /// The pose of a configuration of this mechanism.
+    fn pose_of(&self, configuration: &Configuration) -> [f64; 6] {
         let mut pose = self.system.coordinates(configuration);
         for (k, coordinate) in pose.iter_mut().enumerate() {
             *coordinate += self.system.shift(k);
@@ -110,13 +121,14 @@ impl LoopClosure {
 
     /// The value of a joint's free direction relative to home (m or rad, whole turns included):
     /// of the second body relative to the first. `None` where the direction does not move, or
-    /// has no value of its own: a ball joint's rotation.
+    /// has no value of its own (a ball joint's rotation), and of what is not of this mechanism.
     pub fn value(
         &self,
         configuration: &Configuration,
         joint: JointId,
         direction: Dof,
     ) -> Option<f64> {
+        self.check(configuration).ok()?;
         let column = self.system.linkage.column(joint.0, direction)?;
         Some(configuration.values[column])
     }
@@ -132,7 +144,11 @@ impl LoopClosure {
     /// # Errors
     /// Why not.
     pub fn check_drive(&self, joint: JointId, direction: Dof) -> Result<(), ClosureError> {
-        let connection = &self.parts.model.joints()[joint.0];
+        let joints = self.parts.model.joints();
+        let connection = joints.get(joint.0).ok_or(ClosureError::ForeignJoint {
+            joint: joint.0,
+            count: joints.len(),
+        })?;
         if self.system.linkage.joints[joint.0]
             .drives
             .contains(direction)
@@ -142,7 +158,7 @@ impl LoopClosure {
         Err(ClosureError::NotADrive {
             joint: connection.name.clone(),
             direction,
-            why: if connection.joint.free().contains(direction) {
+            why: if connection.released().contains(direction) {
                 "it is free; a drive is locked or has a stiffness"
             } else {
                 "the joint does not move in it"
@@ -152,12 +168,25 @@ impl LoopClosure {
 
     /// By how much the loops of a configuration stay open, over the mechanism's size (and in rad):
     /// rounding, or as much as redundant conditions in the file contradict each other.
-    pub fn misfit(&self, configuration: &Configuration) -> f64 {
+    ///
+    /// # Errors
+    /// A configuration of another mechanism.
+    pub fn misfit(&self, configuration: &Configuration) -> Result<f64, ClosureError> {
+        self.check(configuration)?;
         let misfit = self.system.misfit(configuration, &Goal::default());
-        if misfit.is_empty() {
+        Ok(if misfit.is_empty() {
             0.0
         } else {
             misfit.amax()
+        })
+    }
+
+    /// Refuses a configuration of another mechanism.
+    fn check(&self, configuration: &Configuration) -> Result<(), ClosureError> {
+        if configuration.linkage == self.system.linkage.id {
+            Ok(())
+        } else {
+            Err(ClosureError::ForeignConfiguration)
         }
     }
 
@@ -172,13 +201,14 @@ impl LoopClosure {
     /// body, whichever is first. A joint with the ground stands on the body, if that is no rail.
     ///
     /// # Errors
-    /// A geometry of another model; a sliding joint between two bodies of which neither can give
+    /// A configuration or a geometry of another model; a sliding joint between two bodies of which neither can give
     /// way. The geometry is then as it was.
     pub fn write(
         &self,
         configuration: &Configuration,
         geometry: &mut Geometry,
     ) -> Result<(), ClosureError> {
+        self.check(configuration)?;
         self.parts
             .write(&self.system.linkage, configuration, geometry)
     }
@@ -235,7 +265,7 @@ impl LoopClosure {
         reached: &Configuration,
         asked: &[Option<f64>; 6],
     ) -> Result<(), ClosureError> {
-        let found = self.pose(reached);
+        let found = self.pose_of(reached);
         let whole = asked[3..].iter().all(Option::is_some);
         let mut wrong = Vec::new();
         for (k, wanted) in asked.iter().enumerate() {

@@ -10,6 +10,33 @@ pub enum ClosureError {
     /// The model has no output node.
     #[error("the model has no output")]
     NoOutput,
+    /// A model whose parts do not belong together, or a geometry that is not of it.
+    #[error(transparent)]
+    Model(#[from] hyperstat_assembly::ModelError),
+    /// A joint that is not one of the model.
+    #[error("joint {joint} is not one of this model, which has {count}")]
+    ForeignJoint {
+        /// The id.
+        joint: usize,
+        /// Number of joints of the model.
+        count: usize,
+    },
+    /// A configuration of another mechanism.
+    #[error("the configuration is one of another mechanism")]
+    ForeignConfiguration,
+    /// A mechanism with more joint coordinates than the dense matrices of loop closure should have.
+    #[error(
+        "the mechanism has {coordinates} joint coordinates, and {conditions} conditions of its loops; \
+         loop closure takes at most {limit} of each"
+    )]
+    TooLarge {
+        /// Coordinates of all joints that move.
+        coordinates: usize,
+        /// Conditions of the joints that close loops.
+        conditions: usize,
+        /// Most of either.
+        limit: usize,
+    },
     /// A target that is not a finite number.
     #[error("the target {value} is not a finite number")]
     NotFinite {
@@ -80,16 +107,5 @@ pub enum ClosureError {
         travel: f64,
         /// What would be right.
         help: &'static str,
-    },
-    /// A geometry that belongs to another model.
-    #[error(
-        "the geometry holds {found:?} nodes, segments, joints and flexible bodies, this model \
-         {expected:?}"
-    )]
-    ForeignGeometry {
-        /// Numbers of nodes, segments, joints and flexible bodies of the model.
-        expected: [usize; 4],
-        /// Those of the geometry.
-        found: [usize; 4],
     },
 }

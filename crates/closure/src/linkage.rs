@@ -1,6 +1,10 @@
 //! The rigid mechanism: a spanning tree of its joints, whose coordinates place all bodies, and
 //! the joints that close loops.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use hyperstat_assembly::Model;
 use hyperstat_joints::Dof;
 use nalgebra::{DVector, Isometry3, UnitQuaternion, Vector3};
@@ -9,9 +13,18 @@ use crate::error::ClosureError;
 use crate::motion::JointMotion;
 use crate::twist::Twist;
 
+/// Most coordinates of joints, and most conditions of loops: the matrices are dense, and a step takes
+/// seconds.
+const MOST: usize = 2000;
+
+/// The number of the next linkage.
+static NEXT: AtomicU64 = AtomicU64::new(0);
+
 /// A configuration of the mechanism: the values of all joint coordinates, relative to home.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Configuration {
+    /// The linkage that it is one of.
+    pub(crate) linkage: u64,
     /// Of every column; m or rad. Those of free rotations are not used.
     pub(crate) values: Vec<f64>,
     /// The free rotation of every joint of the tree that has one.
@@ -44,6 +57,8 @@ struct Step {
 /// The joints of a model as a tree and closings.
 #[derive(Debug, Clone)]
 pub(crate) struct Linkage {
+    /// A number that no other linkage has, clones apart.
+    pub id: u64,
     pub joints: Vec<JointMotion>,
     pub columns: Vec<Column>,
     /// The first column of every joint.
@@ -74,8 +89,22 @@ impl Linkage {
             .map(|k| JointMotion::new(model, k, centre))
             .collect::<Result<Vec<_>, _>>()?;
         let count = model.bodies().len();
+        let coordinates: usize = joints.iter().map(JointMotion::free).sum();
+        // All but those of the tree, which has a joint a body, close loops.
+        let conditions = 6 * joints.len().saturating_sub(count);
+        if coordinates > MOST || conditions > MOST {
+            return Err(ClosureError::TooLarge {
+                coordinates,
+                conditions,
+                limit: MOST,
+            });
+        }
         let steps = spanning_tree(&joints, count);
-        let in_tree = |joint: usize| steps.iter().any(|step| step.joint == joint);
+        let mut tree = vec![false; joints.len()];
+        for step in &steps {
+            tree[step.joint] = true;
+        }
+        let in_tree = |joint: usize| tree[joint];
         let mut columns = Vec::new();
         let mut starts = Vec::new();
         for (joint, motion) in joints.iter().enumerate() {
@@ -111,6 +140,7 @@ impl Linkage {
         }
         let closings = (0..joints.len()).filter(|k| !in_tree(*k)).collect();
         Ok(Self {
+            id: NEXT.fetch_add(1, Ordering::Relaxed),
             joints,
             columns,
             starts,
@@ -123,6 +153,7 @@ impl Linkage {
     /// The configuration that the model is in.
     pub fn home(&self) -> Configuration {
         Configuration {
+            linkage: self.id,
             values: vec![0.0; self.columns.len()],
             balls: vec![UnitQuaternion::identity(); self.joints.len()],
             rotation: Vector3::zeros(),
@@ -131,7 +162,7 @@ impl Linkage {
 
     /// The column of a joint's direction.
     pub fn column(&self, joint: usize, dof: Dof) -> Option<usize> {
-        let factors = &self.joints[joint].factors;
+        let factors = &self.joints.get(joint)?.factors;
         let place = factors.iter().position(|(other, _)| *other == dof)?;
         Some(self.starts[joint] + place)
     }
@@ -245,34 +276,43 @@ impl Linkage {
 /// Joints that place all bodies from the ground: of those at hand always the one with the fewest
 /// freedoms, so that free rotations are left for the closings, where they make no equation.
 fn spanning_tree(joints: &[JointMotion], count: usize) -> Vec<Step> {
+    let mut joints_at: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut at_hand = BinaryHeap::new();
+    let key = |joint: usize| Reverse((joints[joint].ball, joints[joint].len(), joint));
+    for (joint, motion) in joints.iter().enumerate() {
+        for body in motion.bodies.into_iter().flatten() {
+            joints_at[body].push(joint);
+        }
+        if motion.bodies.contains(&None) {
+            at_hand.push(key(joint));
+        }
+    }
     let mut placed = vec![false; count];
     let mut steps: Vec<Step> = Vec::new();
+    let mut loose = 0;
     loop {
-        let is_placed = |body: Option<usize>| body.is_none_or(|b| placed[b]);
-        let at_hand = joints.iter().enumerate().filter_map(|(joint, motion)| {
-            let step = match motion.bodies {
-                [first, Some(child)] if is_placed(first) && !placed[child] => Step {
-                    joint,
-                    child,
-                    forward: true,
-                },
-                [Some(child), second] if is_placed(second) && !placed[child] => Step {
-                    joint,
-                    child,
-                    forward: false,
-                },
-                _ => return None,
-            };
-            Some((motion.ball, motion.len(), step))
-        });
-        if let Some((_, _, step)) = at_hand.min_by_key(|(ball, len, _)| (*ball, *len)) {
-            placed[step.child] = true;
-            steps.push(step);
-        } else if let Some(loose) = placed.iter().position(|placed| !placed) {
+        let Some(Reverse((_, _, joint))) = at_hand.pop() else {
             // Nothing holds it: it stays where it is, and others may hang on it.
-            placed[loose] = true;
-        } else {
-            return steps;
-        }
+            let Some(next) = (loose..count).find(|body| !placed[*body]) else {
+                return steps;
+            };
+            placed[next] = true;
+            loose = next + 1;
+            at_hand.extend(joints_at[next].iter().map(|joint| key(*joint)));
+            continue;
+        };
+        let is_placed = |body: Option<usize>| body.is_none_or(|b| placed[b]);
+        let (child, forward) = match joints[joint].bodies {
+            [first, Some(child)] if is_placed(first) && !placed[child] => (child, true),
+            [Some(child), second] if is_placed(second) && !placed[child] => (child, false),
+            _ => continue,
+        };
+        placed[child] = true;
+        steps.push(Step {
+            joint,
+            child,
+            forward,
+        });
+        at_hand.extend(joints_at[child].iter().map(|joint| key(*joint)));
     }
 }

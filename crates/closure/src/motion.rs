@@ -1,6 +1,6 @@
 //! The finite motions of a joint, from its kind's free directions and basis.
 
-use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, NodeId};
+use hyperstat_assembly::{Connection, Geometry, Model, NodeId};
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3};
 
@@ -42,11 +42,10 @@ impl JointMotion {
     pub fn new(model: &Model, index: usize, centre: &Vector3<f64>) -> Result<Self, ClosureError> {
         let connection = &model.joints()[index];
         let geometry = model.geometry();
-        let kind = connection.joint.free();
-        let free = kind.union(freed(connection));
+        let free = connection.released();
         let basis = connection.joint.basis();
-        let given = given_stiffness(connection);
-        let drives = kind.intersection(connection.locked.union(given));
+        let held = connection.locked.union(connection.elastic());
+        let drives = connection.joint.free().intersection(held);
         let turns = DofSet::new(&[Dof::U, Dof::V, Dof::W]);
         let ball = free.intersection(turns) == turns
             && drives.intersection(turns).is_empty()
@@ -81,6 +80,11 @@ impl JointMotion {
     /// Number of coordinates, without those of a free rotation.
     pub fn len(&self) -> usize {
         self.factors.len()
+    }
+
+    /// Number of free directions.
+    pub fn free(&self) -> usize {
+        self.free.len()
     }
 
     /// Frames before and after every factor of h, from that of the first body.
@@ -145,32 +149,6 @@ fn column(basis: &Matrix6<f64>, dof: Dof) -> Twist {
 fn is_ball(basis: &Matrix6<f64>) -> bool {
     let unit = Matrix6::identity();
     (3..6).all(|c| basis.column(c) == unit.column(c))
-}
-
-/// Directions that a stiffness of zero frees although the kind holds them.
-fn freed(connection: &Connection) -> DofSet {
-    let zero = |dof: &Dof| match &connection.stiffness {
-        JointStiffness::Directions(values) => values[dof.index()] == Some(0.0),
-        JointStiffness::Matrix(k) => k[(dof.index(), dof.index())] <= 0.0,
-    };
-    let held = connection.joint.free().complement();
-    held.iter().filter(zero).collect()
-}
-
-/// Directions with a stiffness.
-fn given_stiffness(connection: &Connection) -> DofSet {
-    let own = connection.joint.compliance();
-    let elastic = |dof: &Dof| {
-        let d = dof.index();
-        match &connection.stiffness {
-            JointStiffness::Directions(values) => {
-                let own = own.is_some_and(|own| own[(d, d)] > 0.0);
-                values[d].map_or(own && values.iter().all(Option::is_none), |k| k > 0.0)
-            }
-            JointStiffness::Matrix(k) => k[(d, d)] > 0.0,
-        }
-    };
-    DofSet::ALL.iter().filter(elastic).collect()
 }
 
 /// The joint's frame at its first node (the second where the first is the ground).

@@ -145,6 +145,10 @@ pub(crate) fn orientation([start, end]: &[DMatrix<f64>; 2]) -> f64 {
 
 /// A basis of the motions that break no row, orthonormal.
 pub(crate) fn null_space(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    if jacobian.ncols() == 0 {
+        // Nothing moves, and there is no decomposition of nothing.
+        return DMatrix::zeros(0, 0);
+    }
     let eigen = SymmetricEigen::new(jacobian.tr_mul(jacobian));
     let free: Vec<usize> = (0..jacobian.ncols())
         .filter(|k| eigen.eigenvalues[*k] <= RANK_TOLERANCE * RANK_TOLERANCE)
@@ -154,6 +158,9 @@ pub(crate) fn null_space(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
 
 /// Number of singular values above `tolerance`.
 pub(crate) fn rank(jacobian: &DMatrix<f64>, tolerance: f64) -> usize {
+    if jacobian.ncols() == 0 {
+        return 0;
+    }
     let squares = jacobian.tr_mul(jacobian).symmetric_eigenvalues();
     let above = squares.iter().filter(|v| **v > tolerance * tolerance);
     above.count()

@@ -58,6 +58,7 @@ impl Parts {
         configuration: &Configuration,
         geometry: &mut Geometry,
     ) -> Result<(), ClosureError> {
+        self.model.check_size(geometry)?;
         let posture = linkage.posture(configuration);
         let home = self.model.geometry();
         let mut placed = home.clone();
@@ -83,7 +84,6 @@ impl Parts {
             placed.frames[k] = turned(&body, &first, &standing, &home.frames[k]);
             self.meet(k, joint, &standing, &rigid, &mut placed.positions)?;
         }
-        self.check(geometry)?;
         *geometry = placed;
         Ok(())
     }
@@ -211,23 +211,6 @@ impl Parts {
             };
             Some(rigid[node.0] - rigid[other.0])
         })
-    }
-
-    fn check(&self, geometry: &Geometry) -> Result<(), ClosureError> {
-        let counts = |g: &Geometry| {
-            [
-                g.positions.len(),
-                g.y_axes.len(),
-                g.frames.len(),
-                g.rotations.len(),
-            ]
-        };
-        let (expected, found) = (counts(self.model.geometry()), counts(geometry));
-        if expected == found {
-            Ok(())
-        } else {
-            Err(ClosureError::ForeignGeometry { expected, found })
-        }
     }
 }
 

@@ -50,6 +50,7 @@ fn trajectory() -> TrajectoryFigure {
         title: "Pick and place".into(),
         second: Some(SecondMethod {
             name: "finite elements".into(),
+            at: (0..commanded.len()).collect(),
             displacement: displacement.iter().map(|u| u.map(|c| 1.01 * c)).collect(),
             difference: 0.01,
         }),

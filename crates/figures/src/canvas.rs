@@ -17,6 +17,7 @@ use plotters::style::{FontDesc, FontFamily, FontStyle, RGBAColor, ShapeStyle, Te
 
 use crate::error::FigureError;
 use crate::geometry::PagePoint;
+use crate::paths;
 
 /// Width of a figure, and the height of one in space \[pixels\].
 pub(crate) const WIDTH: u32 = 900;
@@ -24,6 +25,12 @@ pub(crate) const HEIGHT: u32 = 640;
 
 /// Units of the drawing in a pixel.
 const UNITS: u32 = 10;
+
+/// Most points of one line element.
+const LONGEST_PART: usize = 2000;
+
+/// A line longer than this is drawn without its dashes, which nobody could tell apart \[pixels\].
+const LONGEST_DASHED: f64 = 20_000.0;
 
 /// Families of the text, the embedded one first; the next have letters of the same widths.
 const FONT: &str = "Liberation Sans, Arimo, Arial, Helvetica, sans-serif";
@@ -129,9 +136,10 @@ fn in_xml(text: &str) -> String {
 }
 
 impl Canvas<'_> {
-    /// A line through points.
+    /// A line through points. Of very many, those that cannot be seen are left out.
     pub(crate) fn line(&self, points: &[PagePoint], stroke: Stroke) -> Result<(), FigureError> {
-        if stroke.dashes.is_empty() {
+        let points = &*paths::thinned(points);
+        if stroke.dashes.is_empty() || paths::length(points) > LONGEST_DASHED {
             return self.solid_line(points, stroke);
         }
         dashed(points, stroke.dashes)
@@ -142,10 +150,15 @@ impl Canvas<'_> {
     fn solid_line(&self, points: &[PagePoint], stroke: Stroke) -> Result<(), FigureError> {
         let mut points: Vec<_> = points.iter().map(|point| units(*point)).collect();
         points.dedup();
-        if points.len() < 2 {
-            return Ok(());
+        let mut rest = &*points;
+        // Each part begins where the one before ends. A picture of lines through very many points
+        // takes a time with the square of those in one part.
+        while rest.len() > 1 {
+            let part = &rest[..rest.len().min(LONGEST_PART)];
+            self.draw(&PathElement::new(part, shape(stroke)))?;
+            rest = &rest[part.len() - 1..];
         }
-        self.draw(&PathElement::new(points, shape(stroke)))
+        Ok(())
     }
 
     /// A filled polygon.
@@ -165,6 +178,7 @@ impl Canvas<'_> {
         // Writing to a String cannot fail.
         let _ = shades.write_str("<path fill-rule=\"evenodd\" d=\"");
         for outline in outlines {
+            let outline = paths::straightened(outline);
             let mut corners: Vec<_> = outline.iter().map(|corner| units(*corner)).collect();
             corners.dedup();
             for (k, (x, y)) in corners.into_iter().enumerate() {

@@ -74,6 +74,18 @@ pub enum FigureError {
         /// Which list.
         what: String,
     },
+    /// Limits of colours that are not two ascending numbers.
+    #[error("the colours go from {} to {}; they need two finite numbers, ascending", .limits[0], .limits[1])]
+    InvalidLimits {
+        /// The limits as given.
+        limits: [f64; 2],
+    },
+    /// A logarithmic scale that would begin at zero or below.
+    #[error("a logarithmic scale needs values above zero, and would begin at {least}")]
+    Logarithm {
+        /// Where it would begin.
+        least: f64,
+    },
     /// A whole of zero, of which nothing is a share.
     #[error("{what}: shares are of a whole that is not zero")]
     NoWhole {
@@ -87,6 +99,28 @@ pub enum FigureError {
         lines: usize,
         /// The most that can be drawn.
         most: usize,
+    },
+    /// A place on an axis of categories that is none of them.
+    #[error("{what}: entry {index} is {value}, the number of none of {count} categories")]
+    NoCategory {
+        /// Which list.
+        what: String,
+        /// Its entry, counted from 0.
+        index: usize,
+        /// The entry as given.
+        value: f64,
+        /// Number of categories.
+        count: usize,
+    },
+    /// A second method's point that the trajectory does not have.
+    #[error("`{name}` has a point {index} of {points}")]
+    NoSuchPoint {
+        /// Name of the second method.
+        name: String,
+        /// The point as given, from 0.
+        index: usize,
+        /// Number of points of the trajectory.
+        points: usize,
     },
     /// A magnification that is not a finite number above zero.
     #[error("the magnification is {factor}; it must be a finite number above zero")]

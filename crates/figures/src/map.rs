@@ -14,8 +14,9 @@ use layout::Layout;
 /// A quantity over one plane or several of them side by side, in colours that are even to the eye
 /// (viridis), with contours at round values and a colour bar.
 ///
-/// Between the points of a grid the field is linear; nothing is drawn beyond them. Points without
-/// a value are left white and marked, and so are the cells at them.
+/// Between the points of a grid the field is a smooth interpolation of them, which leaves their
+/// values as they are and has no value inside a cell beyond those at its corners; nothing is drawn
+/// beyond the grid. Points without a value are left white and marked, and so are the cells at them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapFigure {
     /// Title of the figure.
@@ -26,8 +27,26 @@ pub struct MapFigure {
     pub axes: [Quantity; 2],
     /// What the colours mean.
     pub quantity: Quantity,
+    /// The values, in the SI unit, at which the colours begin and end: what is beyond has the first
+    /// or the last colour. `None`: the least and the largest value.
+    pub limits: Option<[f64; 2]>,
+    /// How the colours go from one end to the other.
+    pub scale: ColorScale,
     /// The planes, one or more, all drawn to the same scale and in the same colours.
     pub panels: Vec<MapPanel>,
+}
+
+/// How colours go with values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColorScale {
+    /// Logarithmic where all values are above zero and half of them would share a tenth of the
+    /// colours; else linear.
+    #[default]
+    Auto,
+    /// Evenly with the values.
+    Linear,
+    /// Evenly with their logarithms; the first value of the colours must be above zero.
+    Log,
 }
 
 /// One plane of a map.
@@ -66,18 +85,13 @@ impl MapFigure {
     /// # Errors
     ///
     /// A [`FigureError`] for a figure without panels or without any value, lists of unequal
-    /// lengths, numbers that are not finite or too large to draw, and a grid that does not ascend.
+    /// lengths, numbers that are not finite or too large to draw, a grid that does not ascend,
+    /// limits that do not, and a logarithmic scale of what is not above zero.
     pub fn svg(&self) -> Result<String, FigureError> {
         for (k, panel) in self.panels.iter().enumerate() {
             panel.samples.check(&format!("panel {k}"))?;
         }
-        let samples = || self.panels.iter().map(|panel| &panel.samples);
-        let colors =
-            Colors::new(&self.quantity, samples().flat_map(Samples::found)).ok_or_else(|| {
-                FigureError::NoPoints {
-                    what: "map".to_string(),
-                }
-            })?;
+        let colors = Colors::new(self)?;
         let layout = Layout::new(&self.axes, &self.panels);
         let words = Words {
             title: &self.title,
@@ -101,26 +115,44 @@ impl MapFigure {
         png::render(&self.svg()?)
     }
 
-    /// The range of the values and how many points have none, as a sentence.
+    /// The range of the values, what the colours do with it, and how many points have none, as
+    /// sentences.
     #[must_use]
     pub fn caption(&self) -> String {
-        let found = || self.panels.iter().flat_map(|panel| panel.samples.found());
         let all: usize = self.panels.iter().map(|panel| panel.samples.len()).sum();
-        let count = found().count();
-        let least = found().fold(f64::INFINITY, f64::min);
-        let most = found().fold(f64::NEG_INFINITY, f64::max);
+        let count = self.found().count();
+        let least = self.found().fold(f64::INFINITY, f64::min);
+        let most = self.found().fold(f64::NEG_INFINITY, f64::max);
         let Quantity { name, .. } = &self.quantity;
+        let told = |value| self.quantity.value(value);
         let mut caption = if count == 0 {
             format!("{name} has no value.")
         } else {
-            let [least, most] = [least, most].map(|value| self.quantity.value(value));
-            format!("{name} from {least} to {most}.")
+            format!("{name} from {} to {}.", told(least), told(most))
         };
+        let logarithmic = Colors::new(self).is_ok_and(|colors| colors.logarithmic);
+        let kind = if logarithmic {
+            "Logarithmic colours"
+        } else {
+            "Colours"
+        };
+        match self.limits {
+            Some([low, high]) => {
+                caption += &format!(" {kind} from {} to {}.", told(low), told(high));
+            }
+            None if logarithmic => caption += &format!(" {kind}."),
+            None => {}
+        }
         if count < all {
             let missing = all - count;
             caption += &format!(" {missing} of {all} poses without a result, marked ×.");
         }
         caption
+    }
+
+    /// All values that there are.
+    fn found(&self) -> impl Iterator<Item = f64> {
+        self.panels.iter().flat_map(|panel| panel.samples.found())
     }
 }
 

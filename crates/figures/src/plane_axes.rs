@@ -3,10 +3,15 @@
 use crate::canvas::{Canvas, text_width};
 use crate::error::FigureError;
 use crate::geometry::{Area, PagePoint};
+use crate::page::fitted;
 use crate::{numbers, round, style};
 
 /// Length of a tick \[pixels\].
 pub(crate) const TICK_LENGTH: f64 = 5.0;
+
+/// Height of a line of labels over that of their letters, and most lines of one label.
+const LINE: f64 = 1.3;
+const MOST_LINES: usize = 4;
 
 /// Free space around letters \[pixels\].
 const GAP: f64 = 5.0;
@@ -82,10 +87,16 @@ impl PlaneAxes {
 
     /// Draws lines at the ticks, under what is drawn next.
     pub(crate) fn draw_grid(&self, canvas: &Canvas<'_>) -> Result<(), FigureError> {
-        let [across, upright] = self.ticks();
+        let [across, _] = self.ticks();
         for x in across.values {
             canvas.line(&self.y.map(|y| self.at([x, y])), style::GRID)?;
         }
+        self.draw_levels(canvas)
+    }
+
+    /// Draws lines at the ticks of the upright axis alone.
+    pub(crate) fn draw_levels(&self, canvas: &Canvas<'_>) -> Result<(), FigureError> {
+        let [_, upright] = self.ticks();
         for y in upright.values {
             canvas.line(&self.x.map(|x| self.at([x, y])), style::GRID)?;
         }
@@ -99,21 +110,8 @@ impl PlaneAxes {
         canvas: &Canvas<'_>,
         names: [Option<&str>; 2],
     ) -> Result<(), FigureError> {
-        let Area {
-            left,
-            top,
-            right,
-            bottom,
-        } = self.area;
-        let [across, upright] = self.ticks();
-        let frame = [
-            [left, top],
-            [right, top],
-            [right, bottom],
-            [left, bottom],
-            [left, top],
-        ];
-        canvas.line(&frame, style::AXIS)?;
+        let [across, _] = self.ticks();
+        self.draw_frame(canvas, names[1])?;
         for x in &across.values {
             let at = self.at([*x, self.y[0]]);
             canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS)?;
@@ -122,29 +120,132 @@ impl PlaneAxes {
                 canvas.text(&across.label(*x), below, style::TICK)?;
             }
         }
+        names[0].map_or(Ok(()), |name| self.draw_name_below(canvas, name, 1))
+    }
+
+    /// As [`draw`](Self::draw), with categories along the lower axis: number k is at x = k.
+    pub(crate) fn draw_categories(
+        &self,
+        canvas: &Canvas<'_>,
+        names: [Option<&str>; 2],
+        categories: &[String],
+    ) -> Result<(), FigureError> {
+        self.draw_frame(canvas, names[1])?;
+        let room = self.category_room(categories.len());
+        for (k, category) in categories.iter().enumerate() {
+            let at = self.at([k as f64, self.y[0]]);
+            canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS)?;
+            if names[0].is_none() {
+                continue;
+            }
+            for (line, text) in wrapped(category, room).iter().enumerate() {
+                let below = TICK_LENGTH + GAP + (0.5 + LINE * line as f64) * style::TICK.size;
+                fitted(canvas, text, [at[0], at[1] + below], room, style::TICK)?;
+            }
+        }
+        let lines = self.category_lines(categories);
+        names[0].map_or(Ok(()), |name| self.draw_name_below(canvas, name, lines))
+    }
+
+    /// Number of lines that the labels of categories take.
+    pub(crate) fn category_lines(&self, categories: &[String]) -> usize {
+        let room = self.category_room(categories.len());
+        let lines = categories.iter().map(|text| wrapped(text, room).len());
+        lines.max().unwrap_or(1)
+    }
+
+    /// Room for the label of one of so many categories \[pixels\].
+    fn category_room(&self, count: usize) -> f64 {
+        (self.area.right - self.area.left) / count.max(1) as f64 - 2.0 * GAP
+    }
+
+    /// Draws the frame and the upright axis.
+    fn draw_frame(&self, canvas: &Canvas<'_>, name: Option<&str>) -> Result<(), FigureError> {
+        let Area {
+            left,
+            top,
+            right,
+            bottom,
+        } = self.area;
+        let [_, upright] = self.ticks();
+        let frame = [
+            [left, top],
+            [right, top],
+            [right, bottom],
+            [left, bottom],
+            [left, top],
+        ];
+        canvas.line(&frame, style::AXIS)?;
         for y in &upright.values {
             let at = self.at([self.x[0], *y]);
             canvas.line(&[at, [at[0] - TICK_LENGTH, at[1]]], style::AXIS)?;
-            if names[1].is_some() {
+            if name.is_some() {
                 let beside = [at[0] - TICK_LENGTH - GAP, at[1]];
                 canvas.text(&upright.label(*y), beside, style::TICK_LEFT)?;
             }
         }
-        if let Some(name) = names[0] {
-            let below = bottom + TICK_LENGTH + 2.0 * GAP + 1.7 * style::TICK.size;
-            canvas.text(name, [0.5 * (left + right), below], style::AXIS_NAME)?;
-        }
-        if let Some(name) = names[1] {
-            let above = [left - TICK_LENGTH, top - 1.1 * style::AXIS_NAME.size];
-            canvas.text(name, above, style::AXIS_NAME_LEFT)?;
-        }
-        Ok(())
+        let Some(name) = name else {
+            return Ok(());
+        };
+        let above = [left - TICK_LENGTH, top - 1.1 * style::AXIS_NAME.size];
+        canvas.text(name, above, style::AXIS_NAME_LEFT)
     }
+
+    /// Writes the name of the lower axis under labels of so many lines.
+    fn draw_name_below(
+        &self,
+        canvas: &Canvas<'_>,
+        name: &str,
+        lines: usize,
+    ) -> Result<(), FigureError> {
+        let Area {
+            left,
+            right,
+            bottom,
+            ..
+        } = self.area;
+        let labels = (0.4 + LINE * lines as f64) * style::TICK.size;
+        let below = bottom + TICK_LENGTH + 2.0 * GAP + labels;
+        canvas.text(name, [0.5 * (left + right), below], style::AXIS_NAME)
+    }
+}
+
+/// A text in lines of so many pixels at most, where its words allow.
+fn wrapped(text: &str, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_inclusive([' ', '(']) {
+        let full = lines.len() == MOST_LINES;
+        let fits = |line: &String| {
+            let both = format!("{line}{word}");
+            text_width(both.trim_end(), style::TICK.size) <= room
+        };
+        match lines.last_mut() {
+            Some(line) if full || fits(line) => line.push_str(word),
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+        .into_iter()
+        .map(|line| line.trim_end().into())
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Ticks;
+    use super::{Ticks, wrapped};
+
+    #[test]
+    fn long_labels_are_wrapped_at_words() {
+        let label = "Tube(outer: 0.018, inner: 0.014)";
+        assert_eq!(wrapped(label, 1000.0), [label]);
+        let lines = wrapped(label, 120.0);
+        assert_eq!(lines, ["Tube(outer:", "0.018, inner:", "0.014)"]);
+        assert_eq!(
+            wrapped("a b c d e f g h", 1.0),
+            ["a", "b", "c", "d e f g h"]
+        );
+        assert!(wrapped("", 10.0).is_empty());
+    }
 
     #[test]
     fn ticks_are_round_and_include_round_ends() {

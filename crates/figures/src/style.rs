@@ -85,6 +85,8 @@ pub(crate) const CONTOUR: Stroke = Stroke::solid(RGBAColor(25, 25, 25, 0.75), 0.
 pub(crate) const CONTOUR_ON_DARK: Stroke = Stroke::solid(RGBAColor(255, 255, 255, 0.8), 0.9);
 /// Poses without a result.
 pub(crate) const MISSING: Stroke = Stroke::solid(GREY, 1.0);
+/// Radius of the dots at the points of a line \[pixels\].
+pub(crate) const DOT: f64 = 3.4;
 /// Lines of a diagram, one after the other.
 pub(crate) const SERIES: [Stroke; 6] = [
     Stroke::solid(BLUE, 2.2),

@@ -31,7 +31,10 @@ pub struct TrajectoryFigure {
 pub struct SecondMethod {
     /// Name of the method, as in `reference solver`.
     pub name: String,
-    /// The displacement at each commanded position \[m, global axes\].
+    /// The commanded positions that it is known at, each by its number from 0; it is drawn at all
+    /// of them ([`TrajectoryFigure::marked`] has as many as can be told apart).
+    pub at: Vec<usize>,
+    /// The displacement at each of these \[m, global axes\].
     pub displacement: Vec<[f64; 3]>,
     /// The largest difference between the methods, relative to the largest displacement.
     pub difference: f64,
@@ -51,8 +54,8 @@ impl TrajectoryFigure {
         let second = match &self.second {
             Some(second) => {
                 checks::difference(&second.name, second.difference)?;
-                Displaced::new(&*second.name, &self.commanded, &second.displacement)?
-                    .moved(factor)?
+                let commanded = second.commanded(&self.commanded)?;
+                Displaced::new(&*second.name, &commanded, &second.displacement)?.moved(factor)?
             }
             None => Vec::new(),
         };
@@ -95,6 +98,17 @@ impl TrajectoryFigure {
         Ok(words.description())
     }
 
+    /// The places, from 0, at which a trajectory of so many positions is marked: few enough to be
+    /// told apart, evenly spaced from the first on, and the last.
+    #[must_use]
+    pub fn marked(count: usize) -> Vec<usize> {
+        let Some(last) = count.checked_sub(1) else {
+            return Vec::new();
+        };
+        let stride = last.div_ceil(MOST_MARKS).max(1);
+        (0..last).step_by(stride).chain([last]).collect()
+    }
+
     fn factor(&self) -> Result<f64, FigureError> {
         let (points, displacements) = (self.commanded.iter(), self.displacement.iter());
         self.scale.factor(points, displacements)
@@ -124,6 +138,22 @@ impl TrajectoryFigure {
     }
 }
 
+impl SecondMethod {
+    /// The positions that it is known at.
+    fn commanded(&self, all: &[Point]) -> Result<Vec<Point>, FigureError> {
+        let position = |&index: &usize| {
+            all.get(index)
+                .copied()
+                .ok_or_else(|| FigureError::NoSuchPoint {
+                    name: self.name.clone(),
+                    index,
+                    points: all.len(),
+                })
+        };
+        self.at.iter().map(position).collect()
+    }
+}
+
 fn subtitle(factor: f64) -> String {
     format!(
         "Commanded and deflected trajectory, deflection × {}",
@@ -141,8 +171,7 @@ fn draw(
     let project =
         |points: &[Point]| -> Vec<_> { points.iter().map(|p| view.project(*p)).collect() };
     let [commanded, deflected, second] = [commanded, deflected, second].map(project);
-    let marked = marked(commanded.len());
-    for &k in &marked {
+    for k in TrajectoryFigure::marked(commanded.len()) {
         canvas.line(&[commanded[k], deflected[k]], style::DEFLECTION)?;
     }
     canvas.line(&commanded, style::UNDEFORMED)?;
@@ -150,17 +179,8 @@ fn draw(
     for path in [&commanded, &deflected] {
         page::start_mark(canvas, path[0])?;
     }
-    marked
-        .into_iter()
-        .filter_map(|k| second.get(k))
-        .try_for_each(|at| page::second_mark(canvas, *at))
-}
-
-/// The points to mark of so many, one or more: evenly spaced from the first on, and the last.
-fn marked(count: usize) -> Vec<usize> {
-    let last = count - 1;
-    let stride = last.div_ceil(MOST_MARKS).max(1);
-    (0..last).step_by(stride).chain([last]).collect()
+    let mut second = second.iter();
+    second.try_for_each(|at| page::second_mark(canvas, *at))
 }
 
 #[cfg(test)]
@@ -169,6 +189,8 @@ mod tests {
 
     #[test]
     fn marks_are_few_and_include_both_ends() {
+        let marked = TrajectoryFigure::marked;
+        assert!(marked(0).is_empty());
         assert_eq!(marked(1), [0]);
         assert_eq!(marked(3), [0, 1, 2]);
         assert_eq!(marked(42)[19..], [38, 40, 41]);

@@ -2,11 +2,13 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, ModalOptions, Model};
 
-use crate::design::{Design, Designs, Varied};
+use crate::commanded::Commanded;
+use crate::design::{Design, Designs, Value, Varied};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
 use crate::figures::{self, Figure, Known};
@@ -41,12 +43,17 @@ pub struct Job {
     pub figures: Vec<Figure>,
     /// Natural frequencies to find at every pose.
     pub modes: Option<ModalOptions>,
+    /// Where each figure stands.
+    figure_places: Vec<Place>,
     recipe: Recipe,
     poses: Arc<Poses>,
     /// Where `vary` is given.
     designs: Option<Designs>,
-    /// Of the first design.
+    /// Names of the cases.
+    cases: Vec<String>,
+    /// The first design that can be, and its number.
     first: Arc<Subject>,
+    first_design: usize,
     place: Place,
 }
 
@@ -87,6 +94,12 @@ impl Batch {
                 .with_help("give at least one, `[(name: \"…\", mechanism: File(\"file.ron\"))]`"));
         }
         Ok(Self { jobs })
+    }
+
+    /// All files that were read for it: its own and those that its jobs name.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let first = self.jobs.first();
+        first.map_or_else(Vec::new, |job| job.place.source.files())
     }
 }
 
@@ -134,21 +147,24 @@ impl Job {
         };
         let poses = written.poses(fields)?;
         let mut first = recipe.load(written, &poses, None)?;
+        let cases = recipe.cases(&first)?;
         let figures = match fields.get("figures") {
             Some(list) => figures::read(
                 list,
                 &Known {
                     poses: poses.len(),
-                    cases: first.model().is_ok().then(|| first.cases()),
+                    cases: &cases,
                 },
             )?,
             None => Vec::new(),
         };
+        let (figures, figure_places) = figures.into_iter().unzip();
         let modes = fields.get("modes").map(modes::read).transpose()?;
+        let mut first_design = 0;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
-                let designs = Designs::check(variation, known.into_inner(), &recipe)?;
-                first = designs.load(0, &recipe, &poses, &first)?;
+                let designs = Designs::new(variation, known.into_inner());
+                (first_design, first) = designs.first(&recipe, &poses, &first)?;
                 Some(designs)
             }
             None => None,
@@ -156,11 +172,14 @@ impl Job {
         Ok(Self {
             name,
             figures,
+            figure_places,
             modes,
             recipe,
             poses: Arc::new(poses),
             designs,
+            cases,
             first: Arc::new(first),
+            first_design,
             place,
         })
     }
@@ -183,31 +202,59 @@ impl Job {
     }
 
     /// Names of its cases, in their order; the same in every design.
-    pub fn cases(&self) -> Vec<String> {
-        self.first.cases()
+    pub fn cases(&self) -> &[String] {
+        &self.cases
+    }
+
+    /// Names `joint.direction` of the drives whose values its poses are, in the order of their table;
+    /// none where its poses are those of the output.
+    pub fn drives(&self) -> &[String] {
+        self.poses.drives()
+    }
+
+    /// Values \[m, rad\] of these drives in a pose (from 0).
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn drive_values(&self, pose: usize) -> &[f64] {
+        self.poses.drive_values(pose)
+    }
+
+    /// Number of the first design that can be, of which figures are drawn: 0 unless its values make no
+    /// mechanism. Some design always can be.
+    pub fn first_design(&self) -> usize {
+        self.first_design
+    }
+
+    /// The varied values of a design, which need not be one that can be; none where nothing varies.
+    ///
+    /// # Panics
+    /// If `number` is not below [`Job::designs`].
+    pub fn values(&self, number: usize) -> Vec<Value> {
+        assert!(number < self.designs(), "there is no design {number}");
+        let designs = self.designs.as_ref();
+        designs.map_or_else(Vec::new, |designs| designs.values(number))
     }
 
     /// One of the designs, from 0.
     ///
     /// # Errors
-    /// The mistake in a mechanism that the varied values make, at the value that is to blame: only
-    /// in a job of so many designs that they were not all checked when it was read.
+    /// The mistake in a mechanism that the varied values make, at the value that is to blame.
     ///
     /// # Panics
     /// If `number` is not below [`Job::designs`].
     pub fn design(&self, number: usize) -> Result<Design, LoadError> {
         assert!(number < self.designs(), "there is no design {number}");
-        let (values, subject) = match &self.designs {
-            None => (Vec::new(), Arc::clone(&self.first)),
-            Some(designs) if number == 0 => (designs.values(0), Arc::clone(&self.first)),
-            Some(designs) => {
+        let subject = match &self.designs {
+            Some(designs) if number != self.first_design => {
                 let subject = designs.load(number, &self.recipe, &self.poses, &self.first)?;
-                (designs.values(number), Arc::new(subject))
+                Arc::new(subject)
             }
+            _ => Arc::clone(&self.first),
         };
         Ok(Design {
             number,
-            values,
+            values: self.values(number),
             subject,
             poses: Arc::clone(&self.poses),
         })
@@ -232,7 +279,21 @@ impl Job {
         self.place.location()
     }
 
-    /// [`Design::model`] of the first design.
+    /// Place of a figure in the batch file, by its number from 0; the job's where there is none.
+    /// That of a map is the place of its quantity.
+    pub fn figure_location(&self, number: usize) -> Location {
+        let place = self.figure_places.get(number);
+        place.unwrap_or(&self.place).location()
+    }
+
+    /// The coordinates that its poses give, each with a value for every pose, in any order: of the
+    /// output's pose, in the order x y z rx ry rz, or of drives. What is not among them follows
+    /// from the mechanism. None where the job has no poses.
+    pub fn commanded(&self) -> Vec<Commanded> {
+        self.poses.commanded(&self.first)
+    }
+
+    /// [`Design::model`] of the first design that can be.
     ///
     /// # Errors
     /// As there.
@@ -240,7 +301,7 @@ impl Job {
         self.first.model()
     }
 
-    /// [`Design::place`] of the first design.
+    /// [`Design::place`] of the first design that can be.
     ///
     /// # Errors
     /// As there.
@@ -248,12 +309,17 @@ impl Job {
         self.first.place(&self.poses, pose, geometry)
     }
 
-    /// [`Design::target`] of any design.
-    pub fn target(&self, pose: usize) -> [f64; 6] {
-        self.poses.get(pose)
+    /// What is known of a pose (from 0) of any design before it is reached, x y z \[m\] and rotation
+    /// vector \[rad\]: the numbers given, and what is zero in every pose of the mechanism; `None` of the
+    /// rest.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn target(&self, pose: usize) -> [Option<f64>; 6] {
+        self.first.target(&self.poses, pose)
     }
 
-    /// [`Design::mechanism`] of the first design.
+    /// [`Design::mechanism`] of the first design that can be.
     pub fn mechanism(&self) -> Option<&Mechanism> {
         self.first.mechanism()
     }

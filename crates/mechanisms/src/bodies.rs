@@ -106,6 +106,7 @@ pub(crate) fn read(
         other => {
             return Err(kind
                 .error(format!("unknown kind of body `{other}`"))
+                .unreadable()
                 .with_help(names::help(other, "kinds of body", KINDS)));
         }
     };
@@ -117,7 +118,7 @@ pub(crate) fn read(
 
 /// Reads a change of temperature.
 fn temperature(given: Fragment<'_>, body: BodyId, model: &mut Model) -> Result<(), LoadError> {
-    let change = given.number()?;
+    let change = given.acting()?;
     model.set_temperature(body, change).map_err(|error| {
         let refused = given.error(error.to_string());
         match error {

@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::error::LoadError;
-use crate::names;
 use crate::poses::Given;
 use crate::source::{Place, Source};
+use crate::{names, slips};
 
 /// Names of the columns: a table has the first three or all six.
 pub(crate) const COLUMNS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
@@ -24,20 +24,12 @@ pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6
             .with_help("its first line names the columns: x,y,z or x,y,z,rx,ry,rz"));
     };
     let columns = columns(table, header.clone(), &place)?;
+    table.understood();
     let mut poses = Vec::new();
     for line in lines {
         let cells: Vec<_> = cells(table.text(), &line).collect();
         if cells.len() != columns.len() {
-            return Err(place(line)
-                .error(format!(
-                    "expected {} numbers, one a column, found {}",
-                    columns.len(),
-                    cells.len()
-                ))
-                .with_help(format!(
-                    "give a number for each of the columns {}, with a comma between two of them",
-                    &table.text()[header.clone()]
-                )));
+            return Err(wrong_count(table, &header, columns.len(), line, &cells));
         }
         let mut pose = [0.0; 6];
         for (cell, &column) in cells.into_iter().zip(&columns) {
@@ -72,6 +64,7 @@ pub(crate) fn named<C: PartialEq>(
             .error("the table is empty")
             .with_help("its first line names the columns"));
     };
+    separated(table, &header)?;
     let mut columns = Vec::new();
     for cell in cells(text, &header) {
         let name = unquoted(&text[cell.clone()]);
@@ -84,21 +77,14 @@ pub(crate) fn named<C: PartialEq>(
         }
         columns.push(meant);
     }
+    table.understood();
     let mut rows = Vec::new();
     for line in lines {
-        let row: Vec<f64> = cells(text, &line)
-            .map(|cell| number(&place(cell)))
-            .collect::<Result<_, _>>()?;
+        let cells: Vec<_> = cells(text, &line).collect();
+        let numbers = cells.iter().map(|cell| number(&place(cell.clone())));
+        let row: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         if row.len() != columns.len() {
-            let (wanted, found) = (columns.len(), row.len());
-            return Err(place(line)
-                .error(format!(
-                    "expected {wanted} numbers, one a column, found {found}"
-                ))
-                .with_help(format!(
-                    "give a number for each of the columns {}",
-                    &text[header.clone()]
-                )));
+            return Err(wrong_count(table, &header, columns.len(), line, &cells));
         }
         rows.push(row);
     }
@@ -121,8 +107,74 @@ pub(crate) fn numbers(table: &Arc<Source>) -> Result<Vec<Vec<(f64, Place)>>, Loa
         Ok((number(&place)?, place))
     };
     lines(table.text())
-        .map(|line| cells(table.text(), &line).map(cell).collect())
+        .map(|line| {
+            let row: Result<Vec<_>, _> = cells(table.text(), &line).map(cell).collect();
+            // A line of numbers alone is of a table of numbers.
+            if row.is_ok() {
+                table.understood();
+            }
+            row
+        })
         .collect()
+}
+
+/// The error of a line of another number of cells than the `wanted` columns.
+fn wrong_count(
+    table: &Arc<Source>,
+    header: &Range<usize>,
+    wanted: usize,
+    line: Range<usize>,
+    cells: &[Range<usize>],
+) -> LoadError {
+    let text = table.text();
+    if let Err(error) = separated(table, &line) {
+        return error;
+    }
+    let place = Place {
+        source: Arc::clone(table),
+        span: line,
+    };
+    let values: Vec<&str> = cells.iter().map(|cell| &text[cell.clone()]).collect();
+    let found = values.len();
+    let message = format!("expected {wanted} numbers, one a column, found {found}");
+    let columns = shortened(&text[header.clone()]);
+    place
+        .error(message)
+        .with_help(match slips::decimal_commas(&values, wanted) {
+            Some(_) => format!("{NUMBER}: a comma separates two cells"),
+            None => format!(
+                "give a number for each of the columns {columns}, with a comma between two of them"
+            ),
+        })
+}
+
+/// Refuses a line of cells that something else than commas separates.
+fn separated(table: &Arc<Source>, line: &Range<usize>) -> Result<(), LoadError> {
+    let text = &table.text()[line.clone()];
+    let Some(at) = text.find([';', '\t']).filter(|_| !text.contains(',')) else {
+        return Ok(());
+    };
+    let what = if text[at..].starts_with(';') {
+        "`;`"
+    } else {
+        "a tab"
+    };
+    let place = Place {
+        source: Arc::clone(table),
+        span: line.start + at..line.start + at + 1,
+    };
+    Err(place
+        .error(format!("{what} separates the cells of this table"))
+        .with_help("separate cells by commas, and write decimals with a point"))
+}
+
+/// The start of a text that a message shows.
+pub(crate) fn shortened(text: &str) -> String {
+    const SHOWN: usize = 60;
+    match text.char_indices().nth(SHOWN) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.into(),
+    }
 }
 
 /// What would be right instead of what is no number.
@@ -131,29 +183,34 @@ const NUMBER: &str = "give a number such as 0.25 or 2.1e11 in every cell, with a
 /// The finite number in a cell.
 fn number(place: &Place) -> Result<f64, LoadError> {
     let text = unquoted(&place.source.text()[place.span.clone()]);
+    let shown = || shortened(text);
     match text.parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         Ok(_) => Err(place
-            .error(format!("`{text}` is not a finite number"))
+            .error(format!("`{}` is not a finite number", shown()))
             .with_help(NUMBER)),
-        Err(_) => Err(place
-            .error(format!("expected a number, found `{text}`"))
-            .with_help(NUMBER)),
+        Err(_) => {
+            separated(&place.source, &place.span)?;
+            Err(place
+                .error(format!("expected a number, found `{}`", shown()))
+                .with_help(NUMBER))
+        }
     }
 }
 
 /// The place in a pose of every column of the header.
 fn columns(
-    table: &Source,
+    table: &Arc<Source>,
     header: Range<usize>,
     place: &impl Fn(Range<usize>) -> Place,
 ) -> Result<Vec<usize>, LoadError> {
+    separated(table, &header)?;
     let mut columns = Vec::new();
     for cell in cells(table.text(), &header) {
         let name = unquoted(&table.text()[cell.clone()]);
         let Some(column) = COLUMNS.iter().position(|known| *known == name) else {
             return Err(place(cell)
-                .error(format!("unknown column `{name}`"))
+                .error(format!("unknown column `{}`", shortened(name)))
                 .with_help(names::help(name, "columns", COLUMNS)));
         };
         if columns.contains(&column) {

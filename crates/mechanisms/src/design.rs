@@ -105,15 +105,6 @@ impl Design {
         self.subject.place(&self.poses, pose, geometry)
     }
 
-    /// The numbers given for a pose (from 0), x y z \[m\] and rotation vector \[rad\]; zero where
-    /// none is given.
-    ///
-    /// # Panics
-    /// If `pose` is not below [`Design::len`].
-    pub fn target(&self, pose: usize) -> [f64; 6] {
-        self.poses.get(pose)
-    }
-
     /// The mechanism, where it comes from a file; its loads are the job's.
     pub fn mechanism(&self) -> Option<&Mechanism> {
         self.subject.mechanism()
@@ -129,27 +120,44 @@ pub(crate) struct Designs {
     known: Known,
 }
 
-/// Designs that are checked before a job runs: all, if they are no more, else so many values of
-/// every path, each with the first values of the others.
-const CHECKED: usize = 10_000;
+/// Designs that are tried before a job runs: all, if they are no more, else the first and so many
+/// values of every path, each with the first values of the others.
+const TRIED: usize = 10_000;
 
 impl Designs {
-    /// Checks the designs; `known` is what was learnt from reading the mechanism as it is written.
-    pub(crate) fn check(
-        variation: Variation,
-        known: Known,
-        recipe: &Recipe,
-    ) -> Result<Self, LoadError> {
-        let varied = variation.varied();
-        let designs = Self {
+    /// `known` is what was learnt from reading the mechanism as it is written.
+    pub(crate) fn new(variation: Variation, known: Known) -> Self {
+        Self {
+            varied: variation.varied(),
             variation,
-            varied,
             known,
-        };
-        for number in designs.variation.samples(CHECKED) {
-            designs.read(number, recipe)?;
         }
-        Ok(designs)
+    }
+
+    /// The first design that can be, and its number; `written` is the mechanism as it is written.
+    ///
+    /// # Errors
+    /// What cannot be read in any of the designs that are tried; the error of design 0, where none of
+    /// them can be.
+    pub(crate) fn first(
+        &self,
+        recipe: &Recipe,
+        poses: &Poses,
+        written: &Subject,
+    ) -> Result<(usize, Subject), LoadError> {
+        let samples = self.variation.samples(TRIED);
+        for number in &samples {
+            match self.read(*number, recipe) {
+                Err(error) if error.is_unreadable() => return Err(error),
+                _ => {}
+            }
+        }
+        let load = |number| {
+            let subject = self.load(number, recipe, poses, written)?;
+            Ok((number, subject))
+        };
+        let mut others = (1..self.len().min(TRIED)).chain(samples);
+        load(0).or_else(|error| others.find_map(|number| load(number).ok()).ok_or(error))
     }
 
     /// Number of designs.
@@ -214,6 +222,7 @@ impl Designs {
             location,
             message,
             help,
+            unreadable,
         } = error
         else {
             return error;
@@ -224,6 +233,7 @@ impl Designs {
                 location,
                 message,
                 help,
+                unreadable,
             };
         }
         let values = self.variation.design(number);
@@ -245,6 +255,7 @@ impl Designs {
             ),
             location: Box::new(place.location()),
             help,
+            unreadable,
         }
     }
 }

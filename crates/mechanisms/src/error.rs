@@ -48,6 +48,9 @@ pub enum LoadError {
         message: String,
         /// What would be right, where that can be said.
         help: Option<String>,
+        /// Whether it is no value of its kind at all, whatever stands elsewhere: an unknown name, a
+        /// text in place of a number, a field that is missing.
+        unreadable: bool,
     },
 }
 
@@ -74,6 +77,23 @@ impl LoadError {
             Self::Read { .. } => None,
             Self::At { help, .. } => help.as_deref(),
         }
+    }
+
+    /// Whether what stands there is no value of its kind at all, whatever stands elsewhere.
+    pub(crate) fn is_unreadable(&self) -> bool {
+        match self {
+            Self::Read { .. } => true,
+            Self::At { unreadable, .. } => *unreadable,
+        }
+    }
+
+    /// The same error, of what is no value of its kind at all.
+    #[must_use]
+    pub(crate) fn unreadable(mut self) -> Self {
+        if let Self::At { unreadable, .. } = &mut self {
+            *unreadable = true;
+        }
+        self
     }
 
     /// The same error with this help; nothing changes for a file that cannot be read.

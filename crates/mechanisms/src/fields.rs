@@ -35,6 +35,7 @@ impl<'a> Fields<'a> {
             if !known.contains(&name.text()) {
                 return Err(name
                     .error(format!("unknown field `{}` of {owner}", name.text()))
+                    .unreadable()
                     .with_help(names::help(name.text(), "fields", known.iter().copied())));
             }
             if let Some(first) = names.iter().find(|other| other.text() == name.text()) {
@@ -81,6 +82,7 @@ impl<'a> Fields<'a> {
         self.get(name).ok_or_else(|| {
             self.whole
                 .error(format!("{} has no `{name}`", self.owner))
+                .unreadable()
                 .with_help(format!("add the field `{name}: …`"))
         })
     }

@@ -3,7 +3,8 @@
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::{modes, names};
+use crate::source::Place;
+use crate::{csv, modes, names};
 
 /// A figure that a job asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,9 +45,29 @@ pub enum Figure {
     Map {
         /// Name of the quantity: a column of the job's table, or what is found from columns.
         value: String,
-        /// The coordinate that the plane is normal to, of `x y z rx ry rz`, and its value.
-        plane: Option<(&'static str, f64)>,
+        /// Coordinates that are held, each with its value: of `x y z rx ry rz`, or drives such as
+        /// `A1.v`.
+        planes: Vec<(String, f64)>,
+        /// The coordinates to the right and up; `None`: two of those that the poses give.
+        axes: Option<[String; 2]>,
+        /// The values, in the SI unit, at which the colours begin and end, ascending; `None`: the
+        /// least and the largest.
+        limits: Option<[f64; 2]>,
+        /// How the colours go from one to the other.
+        scale: ColorScale,
     },
+}
+
+/// How the colours of a map go with its values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColorScale {
+    /// Chosen so that most values can be told apart.
+    #[default]
+    Auto,
+    /// Evenly with the values.
+    Linear,
+    /// Evenly with their logarithms.
+    Log,
 }
 
 /// A direction that the output gives along.
@@ -102,11 +123,11 @@ pub enum Scale {
 }
 
 /// What a job has that its figures may name.
-pub(crate) struct Known {
+pub(crate) struct Known<'a> {
     /// Number of poses.
     pub(crate) poses: usize,
-    /// Names of the cases; `None` where they are not known.
-    pub(crate) cases: Option<Vec<String>>,
+    /// Names of the cases.
+    pub(crate) cases: &'a [String],
 }
 
 /// Kinds of figures with their fields.
@@ -115,16 +136,19 @@ const KINDS: [(&str, &[&str]); 5] = [
     ("Deformed", &["pose", "case", "scale"]),
     ("Mode", &["number", "pose", "scale"]),
     ("Budget", &["along", "pose", "case"]),
-    ("Map", &["value", "plane"]),
+    ("Map", &["value", "plane", "axes", "limits", "scale"]),
 ];
 
-/// Reads the figures of a job.
-pub(crate) fn read(list: Fragment<'_>, known: &Known) -> Result<Vec<Figure>, LoadError> {
+/// Reads the figures of a job, each with its place: that of the quantity, of a map.
+pub(crate) fn read(
+    list: Fragment<'_>,
+    known: &Known<'_>,
+) -> Result<Vec<(Figure, Place)>, LoadError> {
     let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
     list.into_iter().map(|item| figure(item, known)).collect()
 }
 
-fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
+fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), LoadError> {
     let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
     let found = KINDS.into_iter().find(|(kind, _)| *kind == word.text());
     let (kind, names) = found.ok_or_else(|| {
@@ -143,11 +167,21 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
     };
     let case = || fields.get("case").map(|at| case(at, known)).transpose();
     let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
-    Ok(match kind {
-        "Map" => Figure::Map {
-            value: fields.required("value")?.string()?,
-            plane: fields.get("plane").map(plane).transpose()?,
-        },
+    let place = fields.get("value").unwrap_or(whole).place();
+    let figure = match kind {
+        "Map" => {
+            let scale = fields
+                .get("scale")
+                .map_or(Ok(ColorScale::Auto), color_scale)?;
+            let limits = |at| limits(at, scale);
+            Figure::Map {
+                value: fields.required("value")?.string()?,
+                planes: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
+                axes: fields.get("axes").map(axes).transpose()?,
+                limits: fields.get("limits").map(limits).transpose()?,
+                scale,
+            }
+        }
         "Deformed" => Figure::Deformed {
             pose: pose()?,
             case: case()?,
@@ -169,21 +203,20 @@ fn figure(whole: Fragment<'_>, known: &Known) -> Result<Figure, LoadError> {
                 .with_help("use `Deformed` to see a single pose"));
         }
         _ => Figure::Trajectory { scale: scale()? },
-    })
+    };
+    Ok((figure, place))
 }
 
 /// Reads the name of a case.
-fn case(fragment: Fragment<'_>, known: &Known) -> Result<String, LoadError> {
+fn case(fragment: Fragment<'_>, known: &Known<'_>) -> Result<String, LoadError> {
     let name = fragment.string()?;
-    match &known.cases {
-        Some(cases) if !cases.contains(&name) => {
-            let cases = cases.iter().map(String::as_str);
-            Err(fragment
-                .error(format!("there is no case `{name}`"))
-                .with_help(names::help(&name, "cases", cases)))
-        }
-        _ => Ok(name),
+    if known.cases.contains(&name) {
+        return Ok(name);
     }
+    let cases = known.cases.iter().map(String::as_str);
+    Err(fragment
+        .error(format!("there is no case `{name}`"))
+        .with_help(names::help(&name, "cases", cases)))
 }
 
 /// Reads the number of a mode.
@@ -218,20 +251,83 @@ fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
     })
 }
 
-/// Reads a plane such as `z(0.5)`.
-fn plane(fragment: Fragment<'_>) -> Result<(&'static str, f64), LoadError> {
-    const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
-    let expected = "a plane, such as `z(0.5)`";
-    let (kind, Some(arguments)) = fragment.variant(expected)? else {
-        return Err(fragment.expected(expected));
+/// Reads a plane such as `z(0.5)`, or a list of them.
+fn planes(fragment: Fragment<'_>) -> Result<Vec<(String, f64)>, LoadError> {
+    match fragment.text().starts_with('[') {
+        true => (fragment.list(PLANE)?.into_iter()).map(plane).collect(),
+        false => plane(fragment).map(|plane| vec![plane]),
+    }
+}
+
+const PLANE: &str = "a plane, such as `z(0.5)`, or of a drive `(\"A1.v\", 0.5)`";
+
+/// Reads `z(0.5)` or `("A1.v", 0.5)`.
+fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
+    if fragment.text().starts_with('(') {
+        let [drive, value] = fragment.array(PLANE)?;
+        return Ok((drive.string()?, value.number()?));
+    }
+    let (kind, Some(arguments)) = fragment.variant(PLANE)? else {
+        return Err(fragment.expected(PLANE));
     };
-    let known = COORDINATES.into_iter().find(|name| *name == kind.text());
-    let coordinate = known.ok_or_else(|| {
-        kind.error(format!("`{}` is no coordinate of a pose", kind.text()))
-            .with_help(names::help(kind.text(), "coordinates", COORDINATES))
-    })?;
-    let [value] = arguments.array(expected)?;
+    let coordinate = coordinate(kind)?;
+    let [value] = arguments.array(PLANE)?;
     Ok((coordinate, value.number()?))
+}
+
+/// Reads `(rx, ry)`, or of drives `("A1.v", "A2.v")`.
+fn axes(fragment: Fragment<'_>) -> Result<[String; 2], LoadError> {
+    let expected = "two coordinates, such as `(x, z)`, or drives, `(\"A1.v\", \"A2.v\")`";
+    let read = |axis: Fragment<'_>| match axis.text().starts_with('"') {
+        true => axis.string(),
+        false => coordinate(axis),
+    };
+    let [right, up] = fragment.array(expected)?;
+    let axes = [read(right)?, read(up)?];
+    if axes[0] == axes[1] {
+        return Err(fragment
+            .error(format!("`{}` is along both axes", axes[0]))
+            .with_help("give two coordinates, such as `(x, z)`"));
+    }
+    Ok(axes)
+}
+
+/// A coordinate of a pose by its name.
+fn coordinate(word: Fragment<'_>) -> Result<String, LoadError> {
+    let name = word.text();
+    if csv::COLUMNS.contains(&name) {
+        return Ok(name.into());
+    }
+    Err(word
+        .error(format!("`{name}` is no coordinate of a pose"))
+        .with_help(names::help(name, "coordinates", csv::COLUMNS)))
+}
+
+/// Reads the values at which colours begin and end.
+fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadError> {
+    let [low, high] = fragment.array("two values, such as `(1e-5, 1e-3)`")?;
+    let limits = [low.number()?, high.number()?];
+    if limits[0] >= limits[1] {
+        return Err(fragment
+            .error("the colours must begin below where they end")
+            .with_help("give the lower value first, such as `(1e-5, 1e-3)`"));
+    }
+    if scale == ColorScale::Log && limits[0] <= 0.0 {
+        return Err(low
+            .error("a logarithmic scale begins above zero")
+            .with_help("give a lower value above zero, or `scale: Linear`"));
+    }
+    Ok(limits)
+}
+
+/// Reads how colours go with values.
+fn color_scale(fragment: Fragment<'_>) -> Result<ColorScale, LoadError> {
+    match fragment.text() {
+        "Auto" => Ok(ColorScale::Auto),
+        "Linear" => Ok(ColorScale::Linear),
+        "Log" => Ok(ColorScale::Log),
+        _ => Err(fragment.expected("a scale of colours, `Auto`, `Linear` or `Log`")),
+    }
 }
 
 fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {

@@ -17,7 +17,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use crate::error::LoadError;
 use crate::overlay::{Form, Overlay};
 use crate::source::{Place, Source};
-use crate::syntax;
+use crate::{slips, syntax};
 
 /// The text of one RON value, without the white space and comments around it.
 #[derive(Debug, Clone, Copy)]
@@ -125,7 +125,15 @@ impl<'a> Fragment<'a> {
         if found.len() < self.text.len() {
             found.push('…');
         }
-        self.error(format!("expected {expected}, found `{found}`"))
+        let error = self
+            .error(format!("expected {expected}, found `{found}`"))
+            .unreadable();
+        // What is right instead shows what is wrong.
+        let right = slips::in_value(self.text, expected).filter(|_| self.source.is_shown());
+        match right {
+            Some(help) => error.with_help(help),
+            None => error,
+        }
     }
 
     /// Any type that serde can read; `expected` says in words what it is.
@@ -144,12 +152,30 @@ impl<'a> Fragment<'a> {
         if !number.is_finite() {
             return Err(self
                 .error(format!("`{}` is not a finite number", self.text))
+                .unreadable()
                 .with_help("give a number such as 0.25 or 2.1e11"));
         }
         if let Some(overlay) = self.overlay {
             overlay.learn_number(self, number);
         }
         Ok(number)
+    }
+
+    /// A number of what acts on a mechanism, no larger than [`MOST`].
+    pub(crate) fn acting(self) -> Result<f64, LoadError> {
+        let number = self.number()?;
+        if number.abs() > MOST {
+            return Err(self
+                .error(format!("nothing that acts is larger than {MOST:?}"))
+                .with_help("units are m, N, rad, kg, s and K"));
+        }
+        Ok(number)
+    }
+
+    /// Three of them.
+    pub(crate) fn acting_vector(self) -> Result<Vector3<f64>, LoadError> {
+        let [x, y, z] = self.array("three numbers `(x, y, z)`")?;
+        Ok(Vector3::new(x.acting()?, y.acting()?, z.acting()?))
     }
 
     pub(crate) fn string(self) -> Result<String, LoadError> {
@@ -196,7 +222,28 @@ impl<'a> Fragment<'a> {
     /// A tuple of `N` values.
     pub(crate) fn array<const N: usize>(self, expected: &str) -> Result<[Self; N], LoadError> {
         let items = self.tuple(expected)?;
+        self.no_decimal_commas(&items, N, expected)?;
         items.try_into().map_err(|_| self.expected(expected))
+    }
+
+    /// Refuses the items of this tuple where they would be so many `wanted` ones with decimal commas,
+    /// and are more.
+    pub(crate) fn no_decimal_commas(
+        self,
+        items: &[Self],
+        wanted: usize,
+        expected: &str,
+    ) -> Result<(), LoadError> {
+        // What stands in for a part of the text stands elsewhere.
+        let own = |item: &Self| Arc::ptr_eq(item.source, self.source);
+        if items.len() == wanted || !items.iter().all(own) {
+            return Ok(());
+        }
+        let texts: Vec<&str> = items.iter().map(|item| item.text).collect();
+        match slips::decimal_commas(&texts, wanted) {
+            Some(help) => Err(self.expected(expected).with_help(help)),
+            None => Ok(()),
+        }
     }
 
     /// A list `[…, …]`.
@@ -281,6 +328,10 @@ impl<'a> Fragment<'a> {
         ))
     }
 }
+
+/// Largest number of what acts, in SI units: the squares of larger ones, and their products with
+/// stiffnesses and lever arms, overflow.
+const MOST: f64 = 1e50;
 
 /// What a key of a map is.
 const NAME: &str = "a name in quotes";

@@ -125,7 +125,7 @@ fn set(
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
-            values[dof.index()] = value.number()?;
+            values[dof.index()] = value.acting()?;
         }
     }
     set(&values).map_err(|error| {
@@ -164,7 +164,7 @@ fn side(
     if body.string()? == GROUND {
         return Ok(None);
     }
-    let body = nodes::body(model, body)?;
+    let body = nodes::body_or_ground(model, body)?;
     nodes::node(model, body, point, point_name).map(Some)
 }
 

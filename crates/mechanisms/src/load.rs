@@ -1,6 +1,6 @@
 //! The way in: a path or a text becomes a mechanism or a batch.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::batch::Batch;
@@ -75,6 +75,16 @@ pub fn batch_from_str(text: &str, path: &Path, registry: &Registry) -> Result<Ba
     read_batch(&Source::new(path, text), registry)
 }
 
+impl Input {
+    /// All files that were read for it: the one that was asked for and those that it names.
+    pub fn files(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Mechanism(mechanism) => mechanism.files(),
+            Self::Batch(batch) => batch.files(),
+        }
+    }
+}
+
 /// Where the mechanism stands in the file whose path stands at `path` in another file.
 pub(crate) fn mechanism_at(path: Fragment<'_>) -> Result<Place, LoadError> {
     let source = read_named(path)?;
@@ -84,12 +94,14 @@ pub(crate) fn mechanism_at(path: Fragment<'_>) -> Result<Place, LoadError> {
 /// Reads the file whose path stands at `path` in another file, relative to that file.
 pub(crate) fn read_named(path: Fragment<'_>) -> Result<Arc<Source>, LoadError> {
     let file = path.source().relative(&path.string()?);
-    Source::read(&file).map_err(|error| match error {
-        LoadError::Read { path: file, source } => path
-            .error(format!("cannot read {}: {source}", file.display()))
-            .with_help("a path is relative to the folder of the file that names it"),
-        other => other,
-    })
+    path.source()
+        .read_named(&file)
+        .map_err(|error| match error {
+            LoadError::Read { path: file, source } => path
+                .error(format!("cannot read {}: {source}", file.display()))
+                .with_help("a path is relative to the folder of the file that names it"),
+            other => other,
+        })
 }
 
 fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
@@ -120,6 +132,9 @@ fn mechanism_in(source: &Arc<Source>) -> Result<Fragment<'_>, LoadError> {
             .error("expected a mechanism, found a batch of jobs")
             .with_help("name one of the mechanism files that the batch uses"));
     }
+    if has_field(value, "bodies") {
+        source.understood();
+    }
     Ok(value)
 }
 
@@ -134,6 +149,10 @@ fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadEr
 }
 
 fn is_batch(value: Fragment<'_>) -> bool {
+    has_field(value, "jobs")
+}
+
+fn has_field(value: Fragment<'_>, field: &str) -> bool {
     let fields = value.named("").unwrap_or_default();
-    fields.iter().any(|(name, _)| name.text() == "jobs")
+    fields.iter().any(|(name, _)| name.text() == field)
 }

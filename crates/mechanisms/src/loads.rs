@@ -5,11 +5,12 @@ use hyperstat_assembly::{
     Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId,
 };
 use hyperstat_elements::RigidMass;
-use nalgebra::{Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
+use crate::home::{Home, NO_HOME};
 use crate::source::Place;
 use crate::{joints, nodes};
 
@@ -27,6 +28,15 @@ impl Acting {
         Self(FIELDS.map(|name| fields.get(name).map(Fragment::place)))
     }
 
+    /// Names of the cases that are given; none where they are not.
+    pub(crate) fn cases(&self) -> Result<Option<Vec<String>>, LoadError> {
+        let Some(cases) = &self.0[1] else {
+            return Ok(None);
+        };
+        let entries = Fragment::at(cases).map()?;
+        Ok(Some(entries.into_iter().map(|entry| entry.name).collect()))
+    }
+
     /// Whether masses are given.
     pub(crate) fn has_masses(&self) -> bool {
         self.0[3].is_some()
@@ -40,15 +50,6 @@ impl Acting {
     ) -> Result<Option<Vec<Place>>, LoadError> {
         read(|k| self.0[k].as_ref().map(Fragment::at), model, home)
     }
-}
-
-/// How a model lies: axes of loads that turn with a body are global in the home orientation.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Home {
-    /// In its home orientation.
-    Here,
-    /// Its output's body is turned by this from there; of other bodies nothing is known.
-    Output(Rotation3<f64>),
 }
 
 /// Reads what is given of [`FIELDS`], by number, each in place of what the model has. Returns
@@ -68,7 +69,7 @@ pub(crate) fn read<'a>(
     if let Some(list) = field(3) {
         model.clear_masses();
         for mass in list.list("a list of masses, `[(on: …, mass: …)]`")? {
-            read_mass(mass, model)?;
+            read_mass(mass, model, home)?;
         }
     }
     if let Some(misfits) = field(4) {
@@ -78,7 +79,7 @@ pub(crate) fn read<'a>(
         joints::replace(preloads, "the preload", model, Model::set_preload)?;
     }
     if let Some(gravity) = field(2) {
-        let set = model.set_gravity(gravity.vector()?);
+        let set = model.set_gravity(gravity.acting_vector()?);
         set.map_err(|error| refused(gravity, error))?;
     }
     if let Some(cases) = field(1) {
@@ -110,10 +111,10 @@ fn check_case_name(name: &str, key: Fragment<'_>) -> Result<(), LoadError> {
     Ok(())
 }
 
-fn read_mass(fragment: Fragment<'_>, model: &mut Model) -> Result<(), LoadError> {
+fn read_mass(fragment: Fragment<'_>, model: &mut Model, home: &Home) -> Result<(), LoadError> {
     let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"])?;
     let node = nodes::on(model, fields.required("on")?, "a mass")?;
-    let mass = fields.number("mass")?;
+    let mass = fields.required("mass")?.acting()?;
     let made = match fields.get("inertia") {
         None => RigidMass::point(mass),
         Some(given) => {
@@ -122,7 +123,7 @@ fn read_mass(fragment: Fragment<'_>, model: &mut Model) -> Result<(), LoadError>
             let numbers: Result<Vec<f64>, _> = given
                 .tuple(expected)?
                 .into_iter()
-                .map(Fragment::number)
+                .map(Fragment::acting)
                 .collect();
             let numbers = numbers?;
             if let Ok(moments) = <[f64; 3]>::try_from(&*numbers) {
@@ -135,6 +136,20 @@ fn read_mass(fragment: Fragment<'_>, model: &mut Model) -> Result<(), LoadError>
         }
     };
     let made = made.map_err(|error| fields.element_error(&error))?;
+    let body = model.nodes()[node.0].body;
+    let made = match home.turn(model, body) {
+        Some(turn) => made.turned(&turn),
+        // The same in every orientation.
+        None if *made.inertia() == Matrix3::from_diagonal_element(made.inertia()[0]) => made,
+        None => {
+            let name = &model.bodies()[body.0].name;
+            return Err(fields
+                .error("inertia", format!("body `{name}` has no home orientation"))
+                .with_help(format!(
+                    "{NO_HOME}; an inertia that is the same about all axes, `(J, J, J)`, needs none"
+                )));
+        }
+    };
     model.add_mass(node, made);
     Ok(())
 }
@@ -186,7 +201,7 @@ fn wrench(fields: &Fields<'_>, force: &str, moment: &str) -> Result<Vector6<f64>
     let part = |name: &str| {
         fields
             .get(name)
-            .map_or(Ok(Vector3::zeros()), Fragment::vector)
+            .map_or(Ok(Vector3::zeros()), Fragment::acting_vector)
     };
     let (f, m) = (part(force)?, part(moment)?);
     Ok(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
@@ -233,7 +248,7 @@ fn read_along(
                     .with_help("write `on: (\"body\", \"A\", \"B\")`"));
             }
             let end = |name: &str| -> Result<Vector6<f64>, LoadError> {
-                let force = fields.required(name)?.vector()?;
+                let force = fields.required(name)?.acting_vector()?;
                 Ok(Vector6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0))
             };
             [end("from")?, end("to")?]
@@ -295,14 +310,11 @@ fn axes(fields: &Fields<'_>, body: BodyId, model: &Model, home: &Home) -> Result
                  that line, or a beam a `y_axis`",
             )
     })?;
-    let home = match home {
-        Home::Here => now,
-        Home::Output(rotation) if output == Some(body) => rotation.inverse() * now,
-        Home::Output(_) => {
-            return Err(frame
-                .error(format!("body `{name}` has no home orientation"))
-                .with_help("of a prebuilt mechanism only the output's body has one: `Output`"));
-        }
-    };
+    let turn = home.turn(model, body).ok_or_else(|| {
+        frame
+            .error(format!("body `{name}` has no home orientation"))
+            .with_help(NO_HOME)
+    })?;
+    let home = turn.inverse() * now;
     Ok(Axes::Body { body, home })
 }

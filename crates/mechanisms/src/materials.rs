@@ -123,6 +123,7 @@ pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, Lo
         other => {
             return Err(kind
                 .error(format!("unknown kind of section `{other}`"))
+                .unreadable()
                 .with_help(names::help(other, "kinds of section", KINDS)));
         }
     };

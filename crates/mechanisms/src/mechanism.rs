@@ -1,5 +1,8 @@
 //! One mechanism, as a file describes it.
 
+use std::collections::HashSet;
+use std::path::PathBuf;
+
 use hyperstat_assembly::{BodyId, JointId, Model};
 use nalgebra::Point3;
 
@@ -7,7 +10,8 @@ use crate::bodies::{self, Tables, check_name};
 use crate::error::{LoadError, Location};
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::loads::{Acting, Home};
+use crate::home::Home;
+use crate::loads::Acting;
 use crate::registry::Registry;
 use crate::source::Place;
 use crate::table::Table;
@@ -29,6 +33,7 @@ pub struct Mechanism {
     given: Vec<Given>,
     /// Whether the masses are the file's own.
     own_masses: bool,
+    unused_points: Vec<String>,
 }
 
 impl Mechanism {
@@ -77,6 +82,10 @@ impl Mechanism {
         model.set_output(nodes::on(&model, output, "the output")?);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
+        let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        let points = tables.points.names();
+        let unused = points.filter(|name| !used.contains(name));
+        let unused_points = unused.map(Into::into).collect();
         Ok(Self {
             model,
             bodies,
@@ -86,6 +95,7 @@ impl Mechanism {
             root: fragment.place(),
             given,
             own_masses: true,
+            unused_points,
         })
     }
 
@@ -99,6 +109,11 @@ impl Mechanism {
         Ok(())
     }
 
+    /// All files that were read for it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.output.source.files()
+    }
+
     /// Names values of `model`, which is this mechanism's in any configuration, by their paths in
     /// the file, as `vary` takes them ([`Model::name_value`]): every value of a section and a
     /// material, masses, and stiffnesses of joints that no other joint has alike.
@@ -110,6 +125,11 @@ impl Mechanism {
     pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
         let root = Fragment::at(&self.root);
         value_names::of_file(root, replaced, &self.given, self.own_masses, model);
+    }
+
+    /// The points of the file that no body runs through, in its order.
+    pub fn unused_points(&self) -> &[String] {
+        &self.unused_points
     }
 
     /// Place of a body's name.

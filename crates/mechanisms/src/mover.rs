@@ -57,7 +57,7 @@ impl Mover {
             })
         }?;
         closure.write(&reached, geometry)?;
-        let mut pose = closure.pose(&reached);
+        let mut pose = closure.pose(&reached)?;
         if let Asked::Output(asked) = asked {
             for (coordinate, asked) in pose.iter_mut().zip(asked) {
                 *coordinate = asked.unwrap_or(*coordinate);

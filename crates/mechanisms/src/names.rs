@@ -33,7 +33,8 @@ pub(crate) fn list(names: &[&str]) -> String {
     quoted.join(", ")
 }
 
-fn nearest<'n>(name: &str, known: &[&'n str]) -> Option<&'n str> {
+/// The one of `known` that was probably meant by `name`; `None` where none is like it.
+pub fn nearest<'n>(name: &str, known: &[&'n str]) -> Option<&'n str> {
     let name = name.to_lowercase();
     let likeness = |other: &str| strsim::jaro_winkler(&name, &other.to_lowercase());
     known

@@ -5,11 +5,11 @@ use crate::fields::Fields;
 use crate::fragment::Fragment;
 use crate::prebuilt::PoseCoordinate;
 use crate::source::Place;
-use crate::targets::{Asked, Targets};
+use crate::targets::Targets;
 use crate::values::Values;
 use crate::{csv, load, names};
 
-/// Poses x y z \[m\] and rotation vector \[rad\] of the output; zero where not given.
+/// Poses x y z \[m\] and rotation vector \[rad\] of the output.
 #[derive(Debug)]
 pub(crate) enum Poses {
     /// The mechanism's own configuration.
@@ -58,10 +58,26 @@ impl Poses {
         }
     }
 
-    /// Pose `k`, from 0.
+    /// Names of the drives whose values the poses are; none where they are those of the output.
+    pub(crate) fn drives(&self) -> &[String] {
+        match self {
+            Self::Asked(targets) => targets.drives(),
+            _ => &[],
+        }
+    }
+
+    /// Values of these drives in pose `k`, from 0.
+    pub(crate) fn drive_values(&self, k: usize) -> &[f64] {
+        match self {
+            Self::Asked(targets) => targets.drive_values(k),
+            _ => &[],
+        }
+    }
+
+    /// Pose `k`, from 0, of a prebuilt mechanism; zero where not given.
     pub(crate) fn get(&self, k: usize) -> [f64; 6] {
         match self {
-            Self::Own => [0.0; 6],
+            Self::Own | Self::Asked(_) => [0.0; 6],
             Self::List(poses) => poses[k],
             Self::Grid(axes) => {
                 let mut rest = k;
@@ -71,10 +87,6 @@ impl Poses {
                     value
                 })
             }
-            Self::Asked(targets) => match targets.get(k) {
-                Asked::Output(asked) => asked.map(Option::unwrap_or_default),
-                Asked::Drives(_) => [0.0; 6],
-            },
         }
     }
 
@@ -110,6 +122,7 @@ fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>,
     let mut poses = Vec::new();
     for item in list.list("a list of poses, `[(x, y, z), …]`")? {
         let numbers = item.tuple(expected)?;
+        item.no_decimal_commas(&numbers, 3, expected)?;
         if ![3, 6].contains(&numbers.len()) {
             return Err(item.expected(expected));
         }

@@ -94,6 +94,7 @@ impl Registry {
         let Some(kind) = self.kinds.iter().find(|kind| kind.name == name.text()) else {
             return Err(name
                 .error(format!("unknown joint kind `{}`", name.text()))
+                .unreadable()
                 .with_help(names::help(name.text(), "kinds", self.kinds())));
         };
         let owner = format!("`{}`", kind.name);

@@ -1,10 +1,13 @@
 //! The text of a file, and places in it.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::{LoadError, Location};
+use crate::files;
 
 /// A text file: its name in messages and its text.
 #[derive(Debug)]
@@ -13,15 +16,59 @@ pub(crate) struct Source {
     text: String,
     /// Where the whole text is asked for, if it stands in no file as it is.
     origin: Option<Place>,
+    family: Arc<Family>,
+    /// Whether messages may show its text: not that of a file from elsewhere, named by another,
+    /// before it is known to be of the kind that it was taken for.
+    shown: AtomicBool,
+}
+
+/// What the file that was asked for and the files that it names have in common.
+#[derive(Debug, Default)]
+struct Family {
+    /// Folder of the file that was asked for; `None` where it is in none.
+    folder: Option<PathBuf>,
+    /// All files that were read.
+    read: Mutex<BTreeSet<PathBuf>>,
+}
+
+impl Family {
+    /// Of a file that is asked for.
+    fn of(path: &Path) -> Arc<Self> {
+        Arc::new(Self {
+            folder: folder(path),
+            read: Mutex::default(),
+        })
+    }
+
+    /// Whether a file lies in the folder, or in one below it.
+    fn holds(&self, path: &Path) -> bool {
+        let place = path.canonicalize().ok();
+        let of_both = place.as_ref().zip(self.folder.as_ref());
+        of_both.is_some_and(|(place, folder)| place.starts_with(folder))
+    }
+}
+
+/// The folder that a file is in, without links.
+fn folder(path: &Path) -> Option<PathBuf> {
+    let parent = path.parent()?;
+    let here = parent.as_os_str().is_empty();
+    let parent = if here { Path::new(".") } else { parent };
+    parent.canonicalize().ok()
 }
 
 impl Source {
     /// `text`, which messages call `path`; a byte order mark is dropped.
     pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
+        Self::of(path, text, Family::of(path), true)
+    }
+
+    fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
         Arc::new(Self {
             path: path.into(),
             text: text.strip_prefix('\u{feff}').unwrap_or(text).into(),
             origin: None,
+            family,
+            shown: AtomicBool::new(shown),
         })
     }
 
@@ -31,23 +78,38 @@ impl Source {
         Arc::new(Self {
             path: origin.source.path.clone(),
             text,
+            family: Arc::clone(&origin.source.family),
+            shown: AtomicBool::new(true),
             origin: Some(origin),
         })
     }
 
-    /// Reads a file.
+    /// Reads a file that is asked for.
     pub(crate) fn read(path: &Path) -> Result<Arc<Self>, LoadError> {
-        let bytes = std::fs::read(path).map_err(|source| LoadError::Read {
+        Self::read_into(path, Family::of(path), true)
+    }
+
+    /// Reads a file that this one names. Messages show its text where it lies in the folder of the
+    /// file that was asked for, else from [`Source::understood`] on.
+    pub(crate) fn read_named(&self, path: &Path) -> Result<Arc<Self>, LoadError> {
+        Self::read_into(path, Arc::clone(&self.family), self.family.holds(path))
+    }
+
+    fn read_into(path: &Path, family: Arc<Family>, shown: bool) -> Result<Arc<Self>, LoadError> {
+        let bytes = files::read(path).map_err(|source| LoadError::Read {
             path: path.into(),
             source,
         })?;
+        let mut read = family.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.insert(path.into());
+        drop(read);
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self::new(path, &text)),
+            Ok(text) => Ok(Self::of(path, &text, family, shown)),
             Err(error) => {
                 let valid = error.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(error.as_bytes());
                 let place = Place {
-                    source: Self::new(path, &text),
+                    source: Self::of(path, &text, family, shown),
                     span: valid..valid,
                 };
                 Err(place
@@ -55,6 +117,23 @@ impl Source {
                     .with_help("save it with the encoding UTF-8"))
             }
         }
+    }
+
+    /// Notes that the file is of the kind that it was taken for: from now on messages show its text.
+    pub(crate) fn understood(&self) {
+        self.shown.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether messages may show its text.
+    pub(crate) fn is_shown(&self) -> bool {
+        self.shown.load(Ordering::Relaxed)
+    }
+
+    /// All files that were read: the one that was asked for and those that it led to, so far.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let read = self.family.read.lock();
+        let read = read.unwrap_or_else(PoisonError::into_inner);
+        read.iter().cloned().collect()
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -88,9 +167,12 @@ impl Source {
                 .chars()
                 .count()
                 .max(1),
-            text: self.text[line_start..line_end]
-                .trim_end_matches('\r')
-                .into(),
+            text: match self.is_shown() {
+                true => self.text[line_start..line_end]
+                    .trim_end_matches('\r')
+                    .into(),
+                false => String::new(),
+            },
         }
     }
 
@@ -134,11 +216,19 @@ impl Place {
     pub(crate) fn error(&self, message: impl Into<String>) -> LoadError {
         LoadError::At {
             location: Box::new(self.location()),
-            message: message.into(),
+            message: match self.source.is_shown() {
+                true => message.into(),
+                false => NOT_SHOWN.into(),
+            },
             help: None,
+            unreadable: false,
         }
     }
 }
+
+/// What is said of a file from elsewhere that is not what it was taken for.
+const NOT_SHOWN: &str = "this is not understood; the text is not shown, for the file lies outside \
+                         the folder of the file that was given";
 
 #[cfg(test)]
 mod tests {

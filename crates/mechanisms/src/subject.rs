@@ -1,12 +1,13 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_assembly::{Geometry, Model, NodeId};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::error::LoadError;
 use crate::fields::Fields;
 use crate::fragment::Fragment;
-use crate::loads::{Acting, Home};
+use crate::home::Home;
+use crate::loads::Acting;
 use crate::mechanism::Mechanism;
 use crate::mover::Mover;
 use crate::parameters::Kind;
@@ -14,7 +15,7 @@ use crate::poses::{Given, Poses};
 use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::registry::Registry;
 use crate::source::Place;
-use crate::targets::Targets;
+use crate::targets::{Asked, Targets};
 use crate::{load, names, parameters};
 
 /// Where a job's mechanism and loads are written, and how they are read.
@@ -91,6 +92,16 @@ impl Recipe {
     /// The mechanism as it is written.
     pub(crate) fn root(&self) -> Fragment<'_> {
         Fragment::at(&self.root)
+    }
+
+    /// Names of the cases, which do not depend on what varies; `subject` is any design.
+    pub(crate) fn cases(&self, subject: &Subject) -> Result<Vec<String>, LoadError> {
+        let of_file = || {
+            let model = subject.mechanism().map(|mechanism| &mechanism.model);
+            let cases = model.map_or(&[][..], Model::cases).iter();
+            cases.map(|case| case.name.clone()).collect()
+        };
+        Ok(self.acting.cases()?.unwrap_or_else(of_file))
     }
 
     /// Reads and checks the mechanism: [`Recipe::root`], or what an overlay makes of it.
@@ -204,17 +215,27 @@ impl Subject {
         }
     }
 
-    /// Names of its cases; none where no pose can be reached.
-    pub(crate) fn cases(&self) -> Vec<String> {
-        let model = match self {
-            Self::File { mechanism, .. } => &mechanism.model,
-            Self::Prebuilt { template, .. } => match template {
-                Ok(template) => &template.model,
-                Err(_) => return Vec::new(),
+    /// The coordinates of pose `number` (from 0) that are known of every design before it is reached:
+    /// those that are asked for, and those that are zero in all poses.
+    pub(crate) fn target(&self, poses: &Poses, number: usize) -> [Option<f64>; 6] {
+        match (self, poses) {
+            (_, Poses::Asked(targets)) => match targets.get(number) {
+                Asked::Output(asked) => asked,
+                Asked::Drives(_) => [None; 6],
             },
-        };
-        let cases = model.cases().iter();
-        cases.map(|case| case.name.clone()).collect()
+            (Self::File { .. }, _) => [None; 6],
+            (Self::Prebuilt { mechanism, .. }, _) => {
+                let given = poses.get(number);
+                let mut known = [None; 6];
+                for coordinate in mechanism.zero_coordinates() {
+                    known[coordinate.index()] = Some(0.0);
+                }
+                for coordinate in mechanism.coordinates() {
+                    known[coordinate.index()] = Some(given[coordinate.index()]);
+                }
+                known
+            }
+        }
     }
 
     /// Brings a geometry of its model to pose `number` (from 0); returns the whole pose.
@@ -235,14 +256,20 @@ impl Subject {
                 geometry.y_axes.clone_from(&own.y_axes);
                 geometry.frames.clone_from(&own.frames);
                 geometry.rotations.clone_from(&own.rotations);
-                let output = model.output().map(|node| own.positions[node.0]);
-                let [x, y, z] = output.unwrap_or_default().into();
-                Ok([x, y, z, 0.0, 0.0, 0.0])
+                Ok(own_pose(model))
             }
             Self::Prebuilt { mechanism, .. } => {
                 let (target, count) = given(mechanism.as_ref(), &poses.get(number));
                 mechanism.place(&target[..count], geometry)
             }
+        }
+    }
+
+    /// The coordinates that a prebuilt mechanism takes; none of a file.
+    pub(crate) fn coordinates(&self) -> &[PoseCoordinate] {
+        match self {
+            Self::File { .. } => &[],
+            Self::Prebuilt { mechanism, .. } => mechanism.coordinates(),
         }
     }
 
@@ -253,6 +280,13 @@ impl Subject {
             Self::Prebuilt { .. } => None,
         }
     }
+}
+
+/// The output's pose in a model's own configuration.
+fn own_pose(model: &Model) -> [f64; 6] {
+    let position = |node: NodeId| model.geometry().positions[node.0];
+    let [x, y, z] = model.output().map(position).unwrap_or_default().into();
+    [x, y, z, 0.0, 0.0, 0.0]
 }
 
 /// Of a whole pose the coordinates that `mechanism` is given, first, and their number.

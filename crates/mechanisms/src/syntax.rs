@@ -1,11 +1,13 @@
 //! Mistakes in the grammar of a file, in words for the one who wrote it.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use ron::error::{Error, SpannedError};
 
 use crate::brackets::{self, Imbalance};
 use crate::error::LoadError;
+use crate::slips;
 use crate::source::{Place, Source};
 
 /// What is wrong with the grammar of `source`, where ron says `error`.
@@ -45,6 +47,14 @@ pub(crate) fn error(source: &Arc<Source>, error: &SpannedError) -> LoadError {
                 .with_help("add the missing bracket");
         }
         _ => {}
+    }
+    // What is right instead shows what is wrong.
+    let slip = slips::in_grammar(source.text(), noticed).filter(|_| source.is_shown());
+    if let Some(slip) = slip {
+        let Range { start, end } = slip.span;
+        return place(start, end - start)
+            .error(slip.message)
+            .with_help(slip.help);
     }
     let next = source.text()[noticed..].chars().next();
     let (message, help) = describe(&error.code, next);

@@ -36,12 +36,18 @@ impl<T> Table<T> {
         Ok(table)
     }
 
+    /// Names in the order of the file.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.names.iter().map(String::as_str)
+    }
+
     /// The value that a name in the file refers to.
     pub(crate) fn find(&self, name: Fragment<'_>) -> Result<&T, LoadError> {
         let text = name.string()?;
         self.values.get(&text).ok_or_else(|| {
             let known = self.names.iter().map(String::as_str);
             name.error(format!("unknown {} `{text}`", self.what))
+                .unreadable()
                 .with_help(names::help(&text, &format!("{}s", self.what), known))
         })
     }

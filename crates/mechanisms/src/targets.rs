@@ -23,6 +23,8 @@ pub(crate) enum Targets {
     /// Values of drives, a row a pose.
     Drives {
         drives: Vec<(JointId, Dof)>,
+        /// Their names, `joint.direction`.
+        names: Vec<String>,
         rows: Vec<Vec<f64>>,
     },
 }
@@ -76,7 +78,14 @@ impl Targets {
                 let table = load::read_named(path)?;
                 let drive = |name: &str, place: &Place| drive(name, place, model, &closure);
                 let (drives, rows) = csv::named(&table, drive)?;
-                Ok(Self::Drives { drives, rows })
+                let name = |(joint, direction): &(JointId, Dof)| {
+                    format!("{}.{direction}", model.joints()[joint.0].name)
+                };
+                Ok(Self::Drives {
+                    names: drives.iter().map(name).collect(),
+                    drives,
+                    rows,
+                })
             }
             other => Err(kind
                 .error(format!("unknown kind of poses `{other}`"))
@@ -97,6 +106,22 @@ impl Targets {
         }
     }
 
+    /// Names of the drives that are given values; none where poses of the output are.
+    pub(crate) fn drives(&self) -> &[String] {
+        match self {
+            Self::Drives { names, .. } => names,
+            _ => &[],
+        }
+    }
+
+    /// Their values in pose `k`, from 0.
+    pub(crate) fn drive_values(&self, k: usize) -> &[f64] {
+        match self {
+            Self::Drives { rows, .. } => &rows[k],
+            _ => &[],
+        }
+    }
+
     /// What is asked in pose `k`, from 0.
     pub(crate) fn get(&self, k: usize) -> Asked {
         match self {
@@ -110,7 +135,7 @@ impl Targets {
                     Some(value)
                 }))
             }
-            Self::Drives { drives, rows } => {
+            Self::Drives { drives, rows, .. } => {
                 let named = drives.iter().zip(&rows[k]);
                 let drive = |(&(joint, direction), &value): (&(JointId, Dof), &f64)| Drive {
                     joint,
@@ -128,7 +153,7 @@ fn coordinate(name: &str, place: &Place) -> Result<usize, LoadError> {
     let found = csv::COLUMNS.iter().position(|known| *known == name);
     found.ok_or_else(|| {
         place
-            .error(format!("unknown column `{name}`"))
+            .error(format!("unknown column `{}`", csv::shortened(name)))
             .with_help(names::help(name, "columns", csv::COLUMNS))
     })
 }
@@ -158,7 +183,10 @@ fn drive(
     });
     let Some((joint, direction)) = parts else {
         return Err(place
-            .error(format!("`{name}` is no `joint.direction` of the mechanism"))
+            .error(format!(
+                "`{}` is no `joint.direction` of the mechanism",
+                csv::shortened(name)
+            ))
             .with_help(help()));
     };
     closure
@@ -172,6 +200,7 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
     let mut poses = Vec::new();
     for item in list.list("a list of poses, `[(x, y, z), …]`")? {
         let numbers = item.tuple(expected)?;
+        item.no_decimal_commas(&numbers, 3, expected)?;
         if ![3, 6].contains(&numbers.len()) {
             return Err(item.expected(expected));
         }

@@ -9,6 +9,9 @@ pub enum ReferenceError {
     /// The model has no output node.
     #[error("the model has no output node")]
     NoOutput,
+    /// A model whose parts do not belong together.
+    #[error(transparent)]
+    Model(#[from] hyperstat_assembly::ModelError),
     /// Loads that the traditional method is not given.
     #[error(
         "the traditional method takes forces and moments on points in global axes only: no \
@@ -34,6 +37,17 @@ pub enum ReferenceError {
     TooLarge {
         /// Six for every node, the inner nodes of subdivided segments too.
         coordinates: usize,
+        /// Most that are taken.
+        limit: usize,
+    },
+    /// More conditions than a dense matrix should have.
+    #[error(
+        "the joints and rigid bodies of the model make {conditions} conditions; the dense solver \
+         takes at most {limit}"
+    )]
+    TooManyConditions {
+        /// Of rigid bodies, and of every joint all that is rigid or elastic.
+        conditions: usize,
         /// Most that are taken.
         limit: usize,
     },

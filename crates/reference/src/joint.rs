@@ -132,6 +132,21 @@ pub(crate) fn is_open(connection: &Connection, dof: Dof) -> bool {
     connection.joint.free().contains(dof) && !connection.locked.contains(dof)
 }
 
+/// Whether a direction counts as free with the drives released: by the joint's kind, or because a
+/// stiffness of zero frees it.
+pub(crate) fn is_released(connection: &Connection, dof: Dof) -> bool {
+    let zero = match &connection.stiffness {
+        JointStiffness::Directions(given) => given[dof.index()].is_some_and(is_none),
+        JointStiffness::Matrix(stiffness) => stiffness[(dof.index(), dof.index())] == 0.0,
+    };
+    connection.joint.free().contains(dof) || zero && !connection.locked.contains(dof)
+}
+
+/// Whether a stiffness is none: zero, or too small to have a flexibility.
+fn is_none(stiffness: f64) -> bool {
+    !(1.0 / stiffness).is_finite()
+}
+
 /// Rules of the file format: a stiffness that is given makes a direction elastic; zero frees a
 /// constrained direction and leaves a locked or free one as it is; one that is not given is rigid
 /// unless it is open. The joint's own compliance counts where the file gives nothing.
@@ -150,9 +165,9 @@ fn holds(connection: &Connection) -> Vec<Hold> {
 
 fn direction(connection: &Connection, dof: Dof, given: Option<f64>) -> Option<Hold> {
     match given {
-        Some(k) if (1.0 / k).is_finite() => Some(unit(dof, 1.0 / k)),
-        Some(_) if !connection.joint.free().contains(dof) => None,
+        Some(k) if !is_none(k) => Some(unit(dof, 1.0 / k)),
         _ if is_open(connection, dof) => None,
+        Some(_) if is_released(connection, dof) && !connection.locked.contains(dof) => None,
         _ => Some(unit(dof, 0.0)),
     }
 }
@@ -169,7 +184,7 @@ fn full_stiffness(connection: &Connection, stiffness: &Matrix6<f64>) -> Vec<Hold
         .filter(|mode| mode.value > SEMIDEFINITE)
         .map(|mode| Hold::new(mode.vector.component_mul(&mode.scale), 1.0 / mode.value))
         .collect();
-    let locked = connection.joint.free().intersection(connection.locked);
+    let locked = connection.locked;
     let rigid = |dof: &Dof| stiffness[(dof.index(), dof.index())] == 0.0;
     holds.extend(locked.iter().filter(rigid).map(|dof| unit(dof, 0.0)));
     holds

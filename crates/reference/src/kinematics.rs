@@ -10,7 +10,7 @@ use hyperstat_joints::Dof;
 use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::independence::{Independence, RANK_TOLERANCE};
-use crate::joint::{Hold, JointConditions};
+use crate::joint::{Hold, JointConditions, is_released};
 use crate::row::Row;
 use crate::structure::{Structure, carried};
 
@@ -127,13 +127,13 @@ fn beams(structure: &Structure) -> impl Iterator<Item = [usize; 2]> {
 }
 
 /// Mobility and over-constraint: every body rigid, every direction that is free by its joint's
-/// kind released, every other one a constraint.
+/// kind or by a stiffness of zero released, every other one a constraint.
 pub(crate) fn mobility(model: &Model, structure: &Structure) -> (usize, usize) {
     let mut rows = Vec::new();
     for (connection, joint) in model.joints().iter().zip(&structure.joints) {
-        for dof in connection.joint.free().complement().iter() {
-            rows.push(joint.row(&unit(dof), 0.0));
-        }
+        let held = Dof::ALL.into_iter();
+        let held = held.filter(|dof| !is_released(connection, *dof));
+        rows.extend(held.map(|dof| joint.row(&unit(dof), 0.0)));
     }
     let pieces = Pieces::bodies(model, structure);
     let rank = pieces.sort(&rows).rank();

@@ -15,8 +15,8 @@ use crate::structure::Structure;
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct ReferenceSolution {
-    /// Instantaneous mobility: every body rigid, every direction that is free by its joint's kind
-    /// released; idle motions included.
+    /// Instantaneous mobility: every body rigid, every direction that is free by its joint's kind,
+    /// or by a stiffness of zero, released; idle motions included.
     pub mobility: usize,
     /// Constraints less their rank, every body rigid.
     pub overconstraint: usize,

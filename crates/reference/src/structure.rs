@@ -12,6 +12,9 @@ use crate::row::Row;
 /// Most displacement coordinates that a dense matrix is made for.
 const COORDINATE_LIMIT: usize = 4800;
 
+/// Most conditions of rigid bodies and joints, of which the matrix has a row and column each too.
+const CONDITION_LIMIT: usize = 9600;
+
 /// All that the dense solvers need of a model.
 #[derive(Debug)]
 pub(crate) struct Structure {
@@ -37,10 +40,12 @@ impl Structure {
     /// Reads a model.
     ///
     /// # Errors
-    /// No output, more coordinates than the limit, a segment without frame, a joint whose
+    /// No output, a model that is not one whole, more coordinates or conditions than the limit, a
+    /// segment without frame, a joint whose
     /// directions are not independent.
     pub fn new(model: &Model) -> Result<Self, ReferenceError> {
         let NodeId(output) = model.output().ok_or(ReferenceError::NoOutput)?;
+        model.check()?;
         check_size(model)?;
         let geometry = model.geometry();
         let (positions, elements) = elements(model, geometry)?;
@@ -91,6 +96,17 @@ fn check_size(model: &Model) -> Result<(), ReferenceError> {
         return Err(ReferenceError::TooLarge {
             coordinates,
             limit: COORDINATE_LIMIT,
+        });
+    }
+    // A rigid body with n nodes has 6 (n − 1), a joint 6 at the most.
+    let bodies = model.bodies().iter();
+    let rigid = bodies.filter(|body| body.kind == BodyKind::Rigid);
+    let followers: usize = rigid.map(|body| body.nodes.len().saturating_sub(1)).sum();
+    let conditions = 6 * (followers + model.joints().len());
+    if conditions > CONDITION_LIMIT {
+        return Err(ReferenceError::TooManyConditions {
+            conditions,
+            limit: CONDITION_LIMIT,
         });
     }
     Ok(())

@@ -52,7 +52,9 @@ pub fn assert_example_is_prebuilt(name: &str) {
     let mut model = job.model().expect("in reach");
     let mut geometry = model.geometry().clone();
     job.place(1, &mut geometry).expect("in reach");
-    model.set_geometry(geometry);
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let expected = solve(&model).expect("a solution");
 
     let file = examples.join(name.replace('-', "_")).with_extension("ron");

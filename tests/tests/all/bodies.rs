@@ -406,8 +406,13 @@ fn matrices_agree(model: &Model) -> Result<bool, TestCaseError> {
     let counts = (ours.mobility, ours.overconstraint, ours.idle.len());
     let expected = (theirs.mobility, theirs.overconstraint, theirs.idle_modes);
     prop_assert_eq!(counts, expected);
-    stiffnesses_agree(ours.output.stiffness.as_ref(), theirs.stiffness.as_ref())?;
-    compliances_agree(ours.output.compliance.as_ref(), theirs.compliance.as_ref())?;
+    let (output, floor) = (&ours.output, &ours.floor);
+    stiffnesses_agree(output.stiffness.as_ref(), theirs.stiffness.as_ref(), floor)?;
+    compliances_agree(
+        output.compliance.as_ref(),
+        theirs.compliance.as_ref(),
+        floor,
+    )?;
     if ours.idle.is_empty() && ours.output.free_motions.is_empty() {
         let largest = |u: &[Vector6<f64>]| u.iter().map(|u| u.amax()).fold(1e-9, f64::max);
         let pairs = ours.displacements.iter().zip(&theirs.displacements);
@@ -416,7 +421,10 @@ fn matrices_agree(model: &Model) -> Result<bool, TestCaseError> {
         let part = part / largest(&theirs.displacements);
         prop_assert!(part < 1e-8, "u {part:e}");
     }
-    wrenches_agree(ours.joint_wrenches.iter().zip(&theirs.joint_wrenches))?;
+    wrenches_agree(
+        ours.joint_wrenches.iter().zip(&theirs.joint_wrenches),
+        floor,
+    )?;
     Ok(true)
 }
 

@@ -16,30 +16,31 @@ use proptest::prelude::*;
 
 /// Agreement of K_o, as a share of its scale √(K_ii K_jj).
 const AGREEMENT: f64 = 1e-8;
-/// A warning's figure is an order of magnitude: the last correction of the refinement.
+/// Where a warning says how far results may be off, the independent solver loses digits too, in another
+/// way and without a word.
 const WITHIN_FIGURE: f64 = 100.0;
 /// Cases of every test.
 const CASES: u32 = 100;
 
 /// 10 to a power between these.
-fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {
+pub(super) fn magnitude(low: f64, high: f64) -> impl Strategy<Value = f64> {
     (low..high).prop_map(|exponent| 10.0_f64.powf(exponent))
 }
 
 /// Six numbers of this range, each of its own.
-fn magnitudes(low: f64, high: f64) -> impl Strategy<Value = [f64; 6]> {
+pub(super) fn magnitudes(low: f64, high: f64) -> impl Strategy<Value = [f64; 6]> {
     proptest::array::uniform6(low..high).prop_map(|e| e.map(|e| 10.0_f64.powf(e)))
 }
 
 /// Six numbers of this range, within three orders of each other: the directions of one joint.
-fn neighbours(low: f64, high: f64) -> impl Strategy<Value = [f64; 6]> {
+pub(super) fn neighbours(low: f64, high: f64) -> impl Strategy<Value = [f64; 6]> {
     let apart = proptest::array::uniform6(-1.5..1.5_f64);
     (low..high, apart).prop_map(move |(middle, apart)| {
         apart.map(|apart| 10.0_f64.powf((middle + apart).clamp(low, high)))
     })
 }
 
-fn frame(axis: &Vector3<f64>) -> Rotation3<f64> {
+pub(super) fn frame(axis: &Vector3<f64>) -> Rotation3<f64> {
     frame_from_axis(Some(axis), None).expect("an axis")
 }
 
@@ -57,7 +58,7 @@ fn difference(model: &Model) -> Option<Result<(f64, Option<f64>), SolveError>> {
     let expected = theirs.stiffness.expect("an output that can move");
     Some(solve(model).map(|ours| {
         let lost = ours.warnings.iter().find_map(|w| match w {
-            Warning::LostDigits { residual } => Some(*residual),
+            Warning::LostDigits { error } => Some(*error),
             _ => None,
         });
         (stiffness_difference(&stiffness(&ours), &expected), lost)
@@ -233,7 +234,9 @@ fn links(
 }
 
 /// Chains of links of about one size, from 1 mm to 100 m.
-fn chains_of_one_size(joint: impl Strategy<Value = [f64; 6]>) -> impl Strategy<Value = Model> {
+pub(super) fn chains_of_one_size(
+    joint: impl Strategy<Value = [f64; 6]>,
+) -> impl Strategy<Value = Model> {
     (magnitude(-2.5, 2.0), links(-0.5..0.0, joint)).prop_map(|(size, mut links)| {
         for link in &mut links {
             link.length *= size;
@@ -243,12 +246,14 @@ fn chains_of_one_size(joint: impl Strategy<Value = [f64; 6]>) -> impl Strategy<V
 }
 
 /// Chains of links from 1 mm to 100 m, side by side.
-fn chains_of_any_size(joint: impl Strategy<Value = [f64; 6]>) -> impl Strategy<Value = Model> {
+pub(super) fn chains_of_any_size(
+    joint: impl Strategy<Value = [f64; 6]>,
+) -> impl Strategy<Value = Model> {
     links(-3.0..2.0, joint).prop_map(|links| chain(&links))
 }
 
 /// Diameter over length.
-fn slenderness() -> impl Strategy<Value = f64> {
+pub(super) fn slenderness() -> impl Strategy<Value = f64> {
     magnitude(-4.0, -0.7)
 }
 
@@ -260,7 +265,7 @@ fn deltas(joints: impl Strategy<Value = Option<[f64; 6]>>) -> impl Strategy<Valu
 }
 
 /// Hexapods from 1 mm to 100 m, each drive of its own stiffness.
-fn hexapods(low: f64, high: f64) -> impl Strategy<Value = Model> {
+pub(super) fn hexapods(low: f64, high: f64) -> impl Strategy<Value = Model> {
     (magnitude(-3.0, 2.0), slenderness(), magnitudes(low, high))
         .prop_map(|(size, slenderness, drives)| hexapod(size, slenderness, drives))
 }

@@ -11,6 +11,7 @@ use hyperstat_joints::Dof;
 use hyperstat_mechanisms::{Registry, load_mechanism, mechanism_from_str};
 use hyperstat_reference::ReferenceError;
 use hyperstat_tests::agreement::agrees_with_reference;
+use hyperstat_tests::prebuilt::{legs, links};
 use hyperstat_tests::random::check_random_mechanisms;
 use hyperstat_tests::{reference_folder, vector_differences};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -212,6 +213,26 @@ fn misfits_of_random_mechanisms_agree_with_the_independent_solver() {
         }
         agrees_with_reference(&model)
     });
+}
+
+/// Misfits of single joints of every prebuilt mechanism, without loads: where nothing holds them back
+/// all forces are zero, and agree.
+#[test]
+fn misfits_of_prebuilt_mechanisms_agree_with_the_independent_solver() {
+    let mut agreed = 0;
+    for (k, case) in legs::cases().iter().chain(&links::cases()).enumerate() {
+        let mut random = Random(0x2545_f491_4f6c_dd1d + k as u64);
+        let plain = case.mechanism.model(&case.poses[1]).expect("in reach");
+        let name = case.what(&case.poses[1]);
+        for joint in (0..plain.joints().len()).step_by(3) {
+            let mut model = plain.clone();
+            model.clear_loads();
+            set_misfit(&mut model, JointId(joint), &random.vector(1e-4));
+            let result = agrees_with_reference(&model);
+            agreed += u32::from(result.unwrap_or_else(|error| panic!("{name}: {error}")));
+        }
+    }
+    assert!(agreed > 50, "{agreed}");
 }
 
 /// Maxwell–Betti: what a unit misfit does to the output along e is the force along it that e on the

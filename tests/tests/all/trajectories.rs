@@ -69,7 +69,9 @@ fn compare(delta: &Delta, file: &str) {
             row.pose
         );
 
-        model.set_geometry(geometry.clone());
+        model
+            .set_geometry(geometry.clone())
+            .expect("a geometry of this model");
         let solution = solve(&model).expect("a solution");
         assert!(stiffness_difference(&stiffness(&solution), &row.stiffness) < AGREEMENT);
         let pair = (&solution.output.displacement, &row.displacement);

@@ -6,6 +6,7 @@ use crate::kinematics::node_twist;
 use crate::model::{Geometry, Model, NodeId};
 use crate::plan::Plan;
 use crate::restraint::{Restraint, largest_minor, scaled};
+use crate::room::{self, MOST_NUMBERS};
 use crate::topology::Topology;
 
 use super::parts::Placed;
@@ -28,8 +29,9 @@ pub(super) fn idle_coordinates(
     placed: &[Option<Placed>],
     elements: &[Element],
 ) -> Option<Vec<usize>> {
-    let restraint = Restraint::new(model, geometry, plan.output);
-    if !restraint.moving.is_empty() {
+    let restraint = Restraint::new(model, geometry, plan.output).ok()?;
+    let numbers = room::matrix(restraint.idle.len(), topology.coordinates);
+    if !restraint.moving.is_empty() || numbers > MOST_NUMBERS {
         return None;
     }
     let mut columns: Vec<DVector<f64>> = Vec::new();

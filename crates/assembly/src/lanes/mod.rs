@@ -38,9 +38,10 @@ use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::SolveError;
+use crate::kinematics::characteristic_length;
 use crate::model::{Geometry, Model};
 use crate::plan::{Plan, Workspace};
-use crate::solve::PoseResult;
+use crate::solve::{PoseResult, is_nearly_free};
 use buffers::Buffers;
 use pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use program::Program;
@@ -55,6 +56,9 @@ const TRUSTED: f64 = 5e-13;
 /// One thread's poses and buffers; made by [`Plan::lanes`].
 #[derive(Debug)]
 pub struct Lanes {
+    /// The plan and the model that they were made for.
+    plan: u64,
+    model: [u64; 2],
     geometries: Vec<Geometry>,
     workspace: Workspace,
     arch: Arch,
@@ -82,22 +86,36 @@ impl WithSimd for Width {
 }
 
 impl Plan {
-    /// Poses and buffers for one thread, for a model of the topology that the plan was made for.
-    /// The poses are in the model's configuration.
+    /// Poses and buffers for one thread, for a model of the topology that the plan was made for; one
+    /// that is not goes nowhere ([`SolveError::ForeignModel`] at every pose). The poses are in the
+    /// model's configuration.
     pub fn lanes(&self, model: &Model) -> Lanes {
         self.lanes_on(model, Arch::new())
     }
 
+    /// The same for poses that all go through [`Plan::sweep`], one by one.
+    pub fn lanes_one_by_one(&self, model: &Model) -> Lanes {
+        self.lanes_with(model, Arch::new(), None)
+    }
+
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let taken =
-            model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
+        let taken = model.has_plain_loads()
+            && model.misfits().is_empty()
+            && model.cases().is_empty()
+            && self.check_model(model).is_ok();
         let program = taken.then(|| Program::new(self, model, model.geometry()));
         let engine = program.flatten().map(|program| {
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });
+        self.lanes_with(model, arch, engine)
+    }
+
+    fn lanes_with(&self, model: &Model, arch: Arch, engine: Option<Engine>) -> Lanes {
         Lanes {
+            plan: self.id,
+            model: model.revisions(),
             geometries: vec![model.geometry().clone(); LANES],
             workspace: self.workspace(),
             arch,
@@ -109,8 +127,8 @@ impl Plan {
     /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
     /// where `filled` says so: what [`Plan::sweep`] finds, to 1e-11 of the stiffness's scale
     /// (`√(K_ii K_jj)`) and of the largest component of the displacement, its components times
-    /// `√K_ii`. `model` and `lanes` belong to this plan. In a sweep the nodes of a joint stay at one
-    /// point.
+    /// `√K_ii`. `lanes` were made by this plan for `model`, as it is now; the nodes of a joint stay at
+    /// one point; anything else is an error.
     pub fn sweep_lanes(
         &self,
         model: &Model,
@@ -118,15 +136,33 @@ impl Plan {
         filled: [bool; LANES],
     ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
         let mut results = [const { None }; LANES];
+        let foreign = if lanes.plan != self.id {
+            Some(SolveError::ForeignWorkspace)
+        } else {
+            (lanes.model != model.revisions()).then_some(SolveError::ForeignModel)
+        };
+        if let Some(error) = foreign {
+            return filled.map(|filled| filled.then(|| Err(error.clone())));
+        }
+        let mut taken = filled;
+        for (pose, taken) in taken.iter_mut().enumerate().filter(|(_, taken)| **taken) {
+            if let Err(error) = model.check_geometry(&lanes.geometries[pose], self.one_point) {
+                results[pose] = Some(Err(error.into()));
+                *taken = false;
+            }
+        }
         if let Some(engine) = &mut lanes.engine {
             let width = engine.buffers.width;
             for first in (0..LANES).step_by(width) {
                 let range = first..(first + width).min(LANES);
-                if !filled[range.clone()].contains(&true) {
+                if !taken[range.clone()].contains(&true) {
                     continue;
                 }
                 for (lane, pose) in range.clone().enumerate() {
                     let geometry = &lanes.geometries[pose];
+                    if model.check_size(geometry).is_err() {
+                        continue;
+                    }
                     let inputs = &mut engine.buffers.inputs;
                     engine.program.inputs.read(geometry, inputs, width, lane);
                 }
@@ -135,14 +171,15 @@ impl Plan {
                     buffers: &mut engine.buffers,
                 });
                 for (lane, pose) in range.enumerate() {
-                    if filled[pose] {
-                        results[pose] = engine.result(lane).map(Ok);
+                    if taken[pose] {
+                        let size = characteristic_length(&lanes.geometries[pose]);
+                        results[pose] = engine.result(lane, size).map(Ok);
                     }
                 }
             }
         }
         for (pose, result) in results.iter_mut().enumerate() {
-            if filled[pose] && result.is_none() {
+            if taken[pose] && result.is_none() {
                 lanes.one_by_one += 1;
                 let geometry = &lanes.geometries[pose];
                 *result = Some(self.sweep(model, geometry, &mut lanes.workspace));
@@ -180,8 +217,9 @@ impl Lanes {
 }
 
 impl Engine {
-    /// The result of a pose; `None` where the lanes cannot vouch for it.
-    fn result(&self, lane: usize) -> Option<PoseResult> {
+    /// The result of a pose of a mechanism of this `size`; `None` where the lanes cannot vouch for it, or
+    /// where it asks for a look at the mechanism's freedom.
+    fn result(&self, lane: usize, size: f64) -> Option<PoseResult> {
         let at = |k: usize| self.buffers.result(k, lane);
         let mut stiffness = Matrix6::zeros();
         let mut next = 0;
@@ -196,7 +234,8 @@ impl Engine {
         let numbers = stiffness.iter().chain(displacement.iter());
         let sound = numbers.clone().all(|v| v.is_finite())
             && stiffness.diagonal().iter().all(|k| *k > 0.0)
-            && at(DISPLACEMENT_ERROR) <= TRUSTED;
+            && at(DISPLACEMENT_ERROR) <= TRUSTED
+            && !is_nearly_free(&stiffness, size);
         sound.then_some(PoseResult {
             stiffness: Some(stiffness),
             displacement: Some(displacement),

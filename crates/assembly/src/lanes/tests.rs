@@ -144,6 +144,25 @@ fn every_register_gives_what_the_one_by_one_path_gives() {
     }
 }
 
+/// Asked for, every pose goes through the numeric pass: what [`Plan::sweep`] gives to the last bit.
+#[test]
+fn one_by_one_is_the_numeric_pass_itself() {
+    let model = portal();
+    let plan = Plan::new(&model).expect("a plan");
+    let mut workspace = plan.workspace();
+    let poses = poses(&model);
+    let mut lanes = plan.lanes_one_by_one(&model);
+    assert!(!lanes.is_parallel());
+    for (lane, pose) in poses.iter().enumerate() {
+        lanes.geometry_mut(lane).clone_from(pose);
+    }
+    let results = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    for (result, pose) in results.into_iter().zip(&poses) {
+        assert_eq!(result, Some(plan.sweep(&model, pose, &mut workspace)));
+    }
+    assert_eq!(lanes.one_by_one(), LANES as u64);
+}
+
 /// A bar between two ball joints on the ground, with nothing else: it has no part in the output,
 /// and a moment about it is refused as in a sweep.
 #[test]

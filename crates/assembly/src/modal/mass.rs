@@ -12,6 +12,7 @@ use crate::model::{BodyId, Geometry, Model, NodeId, SegmentId};
 use crate::numeric::{dot, multiply};
 use crate::parameters::line_mass;
 use crate::plan::{Plan, Source, Workspace};
+use crate::room::{self, MOST_NUMBERS};
 use crate::sparse::Pattern;
 
 /// How the masses of beams are put on the nodes.
@@ -60,6 +61,9 @@ struct MassElement {
     mass: Vec<f64>,
 }
 
+/// What asks for too much room where masses depend on many coordinates.
+const COUPLINGS: &str = "its masses at the ends of chains of rigid bodies";
+
 impl MassPlan {
     /// Of a divided model: a mass a segment, then those of the nodes.
     pub fn new(plan: &Plan, model: &Model) -> Result<Self, SolveError> {
@@ -94,8 +98,9 @@ impl MassPlan {
             .clone()
             .chain(holders.iter().map(|h| &h.columns[..]));
         let unknowns = plan.unknowns;
-        let pattern =
-            Pattern::new(unknowns, groups, None).ok_or(SolveError::TooLarge { unknowns })?;
+        let couplings = groups.clone().map(|group| group.len() * group.len());
+        room::check(COUPLINGS, room::sum(couplings), MOST_NUMBERS)?;
+        let pattern = Pattern::new(unknowns, groups, None)?;
         let stiffness_places = elements.flat_map(|c| places(&pattern, c)).collect();
         for holder in &mut holders {
             holder.places = places(&pattern, &holder.columns).collect();

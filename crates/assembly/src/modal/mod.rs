@@ -19,12 +19,15 @@ use crate::model::{BodyId, Geometry, Model, NodeId, Segment};
 use crate::numeric::{Fault, evaluate};
 use crate::plan::{Plan, Workspace};
 use crate::restraint::Restraint;
+use crate::room::{self, MOST_NUMBERS};
 use lanczos::lowest;
 pub use mass::BeamMass;
 use mass::{MassPlan, Masses};
 pub use sensitivity::{FrequencySensitivity, ModalSensitivities};
 use system::{Mode as Found, System};
 
+/// What the inner nodes of too many elements ask for.
+const COORDINATES: &str = "the coordinates of its elements";
 /// Elements of a model at the most.
 const MOST_ELEMENTS: usize = 200_000;
 
@@ -153,6 +156,7 @@ impl ModalPlan {
     /// elements; [`SolveError::SingularCompliance`] for a joint that only a subassembly could take
     /// in, since none is absorbed here.
     pub fn new(model: &Model, options: &ModalOptions) -> Result<Self, SolveError> {
+        model.check()?;
         let bare = |s: &&Segment| s.material.density().is_none();
         if let Some(segment) = model.segments().iter().find(bare) {
             return Err(SolveError::NoDensity {
@@ -161,13 +165,12 @@ impl ModalPlan {
         }
         let sizes = model.segments().iter().map(|segment| segment.elements);
         let elements = sizes.fold(0, usize::saturating_add);
-        if elements > MOST_ELEMENTS {
-            return Err(SolveError::TooLarge {
-                unknowns: elements.saturating_mul(6),
-            });
-        }
+        room::check(COORDINATES, elements.saturating_mul(6), 6 * MOST_ELEMENTS)?;
         let divided = model.divided()?;
         let ready = Ready::new(&divided, divided.geometry())?;
+        let unknowns = ready.plan.unknowns;
+        let numbers = room::matrix(options.count.min(unknowns), unknowns);
+        room::check("its natural modes", numbers, MOST_NUMBERS)?;
         Ok(Self {
             model: model.clone(),
             divided,
@@ -246,6 +249,8 @@ impl ModalPlan {
         diagnose: bool,
         take: impl FnOnce(Outcome<'_>) -> T,
     ) -> Result<T, SolveError> {
+        self.model
+            .check_geometry(geometry, self.ready.plan.one_point)?;
         let geometry = self.model.divided_geometry(geometry)?;
         let mut workspace = self.ready.plan.workspace();
         let mut changed = None;
@@ -283,7 +288,11 @@ impl ModalPlan {
         let held = (!diagnose && !plan.has_idle).then(|| system(None));
         let mut system = match held {
             Some(Ok(system)) => system,
-            _ => system(Some(&Restraint::new(&self.divided, &geometry, plan.output)))?,
+            _ => system(Some(&Restraint::new(
+                &self.divided,
+                &geometry,
+                plan.output,
+            )?))?,
         };
         let mut modes: Vec<Found> = system.moving().take(count).map(Found::at_rest).collect();
         let mut complete = true;

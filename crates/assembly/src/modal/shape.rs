@@ -16,13 +16,19 @@ impl Mode {
     /// `model` is the one whose mode it is, in its own configuration.
     ///
     /// # Errors
-    /// A segment that cannot be formed, which no segment of a solved model is.
+    /// A segment or model that is not the mode's.
     pub fn segment_displacement(
         &self,
         model: &Model,
         id: SegmentId,
         xi: f64,
     ) -> Result<Vector6<f64>, SolveError> {
+        model.check_segment(id)?;
+        if self.displacements.len() != model.nodes().len()
+            || self.inner.len() != model.segments().len()
+        {
+            return Err(SolveError::ForeignModel);
+        }
         let (segment, geometry) = (&model.segments()[id.0], model.geometry());
         let [start, end] = segment.ends.map(|node| geometry.positions[node.0]);
         let span = end - start;

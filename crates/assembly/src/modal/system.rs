@@ -11,6 +11,7 @@ use crate::model::{Geometry, Model};
 use crate::numeric::{dot, multiply};
 use crate::plan::{ElementPlan, Plan, Workspace};
 use crate::restraint::{Restraint, largest_minor, scaled};
+use crate::room::{self, MOST_NUMBERS};
 use crate::solution::Motion;
 use crate::sparse::Factor;
 
@@ -85,6 +86,9 @@ impl<'a> System<'a> {
             idle: 0,
         };
         if let Some((restraint, model, geometry)) = restraint {
+            let motions = restraint.idle.len() + restraint.moving.len();
+            let numbers = room::matrix(motions, plan.unknowns);
+            room::check("its motions without energy", numbers, MOST_NUMBERS)?;
             system.release(restraint, model, geometry);
         }
         let mut held = system.stiffness.clone();

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering};
+use super::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering, fresh_revision};
 use crate::cluster::segment_beam;
 use crate::error::SolveError;
 
@@ -15,6 +15,7 @@ impl Model {
     /// A segment that cannot be formed.
     pub(crate) fn divided(&self) -> Result<Self, SolveError> {
         let mut whole = self.clone();
+        whole.revision = fresh_revision();
         whole.clear_loads();
         whole.segments.clear();
         for body in &mut whole.bodies {

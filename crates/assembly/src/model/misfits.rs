@@ -3,7 +3,7 @@
 use hyperstat_joints::DofSet;
 use nalgebra::Vector6;
 
-use super::Model;
+use super::{Model, fresh_revision};
 use crate::directions::Directions;
 use crate::error::ModelError;
 use crate::parts::{JointId, Misfit};
@@ -15,13 +15,11 @@ impl Model {
     /// in every case. A misfit of a joint with the ground is a support that settles.
     ///
     /// # Errors
-    /// One that is not finite, or not zero along a free direction.
-    ///
-    /// # Panics
-    /// If the joint is not one of this model.
+    /// One that is not finite, or not zero along a free direction; a joint that is not one of this
+    /// model.
     pub fn set_misfit(&mut self, joint: JointId, misfit: &Vector6<f64>) -> Result<(), ModelError> {
         let what = "a misfit";
-        self.check(
+        self.check_entry(
             joint,
             misfit,
             what,
@@ -37,17 +35,15 @@ impl Model {
     /// in every case.
     ///
     /// # Errors
-    /// One that is not finite, or not zero along a rigid direction.
-    ///
-    /// # Panics
-    /// If the joint is not one of this model.
+    /// One that is not finite, or not zero along a rigid direction; a joint that is not one of this
+    /// model.
     pub fn set_preload(
         &mut self,
         joint: JointId,
         preload: &Vector6<f64>,
     ) -> Result<(), ModelError> {
         let what = "a preload";
-        self.check(
+        self.check_entry(
             joint,
             preload,
             what,
@@ -73,7 +69,7 @@ impl Model {
     }
 
     /// Refuses numbers that are not finite, and any along directions without meaning for them.
-    fn check(
+    fn check_entry(
         &self,
         joint: JointId,
         values: &Vector6<f64>,
@@ -84,6 +80,7 @@ impl Model {
         if !values.iter().all(|value| value.is_finite()) {
             return Err(ModelError::NotFinite { what });
         }
+        self.check_joint(joint)?;
         let connection = &self.joints[joint.0];
         let mut wrong = senseless(&Directions::of(connection)).iter();
         match wrong.find(|direction| values[direction.index()] != 0.0) {
@@ -94,6 +91,7 @@ impl Model {
 
     /// Changes the entry of a joint; there is none that says nothing.
     fn change_misfit(&mut self, joint: JointId, change: impl Fn(&mut Misfit)) {
+        self.acting = fresh_revision();
         let place = self.misfits.partition_point(|entry| entry.joint < joint);
         if self.misfits.get(place).is_none_or(|e| e.joint != joint) {
             let none = Misfit {

@@ -383,7 +383,9 @@ fn a_load_turns_with_its_body() {
         let frame = hyperstat_elements::element_frame(&(b - a), None).expect("a frame");
         *y = Some(turn * frame.matrix().column(1));
     }
-    model.set_geometry(geometry);
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let after = solve(&model).expect("a solution").output.displacement;
     let turned = hyperstat_elements::rotate_vector6(&before, &turn);
     assert!((after - turned).amax() < 1e-11 * before.amax());
@@ -418,7 +420,9 @@ fn what_is_not_fixed_in_a_body_does_not_turn_it() {
     let mut geometry = model.geometry().clone();
     geometry.y_axes.fill(Some(Vector3::z()));
     geometry.positions[slide[1].expect("a node").0] += Vector3::new(0.0, 0.2, 0.0);
-    model.set_geometry(geometry);
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let now = [beam, carriage].map(|body| model.body_frame(body).expect("a frame"));
     assert_eq!(now, home);
 }

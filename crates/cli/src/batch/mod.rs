@@ -1,5 +1,6 @@
 //! `hyperstat run`: every job of a batch, to CSV files and figures.
 
+mod consent;
 mod figures;
 mod record;
 mod statistics;
@@ -8,23 +9,28 @@ mod sweep;
 mod table;
 
 use std::fs;
+use std::num::NonZero;
+use std::path::PathBuf;
 
 use hyperstat_mechanisms::{Batch, Job, Registry};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::args;
-use crate::atomic::AtomicFile;
-use crate::case::Source;
+use crate::atomic::{AtomicFile, LONGER};
+use crate::disk::{Disk, LONGEST_NAME};
 use crate::error::CliError;
+use crate::plausibility::Watch;
 use crate::report::json;
+use crate::{outputs, terminal};
 use record::Columns;
 use statistics::Statistics;
 use summary::Summary;
-use sweep::{Chunk, Sweep};
+use sweep::{Chunk, Sweep, Way};
 use table::Table;
 
-/// Runs a batch. `tell` gets the summary of every job.
+/// Runs a batch. `tell` gets the summary of every job; what it fails with ends no run, since the
+/// results are files.
 ///
 /// Returns whether every pose has a result.
 pub(crate) fn run(
@@ -33,37 +39,91 @@ pub(crate) fn run(
     mut tell: impl FnMut(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
     let batch = hyperstat_mechanisms::load_batch(&args.file, registry)?;
-    let sweeps = prepare(&batch)?;
+    let way = match args.one_by_one {
+        true => Way::OneByOne,
+        false => Way::Lanes,
+    };
+    let sweeps = prepare(&batch, way)?;
+    check_outputs(&batch, args)?;
+    consent::ask(&sweeps, args)?;
     fs::create_dir_all(&args.out).map_err(|source| CliError::Write {
         path: args.out.clone(),
         source,
     })?;
-    let pool = ThreadPoolBuilder::new().num_threads(args.threads).build()?;
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(threads(args.threads))
+        .build()?;
     let rows = sweeps.iter().map(|sweep| sweep.len() as u64);
     let bar = progress_bar(rows.fold(0, u64::saturating_add));
     let mut complete = true;
+    let mut told = Ok(());
     for sweep in &sweeps {
         bar.set_message(sweep.job().name.clone());
         let summary = run_job(sweep, args, &pool, &bar)?;
         complete &= summary.is_complete();
-        bar.suspend(|| tell(&summary.to_string()))?;
+        told = told.and(bar.suspend(|| tell(&summary.to_string())));
     }
     bar.finish_and_clear();
-    Ok(complete)
+    told.map(|()| complete)
+}
+
+/// Most threads a core: more would wait for each other.
+const THREADS_A_CORE: usize = 8;
+
+/// The number of threads for so many that are asked for; 0 is one a core.
+fn threads(asked: usize) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, NonZero::get);
+    asked.min(cores.saturating_mul(THREADS_A_CORE))
+}
+
+/// Checks that all outputs can have their names, and are no files that were read.
+fn check_outputs(batch: &Batch, args: &args::Run) -> Result<(), CliError> {
+    let longest = Disk::of(&args.out).map_or(LONGEST_NAME, |disk| disk.longest_name);
+    let mut all = Vec::new();
+    for job in &batch.jobs {
+        let table = table_path(job, args);
+        let summary = args.summary.then(|| summary_path(job, args));
+        let mut files: Vec<PathBuf> = figures::files(job, &table).chain(summary).collect();
+        files.push(table);
+        for file in &files {
+            let name = file.file_name().unwrap_or_default().to_string_lossy();
+            let length = (name.len() + LONGER) as u64;
+            if length > longest {
+                return Err(CliError::NameTooLong {
+                    location: Box::new(job.location()),
+                    job: job.name.clone(),
+                    file: name.into_owned(),
+                    length,
+                    longest: longest.saturating_sub(length - job.name.len() as u64),
+                });
+            }
+        }
+        all.extend(files);
+    }
+    outputs::refuse(all.iter().map(|path| &**path), &batch.files())
+}
+
+/// The file of a job's table.
+fn table_path(job: &Job, args: &args::Run) -> PathBuf {
+    let extension = args.format.extension();
+    args.out.join(format!("{}.{extension}", job.name))
+}
+
+/// The file of a job's measures over its poses.
+fn summary_path(job: &Job, args: &args::Run) -> PathBuf {
+    args.out.join(format!("{}-summary.json", job.name))
 }
 
 /// Checks all jobs before the first runs.
-fn prepare(batch: &Batch) -> Result<Vec<Sweep<'_>>, CliError> {
-    batch.jobs.iter().map(prepare_job).collect()
+fn prepare(batch: &Batch, way: Way) -> Result<Vec<Sweep<'_>>, CliError> {
+    let prepare = |job| prepare_job(job, way);
+    batch.jobs.iter().map(prepare).collect()
 }
 
-fn prepare_job(job: &Job) -> Result<Sweep<'_>, CliError> {
-    let columns: Vec<_> = table::columns(&Columns::of(job)).collect();
+fn prepare_job(job: &Job, way: Way) -> Result<Sweep<'_>, CliError> {
+    let columns = table::numeric(&Columns::of(job));
     figures::check(job, &columns)?;
-    Sweep::new(job).map_err(|unsolvable| {
-        let (model, error) = *unsolvable;
-        Source::Job(job).unsolvable(&model, error)
-    })
+    Sweep::new(job, way)
 }
 
 /// Writes a job's table and its figures.
@@ -74,9 +134,7 @@ fn run_job(
     bar: &ProgressBar,
 ) -> Result<Summary, CliError> {
     let job = sweep.job();
-    let path = args
-        .out
-        .join(format!("{}.{}", job.name, args.format.extension()));
+    let path = table_path(job, args);
     let cannot_write = |source| CliError::Write {
         path: path.clone(),
         source,
@@ -85,6 +143,7 @@ fn run_job(
     let mut summary = Summary::new(job);
     let mut statistics = Statistics::default();
     let mut trajectory = figures::Trajectory::wanted_by(job);
+    let mut watch = Watch::new(job);
     let render = |chunk: &mut Chunk| {
         Table::render(args.format, chunk);
         chunk.measures.clear();
@@ -94,11 +153,13 @@ fn run_job(
         }
     };
     sweep.run(pool, render, |chunk| -> Result<(), CliError> {
-        if let Some(refused) = chunk.refused.take() {
-            return Err(refused.into());
-        }
         table.append(chunk).map_err(cannot_write)?;
         summary.add(&chunk.records);
+        for (row, record) in chunk.rows.clone().zip(&chunk.records) {
+            if let Ok(found) = &record.result {
+                watch.see(row, &found.displacement);
+            }
+        }
         for (k, values) in chunk.measures.iter().enumerate() {
             if let Some(values) = values {
                 let row = chunk.rows.start + k;
@@ -106,17 +167,19 @@ fn run_job(
             }
         }
         if let Some(trajectory) = &mut trajectory {
-            // Figures are of the first design.
-            let more = job.len().saturating_sub(chunk.rows.start);
-            trajectory.add(&chunk.records[..more.min(chunk.records.len())]);
+            // Figures are of the first design that can be.
+            let first = job.first_design() * job.len();
+            let place = |row: usize| row.clamp(chunk.rows.start, chunk.rows.end) - chunk.rows.start;
+            trajectory.add(&chunk.records[place(first)..place(first + job.len())]);
         }
         bar.inc(chunk.records.len() as u64);
         Ok(())
     })?;
     table.commit().map_err(cannot_write)?;
     summary.wrote(path.clone());
+    summary.warned(watch.warnings(job));
     if let Some(found) = args.summary.then(|| statistics.report()).flatten() {
-        let path = args.out.join(format!("{}-summary.json", job.name));
+        let path = summary_path(job, args);
         let text = json(&found)?;
         AtomicFile::write(&path, text.as_bytes()).map_err(|source| CliError::Write {
             path: path.clone(),
@@ -132,7 +195,10 @@ fn run_job(
 
 /// A bar on a terminal; nothing elsewhere.
 fn progress_bar(poses: u64) -> ProgressBar {
-    let bar = ProgressBar::new(poses);
+    let bar = match terminal::cannot_redraw() {
+        true => ProgressBar::hidden(),
+        false => ProgressBar::new(poses),
+    };
     // The template is a constant that a test reads.
     if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
         bar.set_style(style);
@@ -150,7 +216,7 @@ mod tests {
     use indicatif::{ProgressBar, ProgressStyle};
     use rayon::ThreadPoolBuilder;
 
-    use super::{prepare, run_job};
+    use super::{Way, prepare, run_job, threads};
     use crate::args::{Run, TableFormat};
 
     const BATCH: &str = r#"(jobs: [(
@@ -168,7 +234,7 @@ mod tests {
     #[test]
     fn the_bar_ends_at_the_number_of_poses() {
         let batch = batch_from_str(BATCH, Path::new("."), &Registry::builtin()).unwrap();
-        let sweeps = prepare(&batch).unwrap();
+        let sweeps = prepare(&batch, Way::Lanes).unwrap();
         let out = std::env::temp_dir().join(format!("hyperstat-bar-{}", std::process::id()));
         std::fs::create_dir_all(&out).unwrap();
         let pool = ThreadPoolBuilder::new().num_threads(3).build().unwrap();
@@ -180,12 +246,22 @@ mod tests {
             format: TableFormat::Parquet,
             threads: 3,
             summary: false,
+            yes: false,
+            one_by_one: false,
         };
         let summary = run_job(&sweeps[0], &args, &pool, &bar).unwrap();
         assert!(!summary.is_complete());
         assert_eq!(bar.position(), 2100);
         assert_eq!(bar.length(), Some(2100));
         std::fs::remove_dir_all(out).unwrap();
+    }
+
+    #[test]
+    fn threads_are_as_many_as_make_sense() {
+        let cores = std::thread::available_parallelism().unwrap().get();
+        assert_eq!((threads(0), threads(1)), (0, 1));
+        assert_eq!(threads(8 * cores), 8 * cores);
+        assert_eq!(threads(usize::MAX), 8 * cores);
     }
 
     #[test]

@@ -23,11 +23,24 @@ const MEASURES: [(&str, &str, &str); COUNT] = [
     ("compliance_z", "compliance along z", "m/N"),
     ("softest_force", "compliance, softest direction", "m/N"),
     ("softest_moment", "compliance, softest moment", "rad/(N·m)"),
-    ("stiffness_least", "stiffness, least principal", "N/m"),
-    ("stiffness_most", "stiffness, greatest principal", "N/m"),
+    (
+        "pure_force_stiffness_min",
+        "stiffness, pure force, least",
+        "N/m",
+    ),
+    (
+        "pure_translation_stiffness_min",
+        "stiffness, pure translation, least",
+        "N/m",
+    ),
+    (
+        "pure_translation_stiffness_max",
+        "stiffness, pure translation, greatest",
+        "N/m",
+    ),
     ("virtual_work_index", "virtual-work index of forces", "J"),
 ];
-const COUNT: usize = 9;
+const COUNT: usize = 10;
 
 /// The measures of one pose.
 pub(crate) type Values = [f64; COUNT];
@@ -45,14 +58,16 @@ pub(crate) fn measure(record: &Record) -> Option<Values> {
     let compliance = Matrix6::from_fn(|r, c| inverse[(r, c)] / (scale[r] * scale[c]));
     let block = |m: &Matrix6<f64>, k: usize| -> Matrix3<f64> { m.fixed_view::<3, 3>(k, k).into() };
     let forces = block(&compliance, 0);
+    let softest = principal(&forces).values[2];
     let stiffnesses = principal(&block(stiffness, 0)).values;
     let values = [
         displacement.fixed_rows::<3>(0).norm(),
         forces[(0, 0)],
         forces[(1, 1)],
         forces[(2, 2)],
-        principal(&forces).values[2],
+        softest,
         principal(&block(&compliance, 3)).values[2],
+        1.0 / softest,
         stiffnesses[0],
         stiffnesses[2],
         forces.trace() / 3.0,
@@ -84,12 +99,12 @@ struct Extreme {
     /// Row of the table, from 0.
     row: usize,
     /// Pose of the output.
-    at: [f64; 6],
+    at: [Option<f64>; 6],
 }
 
 impl Statistics {
     /// Adds the pose of a row.
-    pub(crate) fn add(&mut self, row: usize, at: &[f64; 6], values: &Values) {
+    pub(crate) fn add(&mut self, row: usize, at: &[Option<f64>; 6], values: &Values) {
         self.count += 1;
         for (spread, value) in self.of.iter_mut().zip(values) {
             spread.add(Extreme {
@@ -218,7 +233,7 @@ impl fmt::Display for Told<'_> {
         write!(f, "{table}")?;
         // Where the output is softest.
         if let Some(worst) = self.0.iter().find(|r| r.measure == "softest_force") {
-            let [x, y, z] = [0, 1, 2].map(|k| number(worst.max.at[k]));
+            let [x, y, z] = [0, 1, 2].map(|k| number(worst.max.at[k].unwrap_or_default()));
             writeln!(f, "  softest at ({x}, {y}, {z}) m, row {}", worst.max.row)?;
         }
         Ok(())
@@ -236,11 +251,11 @@ mod tests {
         for row in 0..count {
             // A shuffled 1..=10000, cubed.
             let value = f64::from((row * 7919) % count + 1).powi(3);
-            statistics.add(row as usize, &[f64::from(row); 6], &[value; COUNT]);
+            statistics.add(row as usize, &[Some(f64::from(row)); 6], &[value; COUNT]);
         }
         let report = &statistics.report().unwrap()[4];
         assert_eq!((report.min.value, report.max.value), (1.0, 1e12));
-        assert_eq!((report.min.row, report.min.at[0]), (0, 0.0));
+        assert_eq!((report.min.row, report.min.at[0]), (0, Some(0.0)));
         for (found, expected) in report.percentiles.iter().zip([500.0_f64, 5000.0, 9500.0]) {
             assert!((found.value / expected.powi(3) - 1.0).abs() < RESOLUTION);
         }
@@ -252,7 +267,7 @@ mod tests {
     #[test]
     fn no_load_is_no_deflection() {
         let mut statistics = Statistics::default();
-        statistics.add(0, &[0.0; 6], &[0.0; COUNT]);
+        statistics.add(0, &[Some(0.0); 6], &[0.0; COUNT]);
         let report = statistics.report().unwrap();
         assert_eq!(report[0].percentiles[1].value, 0.0);
         assert!(Statistics::default().report().is_none());

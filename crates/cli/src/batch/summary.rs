@@ -28,6 +28,7 @@ pub(crate) struct Summary {
     figures_left_out: Vec<(String, String)>,
     largest_difference: Option<f64>,
     measures: Vec<Report>,
+    warnings: Vec<String>,
 }
 
 /// The poses of one status.
@@ -54,6 +55,7 @@ impl Summary {
             figures_left_out: Vec::new(),
             largest_difference: None,
             measures: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -101,6 +103,11 @@ impl Summary {
         self.measures = measures;
     }
 
+    /// Notes what is hardly as it was meant.
+    pub(crate) fn warned(&mut self, warnings: Vec<String>) {
+        self.warnings.extend(warnings);
+    }
+
     /// Whether every pose has a result.
     pub(crate) fn is_complete(&self) -> bool {
         self.failures.is_empty()
@@ -138,6 +145,9 @@ impl fmt::Display for Summary {
                 f,
                 "  {count} {status}, the first of them {design}pose {pose}: {why}"
             )?;
+        }
+        for warning in &self.warnings {
+            writeln!(f, "  warning: {warning}")?;
         }
         for path in &self.files {
             writeln!(f, "  {}", path.display())?;

@@ -6,11 +6,13 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Model, Plan, SolveError};
-use hyperstat_mechanisms::{Design, Job, LoadError, Value};
+use hyperstat_mechanisms::{Design, Job, Value};
 use rayon::{Scope, ThreadPool};
 
 use super::record::{Columns, Failure, Found, Record};
 use super::statistics::Values;
+use crate::case::Source;
+use crate::error::CliError;
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
@@ -18,12 +20,26 @@ const CHUNK: usize = 32 * LANES;
 /// The same where natural frequencies make a row take long.
 const SHORT_CHUNK: usize = LANES;
 
+/// Designs after the first among which one has a topology, where the first has none.
+const TRIED: usize = 1000;
+
 /// A job whose topology is worked out.
 #[derive(Debug)]
 pub(crate) struct Sweep<'a> {
     job: &'a Job,
-    /// The first design.
-    first: Result<Arc<Planned>, Failure>,
+    way: Way,
+    /// Number of a design that the others share with what they can, and why no pose of it is reached,
+    /// where none is.
+    first: (usize, Result<Arc<Planned>, Failure>),
+}
+
+/// The way that poses go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// Through the lanes, where they take the mechanism.
+    Lanes,
+    /// Each by itself through the numeric pass.
+    OneByOne,
 }
 
 /// A model in some configuration and its plan.
@@ -50,10 +66,10 @@ pub(crate) struct Chunk {
     pub(crate) poses: usize,
     /// Further numbers that a row has where it has a result.
     pub(crate) further: usize,
+    /// Values of the drives that make its pose, of every row those of a job that gives them.
+    pub(crate) drives: Vec<f64>,
     /// Of a job that varies the designs, by number, that the rows are of, and their values.
     pub(crate) designs: Vec<(usize, Vec<Value>)>,
-    /// Why a design cannot be made; the records end before it.
-    pub(crate) refused: Option<LoadError>,
 }
 
 /// A row of a job's table.
@@ -64,6 +80,8 @@ pub(crate) struct Row<'c> {
     pub(crate) record: &'c Record,
     /// Further numbers that it has where it has a result.
     pub(crate) further: usize,
+    /// Values of the drives, in a job that gives them.
+    pub(crate) drives: &'c [f64],
     /// Number of the design and its values, in a job that varies.
     pub(crate) design: Option<(usize, &'c [Value])>,
 }
@@ -72,16 +90,18 @@ impl Chunk {
     /// The rows in order.
     pub(crate) fn table_rows(&self) -> impl Iterator<Item = Row<'_>> {
         let first = self.rows.start.checked_div(self.poses).unwrap_or(0);
+        let drives = self.drives.len() / self.records.len().max(1);
         self.rows
             .clone()
-            .zip(&self.records)
-            .map(move |(row, record)| {
+            .zip(self.records.iter().enumerate())
+            .map(move |(row, (place, record))| {
                 let design = row.checked_div(self.poses).unwrap_or(0);
                 let of_design = self.designs.get(design - first);
                 Row {
                     pose: row - design * self.poses,
                     record,
                     further: self.further,
+                    drives: &self.drives[place * drives..][..drives],
                     design: of_design.map(|(number, values)| (*number, values.as_slice())),
                 }
             })
@@ -89,22 +109,28 @@ impl Chunk {
 }
 
 impl<'a> Sweep<'a> {
-    /// Works out the topology of a job.
+    /// Works out the topology of a job: of the first of its designs that has one.
     ///
     /// # Errors
-    /// The model, and why no pose of it can be solved.
-    pub(crate) fn new(job: &'a Job) -> Result<Self, Box<(Model, SolveError)>> {
-        let first = match job.model() {
-            Err(error) => Err(error.into()),
-            Ok(model) => {
-                let planned = Plan::new(&model);
-                match planned.and_then(|plan| Planned::of(plan, model.clone(), job)) {
-                    Err(error) => return Err(Box::new((model, error))),
-                    Ok(planned) => Ok(Arc::new(planned)),
-                }
-            }
+    /// Why the first design that can be has none, where none of the next [`TRIED`] has one.
+    pub(crate) fn new(job: &'a Job, way: Way) -> Result<Self, CliError> {
+        let planned = |number| -> Result<_, CliError> {
+            let design = job.design(number)?;
+            let model = match design.model() {
+                Ok(model) => model,
+                // No pose in reach is told of its rows.
+                Err(error) => return Ok((number, Err(Failure::from(error)))),
+            };
+            let plan = Plan::new(&model).and_then(|plan| Planned::of(plan, model.clone(), job));
+            let planned =
+                plan.map_err(|error| Source::Design(job, &design).unsolvable(&model, error));
+            Ok((number, Ok(Arc::new(planned?))))
         };
-        Ok(Self { job, first })
+        let first = job.first_design();
+        let mut others = (first + 1..job.designs()).take(TRIED);
+        let first = planned(first)
+            .or_else(|error| others.find_map(|number| planned(number).ok()).ok_or(error))?;
+        Ok(Self { job, way, first })
     }
 
     /// The job.
@@ -138,8 +164,9 @@ impl<'a> Sweep<'a> {
                 .lock()
                 .unwrap_or_else(PoisonError::into_inner);
             chunk.records.clear();
+            chunk.drives.clear();
             chunk.designs.clear();
-            chunk.refused = self.solve(&mut solver, chunk).err();
+            self.solve(&mut solver, chunk);
             drop(solver);
             chunk.text.clear();
             render(chunk);
@@ -177,39 +204,58 @@ impl<'a> Sweep<'a> {
     }
 
     /// Solves the rows of a chunk with a thread's solver, which is left at their last design.
-    fn solve(&self, solver: &mut Option<Solver>, chunk: &mut Chunk) -> Result<(), LoadError> {
+    fn solve(&self, solver: &mut Option<Solver>, chunk: &mut Chunk) {
         let poses = self.job.len();
         let mut rows = chunk.rows.clone();
         while !rows.is_empty() {
             let number = rows.start / poses;
             let own = match solver {
-                Some(own) if own.design.number() == number => own,
-                _ => solver.insert(self.solver(number)?),
+                Some(own) if own.number == number => own,
+                _ => solver.insert(self.solver(number)),
             };
             if !self.job.varied().is_empty() {
-                let values = own.design.values().to_vec();
-                chunk.designs.push((number, values));
+                chunk.designs.push((number, self.job.values(number)));
             }
             let first = number * poses;
             let end = rows.end.min(first + poses);
-            own.solve(rows.start - first..end - first, &mut chunk.records);
+            let range = rows.start - first..end - first;
+            for pose in range.clone() {
+                chunk.drives.extend(self.job.drive_values(pose));
+            }
+            own.solve(self.job, range, &mut chunk.records);
             rows.start = end;
         }
-        Ok(())
     }
 
     /// A thread's solver of a design.
-    fn solver(&self, number: usize) -> Result<Solver, LoadError> {
-        let design = self.job.design(number)?;
-        let planned = match number {
-            0 => self.first.clone(),
-            _ => Planned::new(&design, self.job, &self.first).map(Arc::new),
+    fn solver(&self, number: usize) -> Solver {
+        let design = match self.job.design(number) {
+            Ok(design) => design,
+            Err(error) => {
+                return Solver {
+                    number,
+                    design: None,
+                    ready: Err(Failure::Design(Arc::new(error))),
+                };
+            }
+        };
+        let (first, planned) = &self.first;
+        let planned = match number == *first {
+            true => planned.clone(),
+            false => Planned::new(&design, self.job, planned).map(Arc::new),
         };
         let ready = planned.map(|planned| {
-            let lanes = planned.plan.lanes(&planned.model);
+            let lanes = match self.way {
+                Way::Lanes => planned.plan.lanes(&planned.model),
+                Way::OneByOne => planned.plan.lanes_one_by_one(&planned.model),
+            };
             (planned, lanes)
         });
-        Ok(Solver { design, ready })
+        Solver {
+            number,
+            design: Some(design),
+            ready,
+        }
     }
 }
 
@@ -267,7 +313,9 @@ fn start<'s>(
 
 /// A design with one thread's own poses and buffers.
 struct Solver {
-    design: Design,
+    number: usize,
+    /// Where it can be.
+    design: Option<Design>,
     /// Why no pose of it can be solved, where none can.
     ready: Result<(Arc<Planned>, Lanes), Failure>,
 }
@@ -275,19 +323,29 @@ struct Solver {
 impl Solver {
     /// Appends a record for each of these poses. What is found at a pose does not depend on the
     /// poses that are solved with it, nor on those that were solved before.
-    fn solve(&mut self, poses: Range<usize>, records: &mut Vec<Record>) {
-        let Self { design, ready } = self;
+    fn solve(&mut self, job: &Job, poses: Range<usize>, records: &mut Vec<Record>) {
         let unreached = |pose, failure| Record {
-            pose: design.target(pose),
+            pose: job.target(pose),
             result: Err(failure),
         };
-        let (planned, lanes) = match ready {
+        let (planned, lanes) = match &mut self.ready {
             Ok((planned, lanes)) => (planned, lanes),
             Err(failure) => {
-                records.extend(poses.map(|pose| unreached(pose, failure.clone())));
+                let failure = failure.clone();
+                let model = self.design.as_ref().and_then(|design| design.model().ok());
+                let mut geometry = model.map(|model| model.geometry().clone());
+                records.extend(poses.map(|pose| {
+                    let placed = self.design.as_ref().zip(geometry.as_mut());
+                    let placed = placed.map(|(design, geometry)| design.place(pose, geometry));
+                    match placed {
+                        Some(Ok(pose)) => Record::reached(pose, Err(failure.clone())),
+                        _ => unreached(pose, failure.clone()),
+                    }
+                }));
                 return;
             }
         };
+        let Some(design) = &self.design else { return };
         for first in poses.clone().step_by(LANES) {
             let mut placed = [const { None }; LANES];
             for (lane, pose) in (first..poses.end).take(LANES).enumerate() {
@@ -305,7 +363,7 @@ impl Solver {
                                 Err(error) => result = Err(error.into()),
                             }
                         }
-                        records.push(Record { pose, result });
+                        records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),
                     _ => {}

@@ -129,7 +129,7 @@ fn axes(model: &Model, place: usize, joint: &Connection) -> Vec<Axis> {
         return Vec::new();
     };
     let frame = model.geometry().frames[place];
-    let free = joint.joint.free();
+    let free = joint.released();
     let free_of = |dofs: [Dof; 3]| -> Vec<usize> {
         let is_free = |axis: &usize| free.contains(dofs[*axis]);
         (0..3).filter(is_free).collect()
@@ -190,7 +190,11 @@ pub(crate) fn compare(
     figure.second = Some(SecondPoints {
         name: SECOND.into(),
         points: nodes.iter().map(|node| position(model, *node)).collect(),
-        difference: difference(&of(&solution.displacements), &displacement),
+        difference: difference(
+            &of(&solution.displacements),
+            &displacement,
+            solution.floor.least_displacement(),
+        ),
         displacement,
     });
 }

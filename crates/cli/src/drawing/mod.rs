@@ -73,12 +73,7 @@ impl Drawing {
 
     /// Writes the figure as `STEM.svg` and `STEM.png`; both are drawn before the first is written.
     pub(crate) fn write(&self, stem: &Path) -> Result<[PathBuf; 2], CliError> {
-        let [as_svg, as_png] = ["svg", "png"].map(|extension| {
-            let mut path = stem.as_os_str().to_owned();
-            path.push(".");
-            path.push(extension);
-            PathBuf::from(path)
-        });
+        let [as_svg, as_png] = files(stem);
         let cannot_draw = |path: &Path, source| CliError::Figure {
             path: path.into(),
             source,
@@ -93,6 +88,16 @@ impl Drawing {
         }
         Ok([as_svg, as_png])
     }
+}
+
+/// The files `STEM.svg` and `STEM.png` of a figure.
+pub(crate) fn files(stem: &Path) -> [PathBuf; 2] {
+    ["svg", "png"].map(|extension| {
+        let mut path = stem.as_os_str().to_owned();
+        path.push(".");
+        path.push(extension);
+        PathBuf::from(path)
+    })
 }
 
 /// Title of a figure of one configuration: the mechanism's name, or the job's with its design and
@@ -121,10 +126,20 @@ pub(crate) fn linear(displacement: &Vector6<f64>) -> [f64; 3] {
 }
 
 /// The largest difference between two lists of displacements over the largest displacement in
-/// either; zero where nothing moves.
-pub(crate) fn difference(ours: &[[f64; 3]], others: &[[f64; 3]]) -> f64 {
+/// either, over `least` where all are smaller; zero where nothing moves.
+pub(crate) fn difference(ours: &[[f64; 3]], others: &[[f64; 3]], least: f64) -> f64 {
+    difference_in(ours, others, ours, least)
+}
+
+/// The same over the largest displacement of the second list or of `all`.
+pub(crate) fn difference_in(
+    ours: &[[f64; 3]],
+    others: &[[f64; 3]],
+    all: &[[f64; 3]],
+    least: f64,
+) -> f64 {
     let norm = |v: &[f64; 3]| v[0].hypot(v[1]).hypot(v[2]);
-    let largest = ours.iter().chain(others).map(norm).fold(0.0, f64::max);
+    let largest = all.iter().chain(others).map(norm).fold(least, f64::max);
     let pairs = ours.iter().zip(others);
     let apart = pairs
         .map(|(a, b)| norm(&[a[0] - b[0], a[1] - b[1], a[2] - b[2]]))
@@ -140,9 +155,10 @@ mod tests {
     fn the_difference_is_relative_to_the_largest_displacement() {
         let ours = [[0.0, 3.0, 4.0], [1.0, 0.0, 0.0]];
         let others = [[0.0, 3.0, 4.0], [1.0, 0.5, 0.0]];
-        assert_eq!(difference(&ours, &others), 0.1);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0; 3]]), 0.0);
-        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]]), 1.0);
+        assert_eq!(difference(&ours, &others, 1.0), 0.1);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0; 3]], 0.0), 0.0);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]], 0.0), 1.0);
+        assert_eq!(difference(&[[0.0; 3]], &[[0.0, 2.0, 0.0]], 4.0), 0.5);
     }
 
     #[test]

@@ -7,6 +7,8 @@ use hyperstat_mechanisms::Location;
 use parquet::errors::ParquetError;
 use thiserror::Error;
 
+use super::plane::digits;
+
 /// A table that cannot be drawn, or does not hold what is asked for.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -57,6 +59,21 @@ pub(crate) enum PlotError {
         value: f64,
         known: Vec<f64>,
     },
+    /// Of a coordinate that poses have not.
+    #[error("`{name}` is no coordinate of these poses")]
+    NoCoordinate { name: String, help: String },
+    /// A plane of a coordinate that nobody asked for.
+    #[error("`{axis}` follows from {}: it has no planes", .asked.join(", "))]
+    Follows { axis: String, asked: Vec<String> },
+    /// Planes of so many coordinates that none is left.
+    #[error("all coordinates but one are held: there are no two for a map")]
+    AllHeld,
+    /// A quantity that a table will not hold.
+    #[error("there is no quantity `{name}`")]
+    NoQuantity { name: String, help: String },
+    /// A magnification where colours are meant, or the other way round.
+    #[error("`--scale {given}` is none of {of}")]
+    Scale { given: String, of: &'static str },
     /// A plane normal to one of the axes that lie in it.
     #[error("a plane at one {axis} does not lie along {axis}")]
     AlongNormal { axis: String },
@@ -64,7 +81,7 @@ pub(crate) enum PlotError {
     #[error("the table has several poses at {} = {}, {} = {}", .axes[0], .at[0], .axes[1], .at[1])]
     Several {
         axes: [String; 2],
-        at: [f64; 2],
+        at: [String; 2],
         /// Coordinates in which they differ.
         differ: Vec<String>,
     },
@@ -157,7 +174,15 @@ impl PlotError {
                 Some("the table is not as `hyperstat run` wrote it; run the batch again".into())
             }
             Self::Texts { .. } => Some("choose a column of numbers".into()),
-            Self::UnknownColumn { help, .. } => Some(help.clone()),
+            Self::UnknownColumn { help, .. }
+            | Self::NoCoordinate { help, .. }
+            | Self::NoQuantity { help, .. } => Some(help.clone()),
+            Self::Follows { asked, .. } => {
+                Some(format!("choose a plane of {}, or none", asked.join(", ")))
+            }
+            Self::AllHeld => Some("leave out some of the planes".into()),
+            Self::Scale { of: MAP, .. } => Some("give `log` or `linear`, or leave it out".into()),
+            Self::Scale { .. } => Some("give a factor above zero, such as 200".into()),
             Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
             Self::AlongNormal { .. } => Some("choose other `--axes`, or another `--plane`".into()),
             Self::Several { differ, .. } => Some(match &**differ {
@@ -176,21 +201,27 @@ impl PlotError {
     }
 }
 
+/// What a scale of colours is of, and one that magnifies.
+pub(super) const MAP: &str = "a map";
+pub(super) const SHAPE: &str = "what is magnified";
+
 /// The planes that there are, in words.
 fn planes(axis: &str, known: &[f64]) -> String {
     const MOST: usize = 12;
     let list = |values: &[f64]| {
-        let values: Vec<_> = values.iter().map(f64::to_string).collect();
+        let values: Vec<_> = values.iter().map(|value| digits(*value, known)).collect();
         values.join(", ")
     };
     match known {
         [] => "the table has no pose".into(),
         known if known.len() <= MOST => format!("there are planes at {axis} = {}", list(known)),
         [first, .., last] => format!(
-            "there are {} planes from {axis} = {first} to {last}: {}, …",
+            "there are {} planes from {axis} = {} to {}: {}, …",
             known.len(),
+            list(&[*first]),
+            list(&[*last]),
             list(&known[..MOST])
         ),
-        [only] => format!("there is one at {axis} = {only}"),
+        [only] => format!("there is one at {axis} = {}", list(&[*only])),
     }
 }

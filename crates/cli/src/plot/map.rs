@@ -1,9 +1,11 @@
 //! A quantity over planes of a table's poses.
 
-use hyperstat_figures::{MapFigure, MapPanel, Quantity, Samples};
+use hyperstat_figures::{ColorScale, MapFigure, MapPanel, Quantity, Samples};
+use hyperstat_mechanisms::Commanded;
 
+use super::coordinates::{Coordinates, POSE, unknown};
 use super::error::PlotError;
-use super::plane::{COORDINATES, Levels};
+use super::plane::Levels;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
 use super::table::{Column, Table};
@@ -17,51 +19,63 @@ pub(crate) struct Map {
     pub(crate) value: String,
     /// Coordinates that are held, and at what.
     pub(crate) planes: Vec<(String, f64)>,
-    /// Coordinates along the axes; those that are not held, by default.
+    /// Coordinates along the axes; two of those that were asked for, by default.
     pub(crate) axes: Option<[String; 2]>,
+    /// Names of the coordinates that the poses were asked for by, where that is known.
+    pub(crate) asked: Option<Vec<String>>,
+    pub(crate) limits: Option<[f64; 2]>,
+    pub(crate) scale: ColorScale,
     pub(crate) choice: Choice,
     pub(crate) title: Option<String>,
 }
 
-/// The poses of a table that have a place.
+/// The poses of a table with a value each.
 struct Poses {
-    /// Values of each coordinate.
-    levels: [Levels; 6],
+    coordinates: Coordinates,
     values: Column,
 }
+
+/// Of every coordinate the level that it is held at.
+type Held = Vec<Option<usize>>;
 
 /// The figure of a map.
 pub(crate) fn figure(table: &Table, map: &Map) -> Result<MapFigure, PlotError> {
     let drawn = Drawn::of_table(&map.value, table)?;
-    let poses = Poses::read(table, &drawn, map.choice)?;
-    let held = map.held(&poses)?;
-    let axes = map.axes(&poses, &held)?;
-    // What is neither held nor along an axis has a panel for each value, or is no matter.
-    let free = (0..6).filter(|k| !axes.contains(k) && held[*k].is_none());
-    let mut free = free.filter(|k| poses.levels[*k].values.len() > 1);
-    let across = free.next();
-    let others: Vec<usize> = free.collect();
-    let (name, planes) = match across {
-        None => (None, vec![None]),
+    let rows = map.choice.rows(table)?;
+    let poses = Poses {
+        coordinates: Coordinates::read(table, &rows, map.asked.as_deref())?,
+        values: chosen(&drawn.read(table)?, &rows),
+    };
+    let coordinates = &poses.coordinates;
+    let held = map.held(coordinates)?;
+    let free: Vec<usize> = (coordinates.asked.iter().copied())
+        .filter(|k| held[*k].is_none())
+        .collect();
+    let axes = map.axes(coordinates, &free, &held)?;
+    let of_planes = poses.rows(&held).len();
+    let others = coordinates.across(&free, axes, of_planes);
+    let across = others.first().copied();
+    let planes = match across {
+        None => vec![None],
         Some(k) => {
-            let count = poses.levels[k].values.len();
-            (Some(k), evenly(count).into_iter().map(Some).collect())
+            let shown = evenly(coordinates.count(k), MOST_PLANES).into_iter();
+            shown.map(|level| Some((k, level))).collect()
         }
     };
     let mut panels = Vec::new();
+    let mut lost = 0;
     for plane in &planes {
-        let mut wanted = held;
-        if let (Some(k), Some(level)) = (name, plane) {
-            wanted[k] = Some(*level);
+        let mut wanted = held.clone();
+        if let Some((k, level)) = plane {
+            wanted[*k] = Some(*level);
         }
-        let rows = poses.rows(&wanted);
-        let label = match (name, plane) {
-            (Some(k), Some(level)) => place(k, poses.levels[k].values[*level]),
-            _ => String::new(),
-        };
+        let mut rows = poses.rows(&wanted);
+        let all = rows.len();
+        rows.retain(|row| axes.iter().all(|k| poses.level(*k, *row).is_some()));
+        lost += all - rows.len();
         panels.push(MapPanel {
-            name: label,
-            samples: poses.samples(&rows, axes, &others)?,
+            name: plane.map_or_else(String::new, |(k, level)| coordinates.place(k, level)),
+            samples: poses.samples(&rows, axes, others.get(1..).unwrap_or_default())?,
         });
     }
     let has_value = |panel: &MapPanel| match &panel.samples {
@@ -74,33 +88,20 @@ pub(crate) fn figure(table: &Table, map: &Map) -> Result<MapFigure, PlotError> {
             path: table.path().into(),
         });
     }
-    let mut over: Vec<String> = (0..6)
-        .filter_map(|k| Some(place(k, poses.levels[k].values[held[k]?])))
-        .collect();
-    if held.iter().all(Option::is_none) && name.is_none() && axes.iter().all(|k| *k < 3) {
-        // The only plane there is.
-        let normal = 3 - axes[0] - axes[1];
-        over.extend(
-            poses.levels[normal]
-                .values
-                .first()
-                .map(|v| place(normal, *v)),
-        );
+    let mut over = poses.held_in_words(&held, axes);
+    if let Some(k) = across {
+        let (all, shown) = (coordinates.count(k), planes.len());
+        let name = &coordinates.get(k).name;
+        over.push(match shown < all {
+            true => format!("{shown} of {all} planes of {name}"),
+            false => format!("{all} planes of {name}"),
+        });
     }
-    if let Some(k) = name {
-        let all = poses.levels[k].values.len();
-        let shown = planes.len();
-        let count = if shown < all {
-            format!("{shown} of {all} planes of {}", COORDINATES[k])
-        } else {
-            format!("{all} planes of {}", COORDINATES[k])
-        };
-        over.push(count);
+    match lost {
+        0 => {}
+        1 => over.push("1 pose has no place here".into()),
+        lost => over.push(format!("{lost} poses have no place here")),
     }
-    let [first, second] = axes.map(|k| {
-        let name = COORDINATES[k];
-        Quantity::new(name, if k < 3 { "m" } else { "rad" })
-    });
     let words = match drawn.words == drawn.quantity.name {
         true => drawn.words.clone(),
         false => format!("{}: {}", drawn.quantity.name, drawn.words),
@@ -109,54 +110,87 @@ pub(crate) fn figure(table: &Table, map: &Map) -> Result<MapFigure, PlotError> {
         [] => String::new(),
         over => format!("; {}", over.join(", ")),
     };
+    let axis = |k: usize| {
+        let coordinate = coordinates.get(k);
+        Quantity::new(&*coordinate.name, coordinate.unit)
+    };
     Ok(MapFigure {
         title: map.title.clone().unwrap_or_else(|| table.job()),
         subtitle: format!("{words}{over}."),
-        axes: [first, second],
+        axes: axes.map(axis),
         quantity: drawn.quantity,
+        limits: map.limits,
+        scale: map.scale,
         panels,
     })
 }
 
 impl Map {
-    /// The level of each coordinate that is held.
-    fn held(&self, poses: &Poses) -> Result<[Option<usize>; 6], PlotError> {
-        let mut held = [None; 6];
-        for (axis, value) in &self.planes {
-            if let Some(k) = COORDINATES.iter().position(|name| name == axis) {
-                held[k] = Some(poses.levels[k].asked(axis, *value)?);
+    /// That poses which give these coordinates have the planes and the axes.
+    pub(crate) fn check(&self, commanded: &[Commanded]) -> Result<(), PlotError> {
+        let names = || commanded.iter().map(|coordinate| &*coordinate.name);
+        let all = || {
+            let drives = names().filter(|name| !POSE.contains(name));
+            POSE.into_iter().chain(drives)
+        };
+        let planes = self.planes.iter().map(|(axis, _)| axis);
+        for name in planes.chain(self.axes.iter().flatten()) {
+            if !all().any(|known| known == name) {
+                return Err(unknown(name, all()));
             }
+        }
+        for (axis, value) in &self.planes {
+            let given = commanded.iter().find(|coordinate| coordinate.name == *axis);
+            let Some(given) = given else {
+                return Err(PlotError::Follows {
+                    axis: axis.clone(),
+                    asked: names().map(String::from).collect(),
+                });
+            };
+            let values: Vec<_> = given.values.iter().copied().map(Some).collect();
+            let size = given
+                .values
+                .iter()
+                .fold(0.0_f64, |most, v| most.max(v.abs()));
+            Levels::new(&values, size).asked(axis, *value)?;
+            if self.axes.iter().flatten().any(|along| along == axis) {
+                return Err(PlotError::AlongNormal { axis: axis.clone() });
+            }
+        }
+        Ok(())
+    }
+
+    /// The levels of the coordinates that are held.
+    fn held(&self, coordinates: &Coordinates) -> Result<Held, PlotError> {
+        let mut held = vec![None; coordinates.len()];
+        for (axis, value) in &self.planes {
+            let k = coordinates.find(axis)?;
+            let follows = coordinates.grid && !coordinates.asked.contains(&k);
+            if follows && coordinates.count(k) > 1 {
+                return Err(PlotError::Follows {
+                    axis: axis.clone(),
+                    asked: coordinates.asked_names(),
+                });
+            }
+            held[k] = Some(coordinates.levels(k).asked(axis, *value)?);
         }
         Ok(held)
     }
 
     /// The coordinates along the axes.
-    fn axes(&self, poses: &Poses, held: &[Option<usize>; 6]) -> Result<[usize; 2], PlotError> {
+    fn axes(
+        &self,
+        coordinates: &Coordinates,
+        free: &[usize],
+        held: &[Option<usize>],
+    ) -> Result<[usize; 2], PlotError> {
         let axes = match &self.axes {
-            Some(axes) => axes.each_ref().map(|axis| {
-                COORDINATES
-                    .iter()
-                    .position(|name| name == axis)
-                    .unwrap_or(0)
-            }),
-            None => {
-                let count = |k: &usize| poses.levels[*k].values.len();
-                // The two of most values, in the order of the coordinates; positions before
-                // rotations.
-                let mut free: Vec<usize> = (0..6).filter(|k| held[*k].is_none()).collect();
-                free.sort_by_key(|k| (count(k) < 2, *k > 2, std::cmp::Reverse(count(k).min(2))));
-                if held.iter().all(Option::is_none) && (0..3).all(|k| count(&k) > 1) {
-                    let fewest = (0..3).rev().min_by_key(count).unwrap_or(2);
-                    free.retain(|k| *k != fewest);
-                }
-                let mut axes = [free[0], free[1]];
-                axes.sort_unstable();
-                axes
-            }
+            Some([right, up]) => [coordinates.find(right)?, coordinates.find(up)?],
+            None => coordinates.axes(free, held)?,
         };
         match axes.into_iter().find(|k| held[*k].is_some()) {
             Some(k) => Err(PlotError::AlongNormal {
-                axis: COORDINATES[k].into(),
+                axis: coordinates.get(k).name.clone(),
             }),
             None => Ok(axes),
         }
@@ -164,59 +198,65 @@ impl Map {
 }
 
 impl Poses {
-    fn read(table: &Table, drawn: &Drawn, choice: Choice) -> Result<Self, PlotError> {
-        let places = COORDINATES.map(|name| table.find(name).unwrap_or(0));
-        let coordinates = table.read(&places)?;
-        let values = drawn.read(table)?;
-        let mut rows = choice.rows(table)?;
-        rows.retain(|&row| coordinates.iter().all(|column| column[row].is_some()));
-        let columns: Vec<Vec<f64>> = (coordinates.iter())
-            .map(|column| chosen(column, &rows).into_iter().flatten().collect())
-            .collect();
-        let size = |kind: &[Vec<f64>]| {
-            let all = kind.iter().flatten();
-            all.fold(0.0_f64, |size, value| size.max(value.abs()))
-        };
-        let sizes = [size(&columns[..3]), size(&columns[3..]).max(1.0)];
-        Ok(Self {
-            levels: std::array::from_fn(|k| Levels::new(&columns[k], sizes[k / 3])),
-            values: chosen(&values, &rows),
-        })
+    fn level(&self, coordinate: usize, row: usize) -> Option<usize> {
+        self.coordinates.levels(coordinate).of_row[row]
     }
 
     /// The rows with these levels.
-    fn rows(&self, wanted: &[Option<usize>; 6]) -> Vec<usize> {
+    fn rows(&self, wanted: &[Option<usize>]) -> Vec<usize> {
         let fits = |row: &usize| {
-            let pairs = self.levels.iter().zip(wanted);
-            pairs
-                .into_iter()
-                .all(|(levels, wanted)| wanted.is_none_or(|level| levels.of_row[*row] == level))
+            let mut wanted = wanted.iter().enumerate();
+            wanted.all(|(k, level)| level.is_none() || self.level(k, *row) == *level)
         };
         (0..self.values.len()).filter(fits).collect()
     }
 
-    /// What is known at these rows along two coordinates; a grid where they fill one.
+    /// What all poses of a map along these axes have in common.
+    fn held_in_words(&self, held: &[Option<usize>], axes: [usize; 2]) -> Vec<String> {
+        let in_space = axes.iter().all(|k| self.coordinates.is_position(*k));
+        let told = (0..self.coordinates.len()).filter_map(|k| {
+            if let Some(level) = held[k] {
+                return Some(self.coordinates.place(k, level));
+            }
+            let [only] = self.coordinates.levels(k).values[..] else {
+                return None;
+            };
+            // A coordinate at home needs no words, but for the normal of a plane in space.
+            let normal = in_space && self.coordinates.is_position(k);
+            let told = !axes.contains(&k) && (only != 0.0 || normal);
+            told.then(|| self.coordinates.place(k, 0))
+        });
+        told.collect()
+    }
+
+    /// What is known at these rows along two coordinates; a grid where they fill one. `others`
+    /// differ from row to row, too.
     fn samples(
         &self,
         rows: &[usize],
         axes: [usize; 2],
         others: &[usize],
     ) -> Result<Samples, PlotError> {
-        let along = axes.map(|k| {
-            let mut used: Vec<_> = rows.iter().map(|row| self.levels[k].of_row[*row]).collect();
+        // Every row has a level here.
+        let level = |axis: usize, row: usize| self.level(axes[axis], row).unwrap_or(0);
+        let along = [0, 1].map(|axis| {
+            let mut used: Vec<_> = rows.iter().map(|row| level(axis, *row)).collect();
             used.sort_unstable();
             used.dedup();
             used
         });
         let [across, up] = along.each_ref().map(Vec::len);
-        let value = |axis: usize, level: usize| self.levels[axes[axis]].values[level];
+        let value = |axis: usize, level: usize| {
+            let levels = self.coordinates.levels(axes[axis]);
+            levels.values[level]
+        };
         let place = |axis: usize, row: usize| {
-            let level = self.levels[axes[axis]].of_row[row];
+            let level = level(axis, row);
             along[axis].partition_point(|known| *known < level)
         };
-        let is_grid = across > 1 && up > 1 && across * up <= rows.len();
+        let is_grid = across > 1 && up > 1 && across.saturating_mul(up) <= rows.len();
         if !is_grid {
-            let at = |row: &usize| [0, 1].map(|axis| value(axis, along[axis][place(axis, *row)]));
+            let at = |row: &usize| [0, 1].map(|axis| value(axis, level(axis, *row)));
             return Ok(Samples::Points {
                 at: rows.iter().map(at).collect(),
                 values: rows.iter().map(|row| self.values[*row]).collect(),
@@ -226,19 +266,21 @@ impl Poses {
         for &row in rows {
             let cell = &mut filled[place(0, row) + place(1, row) * across];
             if cell.is_some() {
+                let name = |k: usize| self.coordinates.get(k).name.clone();
                 return Err(PlotError::Several {
-                    axes: axes.map(|k| COORDINATES[k].into()),
-                    at: [0, 1].map(|axis| value(axis, along[axis][place(axis, row)])),
-                    differ: others.iter().map(|k| COORDINATES[*k].into()).collect(),
+                    axes: axes.map(name),
+                    at: [0, 1].map(|axis| {
+                        let levels = self.coordinates.levels(axes[axis]);
+                        levels.label(level(axis, row))
+                    }),
+                    differ: others.iter().map(|k| name(*k)).collect(),
                 });
             }
             *cell = Some(self.values[row]);
         }
         let ticks = |axis: usize| {
-            along[axis]
-                .iter()
-                .map(|level| value(axis, *level))
-                .collect()
+            let levels = along[axis].iter();
+            levels.map(|level| value(axis, *level)).collect()
         };
         Ok(Samples::Grid {
             x: ticks(0),
@@ -248,39 +290,25 @@ impl Poses {
     }
 }
 
-/// Places of the planes that are shown of so many: all, or evenly from the first to the last.
-fn evenly(count: usize) -> Vec<usize> {
-    let shown = count.min(MOST_PLANES);
+/// Of so many places all, or `most` of them evenly from the first to the last.
+pub(super) fn evenly(count: usize, most: usize) -> Vec<usize> {
+    let shown = count.min(most);
     let last = shown.saturating_sub(1).max(1);
     (0..shown)
         .map(|k| (k * (count - 1) + last / 2) / last)
         .collect()
 }
 
-/// A plane in words, as in `z = 0.5 m`.
-fn place(coordinate: usize, value: f64) -> String {
-    let unit = if coordinate < 3 { "m" } else { "rad" };
-    // Digits of the grid's arithmetic are not told.
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
-    format!("{} = {rounded} {unit}", COORDINATES[coordinate])
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{evenly, place};
+    use super::evenly;
 
     #[test]
     fn planes_are_shown_evenly_with_both_ends() {
-        assert_eq!(evenly(1), [0]);
-        assert_eq!(evenly(3), [0, 1, 2]);
-        assert_eq!(evenly(17), [0, 2, 4, 6, 8, 10, 12, 14, 16]);
-        let many = evenly(101);
+        assert_eq!(evenly(1, 9), [0]);
+        assert_eq!(evenly(3, 9), [0, 1, 2]);
+        assert_eq!(evenly(17, 9), [0, 2, 4, 6, 8, 10, 12, 14, 16]);
+        let many = evenly(101, 9);
         assert_eq!((many.len(), many[0], many[8]), (9, 0, 100));
-    }
-
-    #[test]
-    fn planes_are_named_by_round_numbers() {
-        assert_eq!(place(2, 0.1 + 0.2), "z = 0.3 m");
-        assert_eq!(place(3, -0.25), "rx = -0.25 rad");
     }
 }

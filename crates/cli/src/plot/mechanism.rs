@@ -8,6 +8,7 @@ use crate::args;
 use crate::case::Case;
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
+use crate::outputs;
 use crate::report::Asked;
 
 /// The figure that is asked for.
@@ -19,20 +20,27 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
         pose: args.pose,
     };
     let case = Case::load(&input, registry)?;
-    let (drawing, kind) = if args.kind.deformed {
-        (deformed(args, &case)?, "deformed".to_string())
-    } else if let Some(number) = args.kind.mode {
-        (mode(args, &case, number.into())?, format!("mode-{number}"))
-    } else {
-        (budget(args, &case)?, "budget".to_string())
-    };
     let name = case
         .job()
         .map_or_else(|| stem(&args.file), |(job, _)| job.into());
-    Ok(Plotted {
-        drawing,
-        name: format!("{name}-{kind}"),
-    })
+    let kind = match args.kind.mode {
+        _ if args.kind.deformed => "deformed".to_string(),
+        Some(number) => format!("mode-{number}"),
+        None => "budget".to_string(),
+    };
+    let stem = super::stem_of(args, &format!("{name}-{kind}"));
+    outputs::refuse(
+        drawing::files(&stem).iter().map(|path| &**path),
+        &case.files,
+    )?;
+    let drawing = if args.kind.deformed {
+        deformed(args, &case)?
+    } else if let Some(number) = args.kind.mode {
+        mode(args, &case, number.into())?
+    } else {
+        budget(args, &case)?
+    };
+    Ok(Plotted { drawing, stem })
 }
 
 /// The title that is asked for, or one that says what is drawn.
@@ -45,8 +53,9 @@ fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
     let solution = case.solve_held()?;
     let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
-    let mut figure = drawing::deformed(model, &loaded, title, magnified(args.scale))
-        .map_err(|error| case.unsolvable(error))?;
+    let scale = magnified(args.scale.as_ref())?;
+    let mut figure =
+        drawing::deformed(model, &loaded, title, scale).map_err(|error| case.unsolvable(error))?;
     if args.verify {
         let reference = case.reference()?;
         drawing::compare(&mut figure, model, &solution, &reference);
@@ -67,7 +76,8 @@ fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliErr
         count: modes.len(),
     })?;
     let title = title(args, case, None);
-    let figure = drawing::mode(&case.model, mode, number, title, magnified(args.scale))
+    let scale = magnified(args.scale.as_ref())?;
+    let figure = drawing::mode(&case.model, mode, number, title, scale)
         .map_err(|error| case.unsolvable(error))?;
     Ok(Drawing::Deformed(figure))
 }

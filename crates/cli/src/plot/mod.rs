@@ -1,6 +1,7 @@
 //! `hyperstat plot`: figures from the tables that `hyperstat run` writes, of mechanisms, and of what
 //! `hyperstat solve --why` found.
 
+mod coordinates;
 mod error;
 mod lines;
 mod map;
@@ -13,23 +14,24 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{Scale, TrajectoryFigure};
+use hyperstat_figures::{ColorScale, Scale, TrajectoryFigure};
 use hyperstat_mechanisms::Registry;
 
 use crate::args;
-use crate::drawing::Drawing;
+use crate::drawing::{self, Drawing};
 use crate::error::CliError;
+use crate::outputs;
 pub(crate) use error::PlotError;
 use lines::Lines;
 pub(crate) use map::{Map, figure as map};
-pub(crate) use quantity::{Drawn, known as quantities};
+pub(crate) use quantity::{Drawn, instead_of};
 pub(crate) use rows::Choice;
 pub(crate) use table::Table;
 
-/// A figure, and the name of its files beside the input.
+/// A figure, and its files without their extensions.
 struct Plotted {
     drawing: Drawing,
-    name: String,
+    stem: PathBuf,
 }
 
 /// What a file is, by its name.
@@ -58,11 +60,7 @@ pub(crate) fn run(
     registry: &Registry,
     tell: impl FnOnce(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
-    let Plotted { drawing, name } = plotted(args, registry)?;
-    let stem = match &args.out {
-        Some(out) => without_extension(out),
-        None => args.file.with_file_name(name),
-    };
+    let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
     for path in drawing.write(&stem)? {
         told += &format!("{}\n", path.display());
@@ -74,6 +72,15 @@ pub(crate) fn run(
     told += &format!("{caption}\n");
     tell(&told)?;
     Ok(true)
+}
+
+/// The files of a figure without their extensions: as the command line says, or of the `name` beside
+/// the input.
+fn stem_of(args: &args::Plot, name: &str) -> PathBuf {
+    match &args.out {
+        Some(out) => without_extension(out),
+        None => args.file.with_file_name(name),
+    }
 }
 
 /// The figure that is asked for.
@@ -98,7 +105,7 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
                 ("--pose", args.pose.is_some()),
             ];
             refuse(args, "solved already", chosen)?;
-            Ok(solved::figure(args)?)
+            solved::figure(args)
         }
         (Some(option), _) => Err(CliError::Plot(PlotError::NoMechanism {
             path: args.file.clone(),
@@ -136,15 +143,29 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         design: choice.design.or(Some(0)),
         ..choice
     };
-    let (drawing, kind) = if let Some(value) = &args.kind.map {
+    let kind = match (&args.kind.map, &args.kind.lines) {
+        (Some(value), _) => value.clone(),
+        (None, Some(values)) => values.join("-"),
+        (None, None) => "trajectory".into(),
+    };
+    let stem = stem_of(args, &format!("{}-{kind}", table.job()));
+    let files = drawing::files(&stem);
+    outputs::refuse(
+        files.iter().map(|path| &**path),
+        std::slice::from_ref(&args.file),
+    )?;
+    let drawing = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),
             planes: args.plane.clone(),
             axes: args.axes.clone(),
+            asked: None,
+            limits: args.limits,
+            scale: colors(args.scale.as_ref())?,
             choice: one_design,
             title,
         };
-        (Drawing::Map(map::figure(table, &map)?), value.clone())
+        Drawing::Map(map::figure(table, &map)?)
     } else if let Some(values) = &args.kind.lines {
         let over = args.over.clone().unwrap_or_else(|| "pose".into());
         // Along what varies from design to design: one pose of each.
@@ -162,23 +183,23 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             over,
             title,
         };
-        let figure = lines::figure(table, &lines)?;
-        (Drawing::Lines(figure), values.join("-"))
+        Drawing::Lines(lines::figure(table, &lines)?)
     } else {
-        let figure = trajectory(table, one_design, args.scale, title)?;
-        (Drawing::Trajectory(figure), "trajectory".into())
+        Drawing::Trajectory(trajectory(
+            table,
+            one_design,
+            magnified(args.scale.as_ref())?,
+            title,
+        )?)
     };
-    Ok(Plotted {
-        drawing,
-        name: format!("{}-{kind}", table.job()),
-    })
+    Ok(Plotted { drawing, stem })
 }
 
 /// The poses with a result as a trajectory, commanded and deflected.
 fn trajectory(
     table: &Table,
     choice: Choice,
-    scale: Option<f64>,
+    scale: Scale,
     title: Option<String>,
 ) -> Result<TrajectoryFigure, PlotError> {
     let names = ["x", "y", "z", "dx", "dy", "dz"];
@@ -189,7 +210,7 @@ fn trajectory(
         commanded: Vec::new(),
         displacement: Vec::new(),
         second: None,
-        scale: magnified(scale),
+        scale,
     };
     for row in choice.rows(table)? {
         let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
@@ -207,8 +228,28 @@ fn trajectory(
 }
 
 /// A magnification from the command line.
-fn magnified(factor: Option<f64>) -> Scale {
-    factor.map_or(Scale::Auto, Scale::Factor)
+fn magnified(scale: Option<&args::Scale>) -> Result<Scale, PlotError> {
+    match scale {
+        None => Ok(Scale::Auto),
+        Some(args::Scale::Factor(factor)) => Ok(Scale::Factor(*factor)),
+        Some(other) => Err(PlotError::Scale {
+            given: other.to_string(),
+            of: error::SHAPE,
+        }),
+    }
+}
+
+/// How the colours of a map go with its values, from the command line.
+fn colors(scale: Option<&args::Scale>) -> Result<ColorScale, PlotError> {
+    match scale {
+        None => Ok(ColorScale::Auto),
+        Some(args::Scale::Linear) => Ok(ColorScale::Linear),
+        Some(args::Scale::Log) => Ok(ColorScale::Log),
+        Some(other) => Err(PlotError::Scale {
+            given: other.to_string(),
+            of: error::MAP,
+        }),
+    }
 }
 
 /// Name of a file without folder and extension.

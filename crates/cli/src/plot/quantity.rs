@@ -2,6 +2,7 @@
 //! words.
 
 use hyperstat_figures::Quantity;
+use hyperstat_mechanisms::nearest;
 use nalgebra::{Cholesky, Matrix3, Matrix6};
 
 use super::error::PlotError;
@@ -24,30 +25,45 @@ enum Rule {
     Same,
     /// Length of a vector.
     Length,
-    /// Of the upper triangle of the stiffness: the inverse of an eigenvalue of a 3×3 block of the
-    /// compliance, the first of them the translations'; the largest eigenvalue, or the least.
+    /// Of the upper triangle of the stiffness: the least or the greatest principal stiffness of the
+    /// translations (block 0) or the rotations (block 3), the others free or held.
     Principal {
         block: usize,
-        largest: bool,
+        others: Others,
+        least: bool,
     },
     /// Of the same: the inverse of an entry of the compliance's diagonal.
     Along(usize),
 }
 
+/// What the output does in the directions that a stiffness is not about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Others {
+    /// It goes where it likes: a force, or a moment, acts alone. Inverses of eigenvalues of a block of
+    /// the compliance.
+    Free,
+    /// It stays: a translation, or a rotation, is made alone. Eigenvalues of a block of the stiffness.
+    Held,
+}
+
 /// Quantities that are found from others, by name.
-pub(crate) const DERIVED: [&str; 12] = [
+pub(crate) const DERIVED: [&str; 16] = [
     "deflection",
     "rotation",
-    "stiffness_min",
-    "stiffness_max",
-    "stiffness_x",
-    "stiffness_y",
-    "stiffness_z",
-    "rotational_stiffness_min",
-    "rotational_stiffness_max",
-    "rotational_stiffness_x",
-    "rotational_stiffness_y",
-    "rotational_stiffness_z",
+    "pure_force_stiffness_min",
+    "pure_force_stiffness_max",
+    "pure_force_stiffness_x",
+    "pure_force_stiffness_y",
+    "pure_force_stiffness_z",
+    "pure_moment_stiffness_min",
+    "pure_moment_stiffness_max",
+    "pure_moment_stiffness_x",
+    "pure_moment_stiffness_y",
+    "pure_moment_stiffness_z",
+    "pure_translation_stiffness_min",
+    "pure_translation_stiffness_max",
+    "pure_rotation_stiffness_min",
+    "pure_rotation_stiffness_max",
 ];
 
 impl Drawn {
@@ -73,7 +89,7 @@ impl Drawn {
         Self::named(name, table.names()).ok_or_else(|| PlotError::UnknownColumn {
             path: table.path().into(),
             name: name.into(),
-            help: known(table.names()),
+            help: instead_of(name, table.names()),
         })
     }
 
@@ -104,27 +120,42 @@ impl Rule {
                 let compliance = compliance(numbers)?;
                 Some(1.0 / compliance[(place, place)])
             }
-            Self::Principal { block, largest } => {
-                let compliance = compliance(numbers)?;
-                let block: Matrix3<f64> = compliance.fixed_view::<3, 3>(block, block).into();
-                let values = block.symmetric_eigenvalues();
-                Some(1.0 / if largest { values.max() } else { values.min() })
+            Self::Principal {
+                block,
+                others,
+                least,
+            } => {
+                let of = |matrix: Matrix6<f64>| {
+                    let block: Matrix3<f64> = matrix.fixed_view::<3, 3>(block, block).into();
+                    block.symmetric_eigenvalues()
+                };
+                match (others, least) {
+                    (Others::Free, true) => Some(1.0 / of(compliance(numbers)?).max()),
+                    (Others::Free, false) => Some(1.0 / of(compliance(numbers)?).min()),
+                    (Others::Held, true) => Some(of(stiffness(numbers)).min()),
+                    (Others::Held, false) => Some(of(stiffness(numbers)).max()),
+                }
             }
         }
         .filter(|value| value.is_finite())
     }
 }
 
-/// The compliance from the upper triangle of a stiffness, by rows; `None` where it is not
-/// positive definite.
-fn compliance(upper: &[f64]) -> Option<Matrix6<f64>> {
+/// The stiffness from its upper triangle by rows.
+fn stiffness(upper: &[f64]) -> Matrix6<f64> {
     let mut stiffness = Matrix6::zeros();
     let places = (0..6).flat_map(|row| (row..6).map(move |column| (row, column)));
     for ((row, column), value) in places.zip(upper) {
         stiffness[(row, column)] = *value;
         stiffness[(column, row)] = *value;
     }
-    Some(Cholesky::new(stiffness)?.inverse())
+    stiffness
+}
+
+/// The compliance from the upper triangle of a stiffness, by rows; `None` where it is not positive
+/// definite.
+fn compliance(upper: &[f64]) -> Option<Matrix6<f64>> {
+    Some(Cholesky::new(stiffness(upper))?.inverse())
 }
 
 fn derived(name: &str) -> Option<Drawn> {
@@ -156,44 +187,73 @@ fn derived(name: &str) -> Option<Drawn> {
     if !case.is_empty() {
         return None;
     }
-    let (rest, first, unit, cause, effect) = match kind.strip_prefix("rotational_stiffness_") {
-        Some(rest) => (rest, 3, "N·m/rad", "moment", "rotation"),
-        None => (
-            kind.strip_prefix("stiffness_")?,
-            0,
-            "N/m",
-            "force",
-            "displacement",
-        ),
+    let (cause, rest) = kind.strip_prefix("pure_")?.split_once("_stiffness_")?;
+    let (block, others) = match cause {
+        "force" => (0, Others::Free),
+        "moment" => (3, Others::Free),
+        "translation" => (0, Others::Held),
+        "rotation" => (3, Others::Held),
+        _ => return None,
     };
-    let stiffness = |rule, words| Drawn {
-        quantity: Quantity::new(name, unit),
+    let free = match (block, others) {
+        (0, Others::Free) => "rotations free",
+        (0, Others::Held) => "rotations held",
+        (_, Others::Free) => "translations free",
+        (_, Others::Held) => "translations held",
+    };
+    let axis = ["x", "y", "z"].iter().position(|axis| *axis == rest);
+    let (rule, words) = match (rest, axis, others) {
+        (_, Some(axis), Others::Free) => {
+            let effect = ["displacement", "rotation"][block / 3];
+            let words = format!("{cause} along {rest} alone per {effect} along {rest}");
+            (Rule::Along(block + axis), words)
+        }
+        ("min" | "max", ..) => {
+            let least = rest == "min";
+            let size = if least { "least" } else { "greatest" };
+            let rule = Rule::Principal {
+                block,
+                others,
+                least,
+            };
+            let words = format!("{size} principal stiffness against a pure {cause}, {free}");
+            (rule, words)
+        }
+        _ => return None,
+    };
+    Some(Drawn {
+        quantity: Quantity::new(name, ["N/m", "N·m/rad"][block / 3]),
         words,
         rule,
         columns: upper_triangle().collect(),
-    };
-    let axis = ["x", "y", "z"].iter().position(|axis| *axis == rest);
-    Some(match (rest, axis) {
-        (_, Some(axis)) => stiffness(
-            Rule::Along(first + axis),
-            format!("{cause} along {rest} alone per {effect} along {rest}"),
-        ),
-        ("min", _) => stiffness(
-            Rule::Principal {
-                block: first,
-                largest: true,
-            },
-            format!("least stiffness against a {cause} alone, of all its directions"),
-        ),
-        ("max", _) => stiffness(
-            Rule::Principal {
-                block: first,
-                largest: false,
-            },
-            format!("largest principal stiffness against a {cause} alone"),
-        ),
-        _ => return None,
     })
+}
+
+/// What was meant by a name that no quantity of a table with these columns has.
+pub(crate) fn instead_of(name: &str, names: &[String]) -> String {
+    let (rotational, rest) = match name.strip_prefix("rotational_") {
+        Some(rest) => (true, rest),
+        None => (false, name),
+    };
+    let [cause, motion, other, k] = match rotational {
+        false => ["force", "translation", "rotations", "k11 k22 k33"],
+        true => ["moment", "rotation", "translations", "k44 k55 k66"],
+    };
+    match rest.strip_prefix("stiffness_") {
+        Some(rest @ ("min" | "max")) => format!(
+            "there are two: `pure_{cause}_stiffness_{rest}`, {other} free, and \
+             `pure_{motion}_stiffness_{rest}`, {other} held"
+        ),
+        Some(axis @ ("x" | "y" | "z")) => {
+            let k = k.split(' ').nth(usize::from(axis.as_bytes()[0] - b'x'));
+            format!(
+                "there are two: `pure_{cause}_stiffness_{axis}`, all other directions free, and `{}`, \
+                 all others held",
+                k.unwrap_or_default()
+            )
+        }
+        _ => known(name, names),
+    }
 }
 
 fn upper_triangle() -> impl Iterator<Item = String> {
@@ -213,7 +273,7 @@ fn entry(name: &str) -> Option<[usize; 2]> {
 }
 
 /// The SI unit of a column; empty where it has none or is unknown.
-fn unit(name: &str) -> &'static str {
+pub(super) fn unit(name: &str) -> &'static str {
     if let Some([row, column]) = entry(name) {
         return match (row > 3, column > 3) {
             (false, false) => "N/m",
@@ -228,6 +288,8 @@ fn unit(name: &str) -> &'static str {
         "x" | "y" | "z" if stiffness => "N/m",
         "u" | "v" | "w" | "drive_stiffness" if stiffness => "N·m/rad",
         "x" | "y" | "z" | "dx" | "dy" | "dz" => "m",
+        // Of a drive.
+        "u" | "v" | "w" => "rad",
         "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => "rad",
         "diameter" | "outer" | "inner" | "width" | "height" | "thickness" => "m",
         "young" | "shear" | "yield" => "Pa",
@@ -272,23 +334,28 @@ fn words(name: &str) -> String {
     }
 }
 
-/// What a table with these columns holds, in words.
-pub(crate) fn known(names: &[String]) -> String {
+/// What a table with these columns holds, in words: the quantity that was meant by `name`, or all.
+fn known(name: &str, names: &[String]) -> String {
     let not_drawn = |name: &&String| name.as_str() != "status";
     let columns: Vec<_> = names.iter().filter(not_drawn).map(String::as_str).collect();
     let derived: Vec<_> = (DERIVED.into_iter())
         .filter(|name| Drawn::named(name, names).is_some())
         .collect();
-    format!(
+    let every: Vec<_> = columns.iter().chain(&derived).copied().collect();
+    let all = format!(
         "its columns are {}; found from them are {}",
         columns.join(", "),
         derived.join(", ")
-    )
+    );
+    match nearest(name, &every) {
+        Some(meant) => format!("did you mean `{meant}`? {all}"),
+        None => all,
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Drawn, Rule, unit, words};
+    use super::{Drawn, Others, Rule, unit, words};
 
     #[test]
     fn columns_have_units_and_words() {
@@ -302,6 +369,8 @@ mod tests {
             ("rod.section.diameter", "m"),
             ("joints.wrist.stiffness.x", "N/m"),
             ("drive_stiffness", "N·m/rad"),
+            ("A1.v", "rad"),
+            ("D1.y", "m"),
             ("elements", ""),
         ] {
             assert_eq!(unit(name), expected, "{name}");
@@ -326,12 +395,21 @@ mod tests {
         for (place, value) in [(15, 10.0), (18, 20.0), (20, 30.0)] {
             upper[place] = value;
         }
-        let of = |block, largest| Rule::Principal { block, largest }.value(&upper).unwrap();
+        let of = |block, others, least| {
+            let rule = Rule::Principal {
+                block,
+                others,
+                least,
+            };
+            rule.value(&upper).unwrap()
+        };
         for (found, expected) in [
-            (of(0, true), 1e6),
-            (of(0, false), 4e6),
-            (of(3, true), 10.0),
-            (of(3, false), 30.0),
+            (of(0, Others::Free, true), 1e6),
+            (of(0, Others::Free, false), 4e6),
+            (of(3, Others::Free, true), 10.0),
+            (of(3, Others::Free, false), 30.0),
+            (of(0, Others::Held, true), 1e6),
+            (of(3, Others::Held, false), 30.0),
             // 1 / (1/2 (1/1e6 + 1/4e6)).
             (Rule::Along(0).value(&upper).unwrap(), 1.6e6),
             (Rule::Along(2).value(&upper).unwrap(), 2e6),
@@ -340,6 +418,66 @@ mod tests {
         }
         upper[0] = -1.0;
         assert_eq!(Rule::Along(2).value(&upper), None);
+    }
+
+    /// A spring k along x at the height h above the output, held in rotation by a spring c: a force
+    /// alone turns the output, 1/K = 1/k + h²/c; a translation alone meets k.
+    #[test]
+    fn rotations_free_and_held_are_two_stiffnesses() {
+        let (k, h, c) = (2e6, 0.3, 5e4);
+        let mut upper = vec![0.0; 21];
+        // k11, k15, k22, k33, k44, k55, k66 of the spring and of stiff ones in all other directions.
+        for (place, value) in [
+            (0, k),
+            (4, k * h),
+            (6, 1e9),
+            (11, 1e9),
+            (15, 1e9),
+            (18, c + k * h * h),
+            (20, 1e9),
+        ] {
+            upper[place] = value;
+        }
+        let columns: Vec<String> = super::upper_triangle().collect();
+        for (name, expected) in [
+            ("pure_force_stiffness_min", 1.0 / (1.0 / k + h * h / c)),
+            ("pure_force_stiffness_x", 1.0 / (1.0 / k + h * h / c)),
+            ("pure_translation_stiffness_min", k),
+            ("pure_moment_stiffness_min", c),
+            ("pure_rotation_stiffness_min", c + k * h * h),
+        ] {
+            let found = Drawn::named(name, &columns).unwrap().rule.value(&upper);
+            assert!((found.unwrap() / expected - 1.0).abs() < 1e-12, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_of_two_meanings_is_told_both() {
+        for (name, both) in [
+            (
+                "stiffness_min",
+                ["pure_force_stiffness_min", "pure_translation_stiffness_min"],
+            ),
+            ("stiffness_z", ["pure_force_stiffness_z", "k33"]),
+            (
+                "rotational_stiffness_max",
+                ["pure_moment_stiffness_max", "pure_rotation_stiffness_max"],
+            ),
+            ("rotational_stiffness_y", ["pure_moment_stiffness_y", "k55"]),
+        ] {
+            let columns: Vec<String> = super::upper_triangle().collect();
+            assert_eq!(Drawn::named(name, &columns), None);
+            let told = super::instead_of(name, &columns);
+            assert!(
+                both.iter().all(|name| told.contains(&format!("`{name}`"))),
+                "{told}"
+            );
+            // The other one is a quantity, too.
+            assert!(
+                both.iter()
+                    .all(|name| Drawn::named(name, &columns).is_some())
+            );
+        }
     }
 
     #[test]
@@ -354,8 +492,8 @@ mod tests {
         for missing in [
             "deflection",
             "push.rotation",
-            "stiffness_min",
-            "push.stiffness_min",
+            "pure_force_stiffness_min",
+            "push.pure_force_stiffness_min",
         ] {
             assert_eq!(Drawn::named(missing, &known), None, "{missing}");
         }

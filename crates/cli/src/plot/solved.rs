@@ -1,13 +1,13 @@
 //! The budget in what `hyperstat solve --why --format json` printed.
 
-use std::fs;
-
-use hyperstat_mechanisms::Location;
+use hyperstat_mechanisms::{Location, files};
 use serde::{Deserialize, Deserializer};
 
 use super::{PlotError, Plotted, stem};
 use crate::args;
 use crate::drawing::{self, Drawing};
+use crate::error::CliError;
+use crate::outputs;
 use crate::report::BudgetReport;
 
 /// What of the JSON is drawn.
@@ -36,23 +36,25 @@ fn given<'de, D: Deserializer<'de>>(
 }
 
 /// The figure of the budget.
-pub(super) fn figure(args: &args::Plot) -> Result<Plotted, PlotError> {
+pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
     let path = || args.file.clone();
     for (option, given) in [
         ("--along", args.along.is_some()),
         ("--case", args.case.is_some()),
     ] {
         if given {
-            return Err(PlotError::Answered {
+            return Err(CliError::Plot(PlotError::Answered {
                 path: path(),
                 option,
-            });
+            }));
         }
     }
-    let text = fs::read_to_string(&args.file).map_err(|source| PlotError::Read {
+    let bytes = files::read(&args.file).map_err(|source| PlotError::Read {
         path: path(),
         source,
     })?;
+    // What is no text is no JSON either.
+    let text = String::from_utf8_lossy(&bytes);
     let solved: Solved = serde_json::from_str(&text).map_err(|error| {
         // The message ends with the place, which is told by the location.
         let message = error.to_string();
@@ -79,9 +81,11 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, PlotError> {
     let title = title.unwrap_or_else(|| {
         drawing::title(name, solved.design, solved.pose, budget.case.as_deref())
     });
+    let stem = super::stem_of(args, &format!("{}-budget", stem(&args.file)));
+    outputs::refuse(drawing::files(&stem).iter().map(|path| &**path), &[path()])?;
     let figure = drawing::budget(&budget, &solved.output.node, title);
     Ok(Plotted {
         drawing: Drawing::Budget(figure.ok_or_else(|| PlotError::NoShares { path: path() })?),
-        name: format!("{}-budget", stem(&args.file)),
+        stem,
     })
 }

@@ -4,15 +4,22 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use hyperstat_mechanisms::Location;
+use hyperstat_mechanisms::{Location, files};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use parquet::schema::types::Type;
 
 use super::error::PlotError;
+use crate::cells;
+
+/// The column of a table of designs with their numbers; after it are their values.
+const DESIGN: &str = "design";
 
 /// Columns that every table has, in order.
 const FIRST: [&str; 8] = ["pose", "x", "y", "z", "rx", "ry", "rz", "status"];
+
+/// The column that says how a pose came out, in a word.
+const STATUS: &str = "status";
 
 /// A column of numbers; `None` where a cell is empty.
 pub(super) type Column = Vec<Option<f64>>;
@@ -45,7 +52,7 @@ impl Table {
             Form::Csv => {
                 let mut reader = csv_reader(path)?;
                 let header = reader.headers().map_err(|error| csv_error(path, error))?;
-                header.iter().map(String::from).collect()
+                header.iter().map(|name| cells::text(name).into()).collect()
             }
             Form::Parquet => {
                 let reader = parquet_reader(path)?;
@@ -81,6 +88,32 @@ impl Table {
         &self.names
     }
 
+    /// Names of the columns of drives: those after the stiffness, before the designs, that end as
+    /// the direction of a joint does.
+    pub(super) fn drives(&self) -> impl Iterator<Item = String> {
+        let first = self.find("k66").map_or(self.names.len(), |place| place + 1);
+        let last = self.find(DESIGN).unwrap_or(self.names.len());
+        let between = self.names.get(first..last).unwrap_or_default().iter();
+        let is_drive = |name: &&String| {
+            let direction = name.rsplit_once('.').map(|(_, direction)| direction);
+            direction.is_some_and(|d| ["x", "y", "z", "u", "v", "w"].contains(&d))
+        };
+        between.filter(is_drive).cloned()
+    }
+
+    /// Names of the columns of what varies from design to design.
+    pub(super) fn varied(&self) -> &[String] {
+        let first = self
+            .find(DESIGN)
+            .map_or(self.names.len(), |place| place + 1);
+        self.names.get(first..).unwrap_or_default()
+    }
+
+    /// Whether a column may hold words.
+    pub(super) fn may_hold_words(&self, name: &str) -> bool {
+        name == STATUS || self.varied().iter().any(|varied| varied == name)
+    }
+
     /// The place of a column.
     pub(crate) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
@@ -94,29 +127,39 @@ impl Table {
         }
     }
 
-    fn read_csv(&self, places: &[usize]) -> Result<Vec<Column>, PlotError> {
-        let mut reader = csv_reader(&self.path)?;
-        let mut columns = vec![Column::new(); places.len()];
-        let mut record = csv::StringRecord::new();
-        loop {
-            let more = reader.read_record(&mut record);
-            if !more.map_err(|error| csv_error(&self.path, error))? {
-                return Ok(columns);
-            }
-            let line = record.position().map_or(1, csv::Position::line) as usize;
-            if record.len() != self.names.len() {
-                return Err(PlotError::Cells {
-                    location: Box::new(self.location(line, record.len().min(self.names.len()))),
-                    expected: self.names.len(),
-                    found: record.len(),
+    /// Reads a column as the words it holds, each a text a row; a number as it is written.
+    pub(super) fn words(&self, place: usize) -> Result<Vec<String>, PlotError> {
+        let mut words = Vec::new();
+        match self.form {
+            Form::Csv => self.each_record(|_, record| {
+                words.push(record[place].to_string());
+                Ok(())
+            })?,
+            Form::Parquet => self.each_row(&[place], |cells| {
+                words.push(match cells[0] {
+                    Field::Str(text) => text.clone(),
+                    Field::Double(number) => format!("{number:?}"),
+                    Field::Null => String::new(),
+                    other => other.to_string(),
                 });
-            }
+                Ok(())
+            })?,
+        }
+        Ok(words)
+    }
+
+    fn read_csv(&self, places: &[usize]) -> Result<Vec<Column>, PlotError> {
+        let mut columns = vec![Column::new(); places.len()];
+        self.each_record(|line, record| {
             for (column, &place) in columns.iter_mut().zip(places) {
                 let cell = &record[place];
                 let number = match cell {
                     "" => None,
                     cell => match cell.parse::<f64>() {
                         Ok(number) if number.is_finite() => Some(number),
+                        _ if self.may_hold_words(&self.names[place]) => {
+                            return Err(self.texts(place));
+                        }
                         _ => {
                             return Err(PlotError::NoNumber {
                                 location: Box::new(self.location(line, place)),
@@ -128,10 +171,65 @@ impl Table {
                 };
                 column.push(number);
             }
+            Ok(())
+        })?;
+        Ok(columns)
+    }
+
+    /// The error of a column of texts where numbers are needed.
+    fn texts(&self, place: usize) -> PlotError {
+        PlotError::Texts {
+            path: self.path.clone(),
+            column: self.names[place].clone(),
+        }
+    }
+
+    /// Does something with every line of a CSV file and its cells, as many as there are columns.
+    fn each_record(
+        &self,
+        mut take: impl FnMut(usize, &csv::StringRecord) -> Result<(), PlotError>,
+    ) -> Result<(), PlotError> {
+        let mut reader = csv_reader(&self.path)?;
+        let mut record = csv::StringRecord::new();
+        loop {
+            let more = reader.read_record(&mut record);
+            if !more.map_err(|error| csv_error(&self.path, error))? {
+                return Ok(());
+            }
+            let line = record.position().map_or(1, csv::Position::line) as usize;
+            if record.len() != self.names.len() {
+                return Err(PlotError::Cells {
+                    location: Box::new(self.location(line, record.len().min(self.names.len()))),
+                    expected: self.names.len(),
+                    found: record.len(),
+                });
+            }
+            take(line, &record)?;
         }
     }
 
     fn read_parquet(&self, places: &[usize]) -> Result<Vec<Column>, PlotError> {
+        let mut columns = vec![Column::new(); places.len()];
+        self.each_row(places, |cells| {
+            for ((column, cell), &place) in columns.iter_mut().zip(cells).zip(places) {
+                column.push(match cell {
+                    Field::Double(number) => Some(*number),
+                    Field::Long(number) => Some(*number as f64),
+                    Field::Null => None,
+                    _ => return Err(self.texts(place)),
+                });
+            }
+            Ok(())
+        })?;
+        Ok(columns)
+    }
+
+    /// Does something with these cells of every row of a Parquet file.
+    fn each_row(
+        &self,
+        places: &[usize],
+        mut take: impl FnMut(&[&Field]) -> Result<(), PlotError>,
+    ) -> Result<(), PlotError> {
         let error = |source| PlotError::Parquet {
             path: self.path.clone(),
             source,
@@ -154,31 +252,19 @@ impl Table {
             .with_fields(fields)
             .build()
             .map_err(error)?;
-        let mut columns = vec![Column::new(); places.len()];
         for row in reader.get_row_iter(Some(projection)).map_err(error)? {
             let row = row.map_err(error)?;
             let cells: Vec<&Field> = row.get_column_iter().map(|(_, field)| field).collect();
-            for ((column, &cell), &place) in columns.iter_mut().zip(&order).zip(places) {
-                column.push(match cells[cell] {
-                    Field::Double(number) => Some(*number),
-                    Field::Long(number) => Some(*number as f64),
-                    Field::Null => None,
-                    _ => {
-                        return Err(PlotError::Texts {
-                            path: self.path.clone(),
-                            column: self.names[place].clone(),
-                        });
-                    }
-                });
-            }
+            let cells: Vec<&Field> = order.iter().map(|cell| cells[*cell]).collect();
+            take(&cells)?;
         }
-        Ok(columns)
+        Ok(())
     }
 
     /// The place of a cell of a line of a CSV file.
     fn location(&self, line: usize, cell: usize) -> Location {
         let text = match self.form {
-            Form::Csv => File::open(&self.path).ok().and_then(|file| {
+            Form::Csv => files::open(&self.path).ok().and_then(|file| {
                 let mut lines = BufReader::new(file).lines();
                 lines.nth(line - 1).and_then(Result::ok)
             }),
@@ -213,7 +299,7 @@ fn cell_span(text: &str, cell: usize) -> (usize, usize) {
 }
 
 fn csv_reader(path: &Path) -> Result<csv::Reader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;
@@ -228,7 +314,7 @@ fn csv_error(path: &Path, error: csv::Error) -> PlotError {
 }
 
 fn parquet_reader(path: &Path) -> Result<SerializedFileReader<File>, PlotError> {
-    let file = File::open(path).map_err(|source| PlotError::Read {
+    let file = files::open(path).map_err(|source| PlotError::Read {
         path: path.into(),
         source,
     })?;

@@ -3,7 +3,7 @@
 use super::forces::write_worst_of;
 use super::misfits::write_misfits;
 use super::solve::{IDLE, SolveReport};
-use super::{DISPLACEMENT, Table, heads, list, section};
+use super::{DISPLACEMENT, Rounding, Table, heads, list, output_table, section};
 
 /// Rows of a list that are told.
 const TOLD: usize = 8;
@@ -44,16 +44,17 @@ impl SolveReport {
     fn write_displacements(&self, text: &mut String) {
         let base = &self.output.displacement;
         let table = if self.cases.is_empty() {
-            let mut table = Table::new(0, &DISPLACEMENT);
-            table.row(&[], *base);
-            table.to_string()
+            output_table(base, &self.displacements).to_string()
         } else {
             let mut table = Table::new(1, &heads(&["case"], DISPLACEMENT));
             let cases = self.cases.iter();
-            let cases = cases.map(|(name, case)| (name, &case.output.displacement));
-            let mut states = std::iter::once((BASE, base)).chain(cases);
-            for (name, displacement) in states.by_ref().take(TOLD) {
-                table.row(&[name], *displacement);
+            let cases =
+                cases.map(|(name, case)| (name, &case.output.displacement, &case.displacements));
+            let base = (BASE, base, &self.displacements);
+            let mut states = std::iter::once(base).chain(cases);
+            for (name, displacement, nodes) in states.by_ref().take(TOLD) {
+                let rounding = Rounding::of(nodes.0.iter().map(|(_, row)| row));
+                table.row(&[name], rounding.shown(displacement));
             }
             format!("{table}{}", more(states.count()))
         };

@@ -7,15 +7,15 @@ use super::forces::{BodyReport, bodies, write_worst};
 use super::joints::{JointReport, joint_table};
 use super::solve::{SegmentReport, segment_tables};
 use super::{
-    DISPLACEMENT, Entries, Table, WRENCH, displacement_table, heads, inner_displacements_of,
-    numbers, section,
+    Entries, WRENCH, displacement_table, heads, inner_displacements_of, numbers, output_table,
+    section,
 };
 
 /// What a case does. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseReport {
     pub(super) output: Output,
-    displacements: Entries<[f64; 6]>,
+    pub(super) displacements: Entries<[f64; 6]>,
     joints: Entries<JointReport>,
     segments: Vec<SegmentReport>,
     pub(super) bodies: Entries<BodyReport>,
@@ -72,8 +72,7 @@ impl CaseReport {
     /// The case as tables.
     pub(super) fn write(&self, name: &str, text: &mut String) {
         let title = |what: &str| format!("Case `{name}`: {what}");
-        let mut table = Table::new(0, &DISPLACEMENT);
-        table.row(&[], self.output.displacement);
+        let table = output_table(&self.output.displacement, &self.displacements);
         section(text, &title("displacement of the output [m, rad]"), table);
         let table = displacement_table(&self.displacements);
         section(text, &title("displacements of the nodes [m, rad]"), table);

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use hyperstat_assembly::{Kinematics, Solution, describe_motions};
 use serde::Serialize;
 
-use super::{list, redundancies};
+use super::{doubts, list, redundancies};
 use crate::case::Case;
 use crate::error::CliError;
+use crate::plausibility::of_model;
 
 /// What the check of a file found. Field names are those of the JSON output.
 #[derive(Debug, Default, Serialize)]
@@ -32,6 +33,8 @@ pub(crate) struct CheckReport {
     free_motions: Vec<String>,
     undetermined: Vec<String>,
     warnings: Vec<String>,
+    /// What is no fault, but may be a slip.
+    notes: Vec<String>,
     problem: Option<Problem>,
 }
 
@@ -45,6 +48,28 @@ pub(crate) struct Problem {
     pub(crate) column: Option<usize>,
 }
 
+/// What is no fault in the file of a mechanism, but may be a slip.
+fn notes(case: &Case) -> Vec<String> {
+    let unused = case.mechanism().map_or(&[][..], |m| m.unused_points());
+    match unused {
+        [] => Vec::new(),
+        [point] => vec![format!("no body runs through point `{point}`")],
+        points => {
+            let shown = points.iter().take(SHOWN);
+            let shown: Vec<_> = shown.map(|point| format!("`{point}`")).collect();
+            let more = match points.len().saturating_sub(SHOWN) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let shown = shown.join(", ");
+            vec![format!("no body runs through the points {shown}{more}")]
+        }
+    }
+}
+
+/// Most points that are named.
+const SHOWN: usize = 8;
+
 impl CheckReport {
     /// The report on a file that cannot be read as a mechanism.
     pub(crate) fn unreadable(error: &CliError) -> Self {
@@ -54,10 +79,11 @@ impl CheckReport {
         }
     }
 
-    /// The report on a mechanism: its counts, what its solution adds, and what is wrong with it.
+    /// The report on a mechanism: its counts, unless it is too large for them, what its solution
+    /// adds, and what is wrong with it.
     pub(crate) fn new(
         case: &Case,
-        kinematics: &Kinematics,
+        kinematics: Option<&Kinematics>,
         solution: Option<&Solution>,
         error: Option<&CliError>,
     ) -> Self {
@@ -68,10 +94,12 @@ impl CheckReport {
             design: case.design(),
             pose: case.job().map(|(_, pose)| pose),
             solvable: error.is_none(),
-            mobility: Some(kinematics.mobility),
-            overconstraint: Some(kinematics.overconstraint),
+            mobility: kinematics.map(|kinematics| kinematics.mobility),
+            overconstraint: kinematics.map(|kinematics| kinematics.overconstraint),
             redundant_constraints: redundancies(model),
-            free_motions: describe_motions(&kinematics.motions, model),
+            free_motions: kinematics.map_or(Vec::new(), |kinematics| {
+                describe_motions(&kinematics.motions, model)
+            }),
             problem: error.map(CliError::problem),
             ..Self::default()
         };
@@ -89,6 +117,9 @@ impl CheckReport {
                 .collect();
             report.warnings = solution.warnings.iter().map(ToString::to_string).collect();
         }
+        report.warnings.extend(doubts(model));
+        report.warnings.extend(of_model(model));
+        report.notes = notes(case);
         report
     }
 
@@ -109,6 +140,7 @@ impl CheckReport {
             }
         }
         list(&mut text, "Warnings", &self.warnings);
+        list(&mut text, "Notes", &self.notes);
         list(&mut text, "Idle motions", &self.idle_motions);
         if self.idle_modes != Some(self.free_motions.len()) {
             list(

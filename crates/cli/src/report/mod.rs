@@ -22,6 +22,7 @@ use nalgebra::{Matrix6, Vector6};
 use serde::{Serialize, Serializer};
 
 use crate::error::CliError;
+use crate::terminal::plain_json;
 pub(crate) use check::{CheckReport, Problem};
 use inner::inner_displacements;
 use inner::inner_displacements_of;
@@ -75,7 +76,7 @@ impl<T: Serialize> Serialize for Entries<T> {
 /// Report `value` as JSON. Numbers read back to the same double.
 pub(crate) fn json(value: &impl Serialize) -> Result<String, CliError> {
     match serde_json::to_string_pretty(value) {
-        Ok(text) => Ok(text + "\n"),
+        Ok(text) => Ok(plain_json(&text).into_owned() + "\n"),
         Err(error) => Err(CliError::Print(error.into())),
     }
 }
@@ -143,6 +144,14 @@ impl Rounding {
     }
 }
 
+/// The displacement of the output as a table; what is rounding beside those of the `nodes` is 0.
+fn output_table(displacement: &[f64; 6], nodes: &Entries<[f64; 6]>) -> Table {
+    let rounding = Rounding::of(nodes.0.iter().map(|(_, row)| row));
+    let mut table = Table::new(0, &DISPLACEMENT);
+    table.row(&[], rounding.shown(displacement));
+    table
+}
+
 /// A table of names and displacements.
 fn displacement_table(displacements: &Entries<[f64; 6]>) -> Table {
     let rounding = Rounding::of(displacements.0.iter().map(|(_, row)| row));
@@ -166,6 +175,11 @@ pub(crate) fn stiffness_table(stiffness: &Rows) -> Table {
 fn redundancies(model: &Model) -> Vec<Vec<String>> {
     let redundant = redundant_constraints(model);
     redundant.iter().map(|group| group.names(model)).collect()
+}
+
+/// What a model says that can hardly be meant, in words.
+fn doubts(model: &Model) -> impl Iterator<Item = String> {
+    model.doubts().into_iter().map(|doubt| doubt.to_string())
 }
 
 /// A heading and what stands under it, with an empty line before.

@@ -23,14 +23,14 @@ pub(super) fn names<'a>(
     // Shortened lists may be the same; equal parts of one body are numbered.
     let counts = counted(&names);
     for (own, parameter) in names.iter_mut().zip(&parameters) {
-        if counts[own] > 1 {
+        if counts[own.as_str()] > 1 {
             *own = name(parameter, usize::MAX);
         }
     }
     let counts = counted(&names);
     let mut told: HashMap<String, usize> = HashMap::new();
     for own in &mut names {
-        let count = counts[own];
+        let count = counts[own.as_str()];
         if count > 1 {
             let place = told.entry(own.clone()).or_insert(0);
             *place += 1;

@@ -7,6 +7,7 @@ use hyperstat_assembly::{
 };
 use serde::Serialize;
 
+use super::table::left;
 use super::{Rows, number, numbers, parameters, rows, section};
 use crate::case::Case;
 
@@ -179,8 +180,8 @@ fn table<'a>(changes: impl Iterator<Item = Change<'a>>, what: &str) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(
             body,
-            "  {:<width$}  {:>12}   {} {what}",
-            change.parameter,
+            "  {}  {:>12}   {} {what}",
+            left(change.parameter, width),
             number(change.value),
             shown.join(",")
         );

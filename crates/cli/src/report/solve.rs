@@ -16,10 +16,11 @@ use super::misfits::write_misfits;
 use super::why::Why;
 use super::{
     DISPLACEMENT, Entries, FrequencyReport, ModesReport, Rounding, Rows, Table, WRENCH,
-    displacement_table, heads, inner_displacements, list, matrix_table, numbers, redundancies,
-    rows, section, stiffness_table,
+    displacement_table, doubts, heads, inner_displacements, list, matrix_table, numbers,
+    output_table, redundancies, rows, section, stiffness_table,
 };
 use crate::case::Case;
+use crate::plausibility::{of_model, of_solution};
 use crate::verification::Verification;
 
 /// Everything that one solve found. Field names are those of the JSON output.
@@ -150,7 +151,10 @@ impl SolveReport {
                 })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
+                .chain(doubts(model))
                 .chain(verification.iter().flat_map(Verification::warnings))
+                .chain(of_model(model))
+                .chain(of_solution(model, solution))
                 .collect(),
             verification,
             modes: None,
@@ -205,7 +209,7 @@ impl SolveReport {
         list(&mut text, "Warnings", &self.warnings);
         list(&mut text, IDLE, &self.idle_motions);
         text += &self.loads;
-        self.output.write(&mut text);
+        self.output.write(&self.displacements, &mut text);
 
         let table = displacement_table(&self.displacements);
         section(&mut text, "Displacements of the nodes [m, rad]", table);
@@ -341,9 +345,8 @@ impl OutputReport {
         }
     }
 
-    fn write(&self, text: &mut String) {
-        let mut table = Table::new(0, &DISPLACEMENT);
-        table.row(&[], self.displacement);
+    fn write(&self, nodes: &Entries<[f64; 6]>, text: &mut String) {
+        let table = output_table(&self.displacement, nodes);
         section(text, &self.heading(), table);
         self.write_stiffness(text);
         match &self.compliance {

@@ -53,17 +53,27 @@ impl fmt::Display for Table {
             let mut line = String::new();
             for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
                 if column < self.names {
-                    line += &format!("  {cell:<width$}");
+                    line += &format!("  {}", left(cell, *width));
                 } else if remark {
                     line += &format!("  {cell}");
                 } else {
-                    line += &format!("  {cell:>width$}");
+                    line += &format!("  {}{cell}", blanks(cell, *width));
                 }
             }
             writeln!(f, "{}", line.trim_end())?;
         }
         Ok(())
     }
+}
+
+/// A text to the left of a column of any width; the widths of `format!` end at 65 535.
+pub(super) fn left(text: &str, width: usize) -> String {
+    format!("{text}{}", blanks(text, width))
+}
+
+/// What a text lacks to the width of a column.
+fn blanks(text: &str, width: usize) -> String {
+    " ".repeat(width.saturating_sub(text.chars().count()))
 }
 
 /// A number of six digits, as an engineer reads it.
@@ -101,6 +111,19 @@ mod tests {
         ];
         for (value, text) in cases {
             assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn names_of_any_length_have_a_column() {
+        for length in [65_532, 65_535, 65_536, 200_000] {
+            let name = "n".repeat(length);
+            let mut table = Table::new(1, &["node", "x"]);
+            table.row(&[&name], [1.0]);
+            table.row(&["a"], [-2.5]);
+            let text = table.to_string();
+            let widths: Vec<_> = text.lines().map(|line| line.chars().count()).collect();
+            assert_eq!(widths, [length + 12; 3], "{length}");
         }
     }
 

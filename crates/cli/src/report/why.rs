@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::misfits::{MisfitEffectReport, misfit_effects, write_misfit_effects};
 use super::sensitivities::SensitivityReport;
+use super::table::left;
 use super::{Table, number, numbers, section};
 use crate::case::Case;
 
@@ -346,8 +347,8 @@ fn bars(text: &mut String, sums: &[Sum], unit: &str) {
             text,
             "{}",
             format!(
-                "    {:<width$}  {:>6.1} %  {:>12} {unit}  {bar}",
-                sum.name,
+                "    {}  {:>6.1} %  {:>12} {unit}  {bar}",
+                left(&sum.name, width),
                 100.0 * share,
                 number(sum.displacement)
             )

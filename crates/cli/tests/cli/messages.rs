@@ -59,9 +59,14 @@ fn a_body_that_nothing_holds_is_pointed_at() {
 #[test]
 fn numbers_out_of_all_proportion_get_help() {
     let bench = Bench::new("messages-proportion");
-    let twice = r#"(on: ("bar", "B"), moment: (1.7e308, 0.0, 0.0)), "#.repeat(2);
-    let text = CANTILEVER.replace("loads: [", &format!("loads: [{twice}"));
-    assert_ne!(text, CANTILEVER);
+    let load = r#"loads: [(on: ("bar", "B"), moment: (1.7e308, 0.0, 0.0)), "#;
+    bench.file("huge.ron", &CANTILEVER.replace("loads: [", load));
+    let outcome = bench.hyperstat(&["solve", "huge.ron"]).ends_with(2);
+    outcome.says(&["nothing that acts is larger than 1e50", "help: ", "units"]);
+    // 1e50 N·m on a hinge of 1e-260 N·m/rad.
+    let text = CANTILEVER
+        .replace("kind: Fixed", "kind: Fixed, stiffness: (u: 1e-260)")
+        .replace("moment: (10.0", "moment: (1e50");
     bench.file("huge.ron", &text);
     let outcome = bench.hyperstat(&["solve", "huge.ron"]).ends_with(2);
     outcome.says(&["overflow", "help: ", "too different size", "units"]);

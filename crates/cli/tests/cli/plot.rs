@@ -5,7 +5,7 @@ use std::fs;
 
 use crate::support::{Bench, delta_batch};
 
-const GRID: &str = "Grid(x: (-0.3, 0.3, 7), y: (-0.3, 0.3, 5), z: (0.45, 0.65, 3))";
+pub const GRID: &str = "Grid(x: (-0.3, 0.3, 7), y: (-0.3, 0.3, 5), z: (0.45, 0.65, 3))";
 
 /// A bench with the table `out/map.csv` of a grid that is out of reach in its corners.
 fn with_table(name: &str, rest: &str) -> Bench {
@@ -36,10 +36,14 @@ fn a_map_of_a_plane_and_of_all_planes() {
     assert!(svg.contains(">\nk33 (MN/m)\n<") && svg.contains("<title>map</title>"));
     assert_eq!(&fs::read(bench.path("one.png")).unwrap()[..4], b"\x89PNG");
 
-    let all = ["plot", "out/map.csv", "--map", "stiffness_min"];
+    let all = ["plot", "out/map.csv", "--map", "pure_force_stiffness_min"];
     let outcome = bench.hyperstat(&all).ends_with(0);
-    assert!(outcome.out().starts_with("out/map-stiffness_min.svg\n"));
-    let svg = bench.read("out/map-stiffness_min.svg");
+    assert!(
+        outcome
+            .out()
+            .starts_with("out/map-pure_force_stiffness_min.svg\n")
+    );
+    let svg = bench.read("out/map-pure_force_stiffness_min.svg");
     for plane in ["z = 0.45 m", "z = 0.55 m", "z = 0.65 m"] {
         assert!(svg.contains(&format!(">\n{plane}\n<")), "{plane}");
     }
@@ -164,7 +168,7 @@ fn lines_over_what_varies_take_one_pose_of_each_design() {
         "over",
     ];
     let arguments = [
-        &["plot", "designs.csv", "--lines", "stiffness_min"],
+        &["plot", "designs.csv", "--lines", "pure_force_stiffness_min"],
         &over[..],
     ]
     .concat();
@@ -197,13 +201,29 @@ fn what_is_asked_for_and_not_there_is_told() {
         .says(&["there is no plane z = 0.5", "z = 0.45, 0.55, 0.65"]);
     plot(&["--map", "k11", "--plane", "w=0.5"])
         .ends_with(2)
-        .says(&["`w` is no coordinate"]);
+        .says(&["`w` is no coordinate of these poses", "x, y, z, rx, ry, rz"]);
     plot(&["--map", "k11", "--plane", "z=0.45", "--axes", "x,z"])
         .ends_with(2)
         .says(&["a plane at one z does not lie along z"]);
     plot(&["--lines", "status"])
         .ends_with(2)
-        .says(&["map.csv:2:", "`status`", "found `ok`"]);
+        .says(&["the column `status` of out/map.csv holds no numbers"]);
+    let held = ["x=0", "y=0", "z=0.45", "rx=0", "ry=0"].map(|plane| ["--plane", plane]);
+    plot(&[&["--map", "k11"], held.as_flattened()].concat())
+        .ends_with(2)
+        .says(&["all coordinates but one are held"]);
+    plot(&["--map", "deflecton"])
+        .ends_with(2)
+        .says(&["did you mean `deflection`?"]);
+    plot(&["--map", "k11", "--scale", "200"])
+        .ends_with(2)
+        .says(&["`--scale 200` is none of a map", "`log` or `linear`"]);
+    plot(&["--trajectory", "--scale", "log"])
+        .ends_with(2)
+        .says(&["`--scale log` is none of what is magnified", "such as 200"]);
+    plot(&["--map", "k11", "--limits", "2,1"])
+        .ends_with(2)
+        .says(&["the lower one first"]);
     plot(&[]).ends_with(2).says(&["--map"]);
     bench
         .hyperstat(&["plot", "out/none.csv", "--map", "k11"])
@@ -255,29 +275,6 @@ fn a_table_that_is_none_of_a_run_is_told_with_its_place() {
         .hyperstat(&["plot", "failed.csv", "--map", "dx"])
         .ends_with(2)
         .says(&["no pose of failed.csv has a result there"]);
-}
-
-#[test]
-fn a_map_of_an_unknown_quantity_is_told_before_the_first_job() {
-    let bench = Bench::new("plot-job");
-    let figures = r#"figures: [Map(value: "k77")],"#;
-    bench.file("map.ron", &delta_batch("map", GRID, figures));
-    bench
-        .hyperstat(&["run", "map.ron", "--out", "out"])
-        .ends_with(2)
-        .says(&["map.ron:4:", "there is no quantity `k77`", "k11, k12"]);
-    assert!(!bench.path("out").exists());
-}
-
-#[test]
-fn a_plane_that_a_job_has_not_is_told_in_its_summary() {
-    let figures = r#"figures: [Map(value: "k33", plane: z(0.5))],"#;
-    let bench = Bench::new("plot-job-plane");
-    bench.file("map.ron", &delta_batch("map", GRID, figures));
-    let outcome = bench.hyperstat(&["run", "map.ron", "--out", "out"]);
-    let told = "no map-map: there is no plane z = 0.5; there are planes at z = 0.45, 0.55, 0.65";
-    assert!(outcome.out().contains(told), "{}", outcome.out());
-    assert_eq!(bench.names("out"), ["map.csv"]);
 }
 
 #[test]

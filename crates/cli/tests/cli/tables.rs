@@ -112,6 +112,32 @@ fn parquet_holds_the_designs_and_what_varies() {
     assert_eq!(nulls, 27 * 140);
 }
 
+/// A pose of drives that is not reached has no coordinates: null. Its drives have columns of their own.
+#[test]
+fn parquet_holds_null_where_nothing_is_known() {
+    let bench = Bench::new("tables-unknown");
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    fs::copy(examples.join("five_bar.ron"), bench.path("five_bar.ron")).unwrap();
+    bench.file("drives.csv", "A1.v,A2.v\n0,0\n-3.0,3.0\n0.1236,0.0147\n");
+    bench.file(
+        "d.ron",
+        r#"(jobs: [(name: "d", mechanism: File("five_bar.ron"), poses: Drives(Csv("drives.csv")),
+            vary: { "sections.rod.outer": [0.025, 0.026] })])"#,
+    );
+    for format in ["csv", "parquet"] {
+        let arguments = ["run", "d.ron", "--out", "out", "--format", format];
+        bench.hyperstat(&arguments).ends_with(1);
+    }
+    let header = bench.read("out/d.csv");
+    let header = header.lines().next().unwrap();
+    assert!(
+        header.ends_with(",k66,A1.v,A2.v,design,sections.rod.outer"),
+        "{header}"
+    );
+    // Six coordinates and what would have been found, of one pose of both designs.
+    assert_eq!(same_cells(&bench, "out/d", 6), 2 * (6 + 27));
+}
+
 /// Compares a Parquet file with the CSV file beside it, cell by cell; returns the number of nulls.
 fn same_cells(bench: &Bench, path: &str, count: usize) -> usize {
     let csv = bench.read(&format!("{path}.csv"));

@@ -348,7 +348,12 @@ fn the_summary_of_a_grid_is_that_of_its_table() {
     let found = number(&deflection["percentiles"][1]["value"]);
     assert!((found / median - 1.0).abs() < 1e-3, "{found} {median}");
     // The translational block's trace bounds its eigenvalues.
-    let least = number(&of("stiffness_least")["min"]["value"]);
+    let least = number(&of("pure_translation_stiffness_min")["min"]["value"]);
     let smallest = rows.iter().map(|row| row[13].min(row[19]).min(row[24]));
     assert!(least <= smallest.fold(f64::MAX, f64::min));
+    // Rotations free: the inverse of the largest compliance, softer than with them held.
+    let free = of("pure_force_stiffness_min");
+    let softest = number(&of("softest_force")["max"]["value"]);
+    near(number(&free["min"]["value"]), 1.0 / softest);
+    assert!(number(&free["min"]["value"]) <= least);
 }

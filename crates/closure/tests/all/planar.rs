@@ -4,9 +4,9 @@ use crate::support;
 
 use std::f64::consts::{PI, TAU};
 
-use hyperstat_assembly::{JointId, Model};
+use hyperstat_assembly::{JointId, Model, NodeId};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
-use hyperstat_joints::{Dof, Prismatic, Revolute};
+use hyperstat_joints::{Dof, Fixed, Prismatic, Revolute};
 use support::{Builder, drive, driven, geometry, placed, position};
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
@@ -36,7 +36,7 @@ fn an_arm_keeps_its_elbow() {
         let angle = closure.value(&at, shoulder, Dof::V).expect("an angle");
         let off = (angle - lean + PI).rem_euclid(TAU) - PI;
         assert!(off.abs() < 1e-11, "{x} {y}: {angle}, not {lean}");
-        assert!(closure.misfit(&at) < 1e-14);
+        assert!(closure.misfit(&at).expect("its own") < 1e-14);
     }
 }
 
@@ -152,7 +152,7 @@ fn a_crank_turns_round_and_round() {
             "{angle}: {c}, not {x} {y}"
         );
         assert_eq!(closure.value(&at, a, Dof::V), Some(angle));
-        assert!(closure.misfit(&at) < 1e-14);
+        assert!(closure.misfit(&at).expect("its own") < 1e-14);
     }
 }
 
@@ -215,7 +215,7 @@ fn a_slider_follows_its_crank() {
         let at = driven(&closure, &[drive(a, Dof::V, turn)]).expect("a crank");
         let angle = turn + PI / 2.0;
         let x = angle.cos() + (4.0 - angle.sin().powi(2)).sqrt();
-        let found = closure.pose(&at)[0];
+        let found = closure.pose(&at).expect("its own")[0];
         assert!((found - x).abs() < 1e-12, "{turn}: {found}, not {x}");
         let travel = closure.value(&at, guide, Dof::Y).expect("a travel");
         assert!((travel - (x - far)).abs() < 1e-12, "{turn}: {travel}");
@@ -223,4 +223,94 @@ fn a_slider_follows_its_crank() {
         let [one, other] = ["rod", "slider"].map(|body| position(&b.0, &moved, body, "C"));
         assert!((one - other).norm() < 1e-13);
     }
+}
+
+/// What has no joint that moves stays where it is; there is nothing to decompose.
+#[test]
+fn what_cannot_move_stays_at_home() {
+    let mut b = Builder::new();
+    b.body("bar", &[("A", [0.0; 3]), ("B", [0.3, 0.0, 0.1])]);
+    let z = [0.0, 0.0, 1.0];
+    b.joint("weld", "A", ["ground", "bar"], Fixed, z, false);
+    b.output("bar", "B");
+    let closure = LoopClosure::new(&b.0).expect("a linkage");
+    assert_eq!(closure.output_mobility(), 0);
+    let home = closure.home();
+    let stays = closure
+        .reach(&home, &Target::Output([None; 6]))
+        .expect("at home");
+    assert_eq!(closure.pose(&stays), Ok([0.3, 0.0, 0.1, 0.0, 0.0, 0.0]));
+    placed(&closure, [0.3, 0.0, 0.1]).expect("at home");
+    driven(&closure, &[]).expect("at home");
+    let error = placed(&closure, [0.3, 0.1, 0.1]).expect_err("it cannot move");
+    assert!(
+        matches!(error, ClosureError::CannotFollow { .. }),
+        "{error}"
+    );
+    // A loop that cannot move, too.
+    b.joint("second", "B", ["ground", "bar"], Fixed, z, false);
+    let closure = LoopClosure::new(&b.0).expect("a linkage");
+    assert_eq!(closure.output_mobility(), 0);
+    placed(&closure, [0.3, 0.0, 0.1]).expect("at home");
+}
+
+/// Joints, configurations, geometries and models that do not belong together are errors.
+#[test]
+fn what_is_of_another_mechanism_is_refused() {
+    let (model, [a, ..]) = with_one_drive(3);
+    let closure = LoopClosure::new(&model).expect("a linkage");
+    let other = LoopClosure::new(&model).expect("a linkage");
+    let home = other.home();
+    let foreign = Err(ClosureError::ForeignConfiguration);
+    assert_eq!(closure.reach(&home, &Target::Drives(&[])), foreign);
+    assert_eq!(closure.pose(&home), Err(ClosureError::ForeignConfiguration));
+    assert_eq!(
+        closure.misfit(&home),
+        Err(ClosureError::ForeignConfiguration)
+    );
+    let mut moved = model.geometry().clone();
+    assert_eq!(
+        closure.write(&home, &mut moved),
+        Err(ClosureError::ForeignConfiguration)
+    );
+    assert_eq!(closure.value(&home, a, Dof::V), None);
+    assert_eq!(other.value(&home, a, Dof::V), Some(0.0));
+    // A clone is the same mechanism.
+    assert!(closure.clone().pose(&closure.home()).is_ok());
+    let count = model.joints().len();
+    let joint = ClosureError::ForeignJoint { joint: 99, count };
+    let ids = [drive(JointId(99), Dof::V, 0.1)];
+    assert_eq!(driven(&closure, &ids), Err(joint));
+    assert_eq!(closure.value(&closure.home(), JointId(99), Dof::V), None);
+    moved.positions.pop();
+    let error = closure
+        .write(&closure.home(), &mut moved)
+        .expect_err("another size");
+    assert!(error.to_string().contains("the geometry holds"), "{error}");
+    let mut nowhere = model.clone();
+    nowhere.set_output(NodeId(99));
+    let error = LoopClosure::new(&nowhere).expect_err("no node");
+    assert!(error.to_string().contains("node 99"), "{error}");
+}
+
+/// Dense matrices end somewhere: a chain of 2^16 hinges is refused at once.
+#[test]
+fn a_chain_too_long_is_refused() {
+    let mut b = Builder::new();
+    let z = [0.0, 0.0, 1.0];
+    let name = |k: usize| format!("b{k}");
+    for k in 0..1 << 16 {
+        let at = |k: usize| [k as f64, 0.0, 0.0];
+        let (here, next) = (format!("p{k}"), format!("p{}", k + 1));
+        b.body(&name(k), &[(&here, at(k)), (&next, at(k + 1))]);
+        let before = if k > 0 { name(k - 1) } else { "ground".into() };
+        b.joint(&here, &here, [&before, &name(k)], Revolute, z, true);
+    }
+    b.output("b0", "p1");
+    let error = LoopClosure::new(&b.0).expect_err("too large");
+    assert!(
+        error.to_string().contains("65536 joint coordinates"),
+        "{error}"
+    );
+    assert!(error.to_string().contains("at most 2000"), "{error}");
 }

@@ -25,7 +25,7 @@
 //!
 //! The soft direction's own stiffness is another matter: across the axes no matrix of doubles
 //! holds it better than to s · 1e-16 of itself, whatever formed it. Where it matters and s is
-//! above 1e8, the soft direction is better kept as a coordinate of its own.
+//! above 1e4, the soft direction is better kept as a coordinate of its own.
 
 mod absorption;
 mod blocks;

@@ -8,11 +8,19 @@ use crate::contours::Field;
 use crate::error::FigureError;
 use crate::geometry::PagePoint;
 use crate::page::fitted;
+use crate::paths;
 use crate::plane_axes::PlaneAxes;
+use crate::refine::Refined;
 use crate::style;
 
 /// Shortest contour that has room for a label \[pixels\].
 const LABELLED: f64 = 110.0;
+
+/// A cell of the grid is divided until its parts are no larger than this \[pixels\], ...
+const FINE: f64 = 5.0;
+
+/// ... but into no more parts along an axis than this.
+const MOST_PARTS: f64 = 24.0;
 
 /// Least distance of the marks of points without a value \[pixels\].
 const MARKS_APART: f64 = 8.0;
@@ -71,20 +79,40 @@ fn draw_grid(
     let on_page = |line: Vec<PagePoint>| -> Vec<PagePoint> {
         line.into_iter().map(|point| axes.at(point)).collect()
     };
+    let toned: Vec<_> = (field.values.iter())
+        .map(|value| value.map(|value| colors.tone(value)))
+        .collect();
+    let toned = Field {
+        values: &toned,
+        ..*field
+    };
+    let area = axes.area;
+    let parts = [
+        (field.x, area.right - area.left),
+        (field.y, area.bottom - area.top),
+    ]
+    .map(|(ticks, pixels)| {
+        let cell = pixels / (ticks.len() - 1) as f64;
+        (cell / FINE).ceil().clamp(1.0, MOST_PARTS) as usize
+    });
+    let fine = Refined::new(&toned, parts);
+    let fine = fine.field();
     for (level, color) in colors.shades() {
-        let region: Vec<_> = field.region(level).into_iter().map(on_page).collect();
+        let region: Vec<_> = fine.region(level).into_iter().map(on_page).collect();
         if region.is_empty() {
             break;
         }
         canvas.shade(&region, color);
     }
     let mut labels: Vec<(PagePoint, String)> = Vec::new();
-    for (value, label, stroke) in colors.contours() {
-        let lines: Vec<_> = field.lines(value).into_iter().map(on_page).collect();
+    for (tone, label, stroke) in colors.contours() {
+        let lines: Vec<_> = fine.lines(tone).into_iter().map(on_page).collect();
         for line in &lines {
             canvas.line(line, stroke)?;
         }
-        let longest = lines.iter().max_by(|a, b| length(a).total_cmp(&length(b)));
+        let longest = lines
+            .iter()
+            .max_by(|a, b| paths::length(a).total_cmp(&paths::length(b)));
         if let Some(at) = longest.and_then(|line| label_place(line, &label, axes, &labels)) {
             labels.push((at, label));
         }
@@ -152,7 +180,7 @@ fn label_place(
     axes: &PlaneAxes,
     others: &[(PagePoint, String)],
 ) -> Option<PagePoint> {
-    let whole = length(line);
+    let whole = paths::length(line);
     if whole < LABELLED {
         return None;
     }
@@ -173,31 +201,11 @@ fn label_place(
     let parts = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
     parts
         .iter()
-        .map(|part| along(line, part * whole))
+        .map(|part| paths::along(line, part * whole))
         .find(is_free)
 }
 
 fn half_size(label: &str) -> [f64; 2] {
     let size = style::CONTOUR_LABEL.size;
     [0.5 * text_width(label, size) + 1.0, 0.55 * size]
-}
-
-fn length(line: &[PagePoint]) -> f64 {
-    line.windows(2).map(|pair| distance(pair[0], pair[1])).sum()
-}
-
-fn distance(a: PagePoint, b: PagePoint) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// The point so far along a line.
-fn along(line: &[PagePoint], mut far: f64) -> PagePoint {
-    for pair in line.windows(2) {
-        let step = distance(pair[0], pair[1]);
-        if far <= step && step > 0.0 {
-            return [0, 1].map(|k| pair[0][k] + far / step * (pair[1][k] - pair[0][k]));
-        }
-        far -= step;
-    }
-    line[line.len() - 1]
 }

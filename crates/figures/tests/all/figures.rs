@@ -21,6 +21,7 @@ fn trajectory() -> TrajectoryFigure {
         commanded: (0..=20).map(|k| [part(k), 0.0, 0.5 * part(k)]).collect(),
         second: Some(SecondMethod {
             name: "other method".into(),
+            at: (0..=20).collect(),
             displacement: displacement.clone(),
             difference: 0.0105,
         }),
@@ -182,6 +183,21 @@ fn the_legend_names_only_what_is_there() {
     ] {
         assert!(!svg.contains(text), "{text}");
     }
+}
+
+#[test]
+fn a_second_method_may_be_known_at_some_points_only() {
+    let mut figure = trajectory();
+    let second = figure.second.as_mut().expect("a second method");
+    second.at = vec![0, 10, 20];
+    second.displacement.truncate(3);
+    let svg = figure.svg().unwrap();
+    let whole = trajectory().svg().unwrap();
+    let rings = |svg: &str| svg.matches("<circle").count();
+    assert_eq!(rings(&whole) - rings(&svg), 18);
+    figure.second.as_mut().expect("a second method").at[2] = 21;
+    let error = figure.svg().unwrap_err();
+    assert_eq!(error.to_string(), "`other method` has a point 21 of 21");
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Maps: contours and colours where the field says, marks of what is missing, the same bytes
 //! again, and data that cannot be drawn.
 
-use hyperstat_figures::{FigureError, MapFigure, MapPanel, Quantity, Samples};
-use resvg::usvg::roxmltree::Document;
+use hyperstat_figures::{ColorScale, FigureError, MapFigure, MapPanel, Quantity, Samples};
+use resvg::usvg::roxmltree::{self, Document};
 
 use crate::drawn::{points, texts};
 
@@ -34,6 +34,8 @@ fn figure(panels: Vec<MapPanel>) -> MapFigure {
         subtitle: "k33: a stiffness; z = 0.5 m.".into(),
         axes: ["x", "y"].map(|name| Quantity::new(name, "m")),
         quantity: Quantity::new("k33", "N/m"),
+        limits: None,
+        scale: ColorScale::Auto,
         panels,
     }
 }
@@ -173,6 +175,153 @@ fn colours_run_evenly_from_dark_to_light() {
         let expected = left + (right - left) * k as f64 / 64.0;
         assert!((found - expected).abs() <= 1.0, "{k}: {found} {expected}");
     }
+}
+
+/// Left ends of the shades' regions, in tenths of a pixel.
+fn lefts(document: &Document<'_>) -> Vec<f64> {
+    let paths = document.descendants().filter(|n| n.has_tag_name("path"));
+    let left = |path: roxmltree::Node<'_, '_>| {
+        let d = path.attribute("d").unwrap();
+        let xs = d.split(['M', 'L', 'Z']).filter(|p| !p.is_empty());
+        xs.map(|p| p.split(' ').next().unwrap().parse::<f64>().unwrap())
+            .fold(f64::INFINITY, f64::min)
+    };
+    paths.map(left).collect()
+}
+
+#[test]
+fn logarithmic_colours_are_even_in_the_logarithm() {
+    // Three decades along x: the shades' regions end at equal distances.
+    let field = |x: f64, _| Some(1e-3 * 10_f64.powf(7.5 * (x + 0.2)));
+    for scale in [ColorScale::Log, ColorScale::Auto] {
+        let map = MapFigure {
+            scale,
+            quantity: Quantity::new("deflection", "m"),
+            ..figure(vec![panel(9, field)])
+        };
+        let svg = map.svg().unwrap();
+        let document = Document::parse(&svg).unwrap();
+        let [[left, _], [right, _]] = frame(&document);
+        for (k, found) in lefts(&document).iter().take(64).enumerate() {
+            let expected = left + (right - left) * k as f64 / 64.0;
+            assert!((found - expected).abs() <= 1.0, "{k}: {found} {expected}");
+        }
+        let texts = texts(&document);
+        for text in ["0.001", "0.01", "0.1", "1", "0.5", "deflection (m)"] {
+            assert!(
+                texts.iter().any(|(found, _)| found == text),
+                "{text}: {texts:?}"
+            );
+        }
+        assert_eq!(
+            map.caption(),
+            "deflection from 1 mm to 1 m. Logarithmic colours."
+        );
+    }
+}
+
+#[test]
+fn values_beyond_the_limits_have_the_last_colours() {
+    let slope = |x: f64, _| Some(1e6 * (x + 0.2));
+    let map = MapFigure {
+        limits: Some([1e5, 3e5]),
+        ..figure(vec![panel(5, slope)])
+    };
+    let svg = map.svg().unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let [[left, _], [right, _]] = frame(&document);
+    // The first shade from the left edge on, the others from a quarter to three quarters.
+    for (k, found) in lefts(&document).iter().take(64).enumerate() {
+        let part = if k == 0 {
+            0.0
+        } else {
+            0.25 + 0.5 * k as f64 / 64.0
+        };
+        let expected = left + (right - left) * part;
+        assert!((found - expected).abs() <= 1.0, "{k}: {found} {expected}");
+    }
+    assert_eq!(
+        map.caption(),
+        "k33 from 0 N/m to 400 kN/m. Colours from 100 kN/m to 300 kN/m."
+    );
+    // The bar has a tip at either end: two triangles more than without limits.
+    let paths = |svg: &str| svg.matches("<path ").count();
+    let whole = figure(vec![panel(5, slope)]).svg().unwrap();
+    assert_eq!(paths(&svg), paths(&whole) + 2);
+
+    let refused = |limits, scale| {
+        let map = MapFigure {
+            limits,
+            scale,
+            ..figure(vec![panel(5, slope)])
+        };
+        map.svg().unwrap_err().to_string()
+    };
+    let ends = refused(Some([1.0, 1.0]), ColorScale::Auto);
+    assert_eq!(
+        ends,
+        "the colours go from 1 to 1; they need two finite numbers, ascending"
+    );
+    let zero = refused(None, ColorScale::Log);
+    assert_eq!(
+        zero,
+        "a logarithmic scale needs values above zero, and would begin at 0"
+    );
+}
+
+#[test]
+fn contours_of_a_coarse_grid_are_smooth() {
+    // Nine by nine points of 2 MN/m less 20 MN/m per m² away from the origin: on circles.
+    let bowl = |x: f64, y: f64| Some(2e6 - 2e7 * (x * x + y * y));
+    let svg = figure(vec![panel(9, bowl)]).svg().unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let [[left, bottom], [right, top]] = frame(&document);
+    let radius = |[x, y]: &[f64; 2]| {
+        let x = -0.2 + 0.4 * (x - left) / (right - left);
+        let y = -0.2 + 0.4 * (bottom - y) / (bottom - top);
+        x.hypot(y)
+    };
+    let lines = document
+        .descendants()
+        .filter(|n| n.has_tag_name("polyline"));
+    let curves: Vec<_> = lines.map(points).filter(|line| line.len() > 50).collect();
+    // 1.5 MN/m a circle, 1 MN/m an arc at each corner.
+    assert_eq!(curves.len(), 5);
+    for curve in &curves {
+        let radii: Vec<f64> = curve.iter().map(radius).collect();
+        let [least, most] = radii
+            .iter()
+            .fold([f64::INFINITY, 0.0_f64], |[least, most], r| {
+                [least.min(*r), most.max(*r)]
+            });
+        // A tenth of a pixel, and the chord of a part of a cell of 5 pixels. Straight lines through
+        // the cells of 0.05 m would be off by 0.05²/4/2r = 2e-3 m at r = 0.15 m.
+        let off = 2.0 * (0.4 / (right - left) + 0.003_f64.powi(2) / 8.0 / least);
+        assert!(most - least < 2.0 * off, "{least} {most}");
+        let near = |square: f64| (square.sqrt() - most).abs() < 2.0 * off;
+        assert!(near(0.025) || near(0.05), "{most}");
+    }
+}
+
+#[test]
+fn the_unit_of_the_bar_is_whole() {
+    let many = (0..4).map(|k| panel(5, move |x, y| cone(x, y).map(|v| v + f64::from(k))));
+    let map = MapFigure {
+        quantity: Quantity::new("rotational_stiffness_min", "N·m/rad"),
+        ..figure(many.collect())
+    };
+    let svg = map.svg().unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let texts = texts(&document);
+    let unit = texts
+        .iter()
+        .filter(|(text, _)| text.ends_with("(MN·m/rad)"));
+    assert_eq!(unit.count(), 1, "{texts:?}");
+    assert!(
+        texts
+            .iter()
+            .any(|(text, _)| text == "rotational_stiffness_min")
+    );
 }
 
 #[test]

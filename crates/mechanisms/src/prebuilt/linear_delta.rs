@@ -11,7 +11,9 @@ use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::rail::Rails;
 use super::telescope::{Foot, FootJoint};
-use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use super::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates, parameter,
+};
 
 /// The linear delta: a platform that keeps its orientation on three pairs of parallel rods, each
 /// pair standing on a driven carriage.
@@ -221,6 +223,10 @@ impl Prebuilt for LinearDelta {
 
     fn coordinates(&self) -> &'static [PoseCoordinate] {
         &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+    }
+
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        ROTATION
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {

@@ -121,6 +121,11 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// follow from its kinematics.
     fn coordinates(&self) -> &'static [PoseCoordinate];
 
+    /// Those of the others that are zero in every pose.
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        &[]
+    }
+
     /// The model at `pose`, without loads.
     ///
     /// # Errors
@@ -170,6 +175,9 @@ pub struct Link {
     /// Material.
     pub material: Material,
 }
+
+/// The rotation of the output.
+const ROTATION: &[PoseCoordinate] = &[PoseCoordinate::Rx, PoseCoordinate::Ry, PoseCoordinate::Rz];
 
 /// Takes exactly `N` finite coordinates from a pose.
 fn coordinates<const N: usize>(kind: &str, pose: &[f64]) -> Result<[f64; N], PoseError> {

@@ -10,7 +10,9 @@ use super::construction::{
 use super::error::shown;
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
-use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use super::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates, parameter,
+};
 
 /// How far, relative to the rods' length, a pose may miss the edge of a limb's reach and still
 /// count as on it (rods normal to the rail). Loops then close to this, not to rounding.
@@ -264,6 +266,10 @@ impl Prebuilt for Orthoglide {
 
     fn coordinates(&self) -> &'static [PoseCoordinate] {
         &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+    }
+
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        ROTATION
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {

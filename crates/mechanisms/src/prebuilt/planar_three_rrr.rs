@@ -189,6 +189,10 @@ impl Prebuilt for PlanarThreeRrr {
         &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Rz]
     }
 
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::Z, PoseCoordinate::Rx, PoseCoordinate::Ry]
+    }
+
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("planar 3-RRR", &self.at(pose)?)
     }

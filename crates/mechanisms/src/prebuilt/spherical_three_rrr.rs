@@ -13,7 +13,8 @@ use super::error::shown;
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb};
 use super::{
-    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates,
+    parameter,
 };
 
 /// How far (rad) a pose may miss the edge of a limb's reach and still count as on it.
@@ -290,7 +291,11 @@ impl Prebuilt for SphericalThreeRrr {
     }
 
     fn coordinates(&self) -> &'static [PoseCoordinate] {
-        &[PoseCoordinate::Rx, PoseCoordinate::Ry, PoseCoordinate::Rz]
+        ROTATION
+    }
+
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {

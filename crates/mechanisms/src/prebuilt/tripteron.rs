@@ -9,7 +9,8 @@ use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
 use super::two_links::{TwoLinks, joints_of};
 use super::{
-    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates,
+    parameter,
 };
 
 /// The Tripteron (3-PRRR): a platform that keeps its orientation, each of its coordinates moved
@@ -211,6 +212,10 @@ impl Prebuilt for Tripteron {
 
     fn coordinates(&self) -> &'static [PoseCoordinate] {
         &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+    }
+
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        ROTATION
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {

@@ -1,68 +1,117 @@
 //! Whatever a file holds, the loader answers: with a mechanism or batch, or with an error in
-//! the file.
+//! the file; and whatever it takes is posed, planned and solved, or refused.
+//!
+//! The seeds are changed at random, by bytes and by tokens, for `HYPERSTAT_MUTATION_SECONDS` in each
+//! test of a kind of input; `HYPERSTAT_MUTATION_SEED` gives other changes. The last text is kept in
+//! the target folder, for what ends the whole program.
 
-use crate::fuzzing;
-
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
-const FILES: [&str; 3] = [
-    include_str!("../../../../tests/reference/every_joint.ron"),
-    include_str!("../../../../examples/portal.ron"),
-    include_str!("../../../../examples/paper.ron"),
-];
+use crate::fuzzing::{self, Folder, Mutator, Random, jobs_alone, seeds};
 
-/// Pieces that mean something in the format, or nearly.
-const PIECES: [&str; 34] = [
-    "(",
-    ")",
-    "[",
-    "]",
-    "{",
-    "}",
-    ",",
-    ":",
-    "\"",
-    "\\",
-    "/*",
-    "*/",
-    "//",
-    "'",
-    "r#\"",
-    "#![",
-    "..",
-    "-",
-    "0",
-    "1e999",
-    "NaN",
-    "-inf",
-    "1e-320",
-    "\"B\"",
-    "\"ground\"",
-    "Some(",
-    "None",
-    "()",
-    "Revolute",
-    "Matrix([])",
-    "true",
-    "\n",
-    "\u{feff}",
-    "é",
-];
+/// The repository, from this crate's folder.
+const REPOSITORY: &str = "../..";
+
+/// Time of each kind of input without `HYPERSTAT_MUTATION_SECONDS` [s].
+const SECONDS: f64 = 2.0;
+
+/// Texts to begin with that are kept, those that were taken among them.
+const KEPT: usize = 2000;
+
+fn folder() -> Folder {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mutations/folder");
+    Folder::new(Path::new(REPOSITORY), &path)
+}
+
+fn variable<T: std::str::FromStr>(name: &str, default: T) -> T {
+    match std::env::var(name) {
+        Err(_) => default,
+        Ok(text) => text
+            .parse()
+            .unwrap_or_else(|_| panic!("{name} is `{text}`")),
+    }
+}
+
+/// Changes texts until the time is over, and gives each to `takes`, which says whether it was taken.
+fn change(what: &str, texts: Vec<String>, takes: impl Fn(&str) -> bool) {
+    let time = Duration::from_secs_f64(variable("HYPERSTAT_MUTATION_SECONDS", SECONDS));
+    let seed = variable("HYPERSTAT_MUTATION_SEED", 1_u64);
+    let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("mutations/{what}.txt"));
+    fs::create_dir_all(kept.parent().unwrap()).unwrap();
+    let (mut random, mut mutator) = (Random::new(seed), Mutator::new(texts));
+    let (begin, mut count, mut taken, mut slowest) = (Instant::now(), 0_u64, 0_u64, 0.0_f64);
+    while begin.elapsed() < time {
+        let text = mutator.text(&mut random);
+        fs::write(&kept, &text).unwrap();
+        let one = Instant::now();
+        let was_taken = catch_unwind(AssertUnwindSafe(|| takes(&text))).unwrap_or_else(|_| {
+            panic!(
+                "input {count} of seed {seed}, kept in {}:\n{text}",
+                kept.display()
+            )
+        });
+        slowest = slowest.max(one.elapsed().as_secs_f64());
+        count += 1;
+        if was_taken {
+            taken += 1;
+            mutator.learn(text, KEPT, &mut random);
+        }
+    }
+    println!(
+        "{what}: {count} inputs of seed {seed} in {:.0} s, {taken} of them taken, {} texts to begin with \
+         at the end, the slowest {slowest:.2} s",
+        begin.elapsed().as_secs_f64(),
+        mutator.seeds(),
+    );
+    assert!(count > 0 && taken > 0, "{count} inputs, {taken} taken");
+}
+
+/// The repository's mechanisms and batches, and every job of a batch alone.
+fn mechanisms_and_batches() -> Vec<String> {
+    let files = seeds(Path::new(REPOSITORY), "ron").into_iter();
+    let mut texts: Vec<String> = files.map(|(_, text)| text).collect();
+    let alone: Vec<_> = texts.iter().flat_map(|text| jobs_alone(text)).collect();
+    texts.extend(alone);
+    texts
+}
+
+#[test]
+fn files_are_answered() {
+    let path = folder().text();
+    change("files", mechanisms_and_batches(), |text| {
+        fuzzing::answer(text, &path)
+    });
+}
+
+#[test]
+fn what_is_taken_is_solved_or_refused() {
+    let path = folder().text();
+    let texts = mechanisms_and_batches().into_iter();
+    let texts = texts.filter(|text| fuzzing::answer(text, &path));
+    change("solved", texts.collect(), |text| {
+        fuzzing::solve(text, &path)
+    });
+}
+
+#[test]
+fn tables_are_answered() {
+    let folder = folder();
+    let files = seeds(Path::new(REPOSITORY), "csv").into_iter();
+    let texts = files.map(|(_, text)| text).filter(|text| text.len() < 4000);
+    change("tables", texts.collect(), |text| {
+        fuzzing::table(text.as_bytes(), &folder) > 0
+    });
+}
 
 fn answer(text: &str) {
     // What a batch names is found beside it.
     fuzzing::answer(text, Path::new("../../examples/mutated.ron"));
-}
-
-fn boundary(text: &str, at: prop::sample::Index) -> usize {
-    let at = at.index(text.len() + 1);
-    (0..=at)
-        .rev()
-        .find(|&k| text.is_char_boundary(k))
-        .unwrap_or(0)
 }
 
 proptest! {
@@ -73,35 +122,6 @@ proptest! {
         ))),
         ..ProptestConfig::default()
     })]
-
-    #[test]
-    fn pieces_put_in_or_cut_out(
-        file in 0..FILES.len(),
-        edits in prop::collection::vec(
-            (any::<prop::sample::Index>(), 0_usize..40, 0..PIECES.len()), 1..4),
-    ) {
-        let mut text = FILES[file].to_owned();
-        for (at, cut, piece) in edits {
-            let start = boundary(&text, at);
-            let end = (start + cut).min(text.len());
-            let end = (start..=end).rev().find(|&k| text.is_char_boundary(k)).unwrap_or(start);
-            text.replace_range(start..end, PIECES[piece]);
-        }
-        answer(&text);
-    }
-
-    #[test]
-    fn pieces_of_the_files_shuffled(
-        parts in prop::collection::vec(
-            (0..FILES.len(), any::<prop::sample::Index>(), 1_usize..200), 1..6),
-    ) {
-        let mut text = String::from("(");
-        for (file, at, length) in parts {
-            let start = boundary(FILES[file], at);
-            text.extend(FILES[file][start..].chars().take(length));
-        }
-        answer(&text);
-    }
 
     #[test]
     fn anything_at_all(text in any::<String>()) {
@@ -126,7 +146,7 @@ fn deeply_nested_files_are_answered() {
 
 #[test]
 fn every_beginning_of_a_file_is_answered() {
-    let text = FILES[1];
+    let text = include_str!("../../../../examples/portal.ron");
     for (end, _) in text.char_indices() {
         answer(&text[..end]);
     }

@@ -292,7 +292,9 @@ fn models_that_cannot_be_solved() {
     let mut geometry = model.geometry().clone();
     let (b, c) = (node(&model, "rod", "B"), node(&model, "rod", "C"));
     geometry.positions[b.0] = geometry.positions[c.0];
-    model.set_geometry(geometry);
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     let body = "rod".into();
     let expected = ReferenceError::Segment { body, segment: 0 };
     assert_eq!(solve(&model).unwrap_err(), expected);
@@ -311,4 +313,47 @@ fn a_body_in_mid_air() {
     assert_eq!((solution.mobility, solution.free_motions.len()), (6, 6));
     assert!(solution.stiffness.unwrap().amax() < 1e-6);
     assert_eq!(solution.compliance, None);
+}
+
+/// What does not belong together, and what is too large, is refused.
+#[test]
+fn models_that_are_not_one_whole_are_refused() {
+    let mut model = rod_between_balls();
+    model.set_output(hyperstat_assembly::NodeId(99));
+    let error = solve(&model).unwrap_err();
+    assert!(matches!(error, ReferenceError::Model(_)), "{error}");
+    let options = TraditionalOptions {
+        joint_stiffness: 1e12,
+        angular_stiffness: 1e9,
+        free_stiffness: 0.0,
+    };
+    let error = traditional(&model, &options).unwrap_err();
+    assert!(matches!(error, ReferenceError::Model(_)), "{error}");
+
+    let mut model = rod_between_balls();
+    let mut geometry = model.geometry().clone();
+    geometry.positions[node(&model, "rod", "B").0].z += 0.1;
+    model.set_geometry(geometry).unwrap();
+    let error = solve(&model).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("joint `b` joins `left.B` and `rod.B`"),
+        "{error}"
+    );
+
+    let mut model = rod_between_balls();
+    let [first, second] = ["left", "rod"].map(|body| node(&model, body, "B"));
+    for k in 0..2000 {
+        let weld = hyperstat_assembly::Connection {
+            name: format!("more {k}"),
+            between: [Some(first), Some(second)],
+            joint: Box::new(Fixed),
+            locked: DofSet::EMPTY,
+            stiffness: hyperstat_assembly::JointStiffness::default(),
+        };
+        model.add_joint(weld, Rotation3::identity()).unwrap();
+    }
+    let error = solve(&model).unwrap_err();
+    assert!(error.to_string().contains("at most 9600"), "{error}");
 }

@@ -122,11 +122,11 @@ fn check(
         "{what}: {differences:?}"
     );
     prop_assert!(
-        closure.misfit(&reached) <= 1e-12,
+        closure.misfit(&reached).expect("its own") <= 1e-12,
         "{what}: {:e}",
-        closure.misfit(&reached)
+        closure.misfit(&reached).expect("its own")
     );
-    let pose_found = closure.pose(&reached);
+    let pose_found = closure.pose(&reached).expect("its own");
     for k in 0..3 {
         prop_assert!(
             (pose_found[k] - whole[k]).abs() <= PLACE,

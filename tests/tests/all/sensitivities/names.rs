@@ -19,7 +19,9 @@ fn model(text: &str, job: &str, design: usize) -> Model {
     let mut model = design.model().expect("a pose");
     let mut geometry = model.geometry().clone();
     design.place(job.len() - 1, &mut geometry).expect("a pose");
-    model.set_geometry(geometry);
+    model
+        .set_geometry(geometry)
+        .expect("a geometry of this model");
     job.name_values(&design, &mut model);
     model
 }

@@ -2,33 +2,42 @@
 
 mod trajectory;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Solution};
-use hyperstat_mechanisms::{Figure, Job, Scale};
+use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Scale};
 
 use super::summary::Summary;
 use crate::case::{Source, job_model};
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
-use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, quantities};
+use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, instead_of};
 use crate::report::{self, Asked};
 pub(crate) use trajectory::Trajectory;
 
-/// That the job's maps are of quantities that its table, with these columns, will hold, and that it
-/// has modes where one is to be drawn.
+/// That the job's maps are of quantities that its table, with these columns, will hold, over planes
+/// and along axes that its poses have, and that it has modes where one is to be drawn.
 pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
-    for figure in &job.figures {
+    for (place, figure) in job.figures.iter().enumerate() {
         match figure {
-            Figure::Map { value, .. } if Drawn::named(value, columns).is_none() => {
-                return Err(CliError::UnknownQuantity {
-                    location: Box::new(job.location()),
-                    job: job.name.clone(),
-                    value: value.clone(),
-                    help: quantities(columns),
-                });
+            Figure::Map { value, .. } => {
+                let refused = |source| CliError::JobMap {
+                    location: Box::new(job.figure_location(place)),
+                    source: Box::new(source),
+                };
+                if Drawn::named(value, columns).is_none() {
+                    return Err(refused(PlotError::NoQuantity {
+                        name: value.clone(),
+                        help: instead_of(value, columns),
+                    }));
+                }
+                let commanded = job.commanded();
+                if let Some(map) = map(job, figure, &commanded) {
+                    map.check(&commanded).map_err(refused)?;
+                }
             }
-            Figure::Mode { number, .. } => {
+            // Of a job that varies it is left out where the first design has none.
+            Figure::Mode { number, .. } if job.varied().is_empty() => {
                 // Where no pose can be reached there is no model, and no figure.
                 if let Ok(model) = job.model() {
                     ModalPlan::new(&model, &modal_options(job, *number))
@@ -48,6 +57,13 @@ fn modal_options(job: &Job, count: usize) -> ModalOptions {
         || ModalOptions::lowest(count),
         |options| ModalOptions { count, ..options },
     )
+}
+
+/// The files of a job's figures, beside its table.
+pub(crate) fn files(job: &Job, table: &Path) -> impl Iterator<Item = PathBuf> {
+    let stems =
+        (0..job.figures.len()).map(move |place| table.with_file_name(file_name(job, place)));
+    stems.flat_map(|stem| drawing::files(&stem))
 }
 
 /// Draws the figures of a job and writes them beside its table.
@@ -84,7 +100,7 @@ pub(crate) fn draw(
                     *pose,
                 )
             }
-            Figure::Map { value, plane } => map(table, value, *plane).map_err(|error| {
+            Figure::Map { .. } => drawn_map(job, figure, table).map_err(|error| {
                 let help = error
                     .help()
                     .map_or_else(String::new, |help| format!("; {help}"));
@@ -120,9 +136,9 @@ fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Model, Solution
     held.then_some((model, solution))
 }
 
-/// Title of a figure of the job's first design.
+/// Title of a figure of the job's first design that can be.
 fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
-    let design = (!job.varied().is_empty()).then_some(0);
+    let design = (!job.varied().is_empty()).then_some(job.first_design());
     drawing::title(&job.name, design, Some(pose), case)
 }
 
@@ -180,21 +196,44 @@ fn budget(job: &Job, asked: Asked<'_>, pose: usize) -> Result<Drawing, String> {
 const NO_RESULT: &str = "the poses it would show have no result";
 
 /// The map of the job's table that is now complete, as `plot` draws it.
-fn map(table: &Path, value: &str, plane: Option<(&str, f64)>) -> Result<Drawing, PlotError> {
-    let map = Map {
-        value: value.into(),
-        planes: plane
-            .map(|(axis, at)| (axis.into(), at))
-            .into_iter()
-            .collect(),
-        axes: None,
+fn drawn_map(job: &Job, figure: &Figure, table: &Path) -> Result<Drawing, PlotError> {
+    let table = Table::open(table)?;
+    let map = map(job, figure, &job.commanded()).ok_or_else(|| PlotError::Nothing {
+        path: table.path().into(),
+    })?;
+    plot::map(&table, &map).map(Drawing::Map)
+}
+
+/// A figure that is a map, of a job whose poses give these coordinates.
+fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
+    let Figure::Map {
+        value,
+        planes,
+        axes,
+        limits,
+        scale,
+    } = figure
+    else {
+        return None;
+    };
+    let names = commanded.iter().map(|coordinate| coordinate.name.clone());
+    Some(Map {
+        value: value.clone(),
+        planes: planes.clone(),
+        axes: axes.clone(),
+        asked: Some(names.collect()),
+        limits: *limits,
+        scale: match scale {
+            ColorScale::Auto => hyperstat_figures::ColorScale::Auto,
+            ColorScale::Linear => hyperstat_figures::ColorScale::Linear,
+            ColorScale::Log => hyperstat_figures::ColorScale::Log,
+        },
         choice: Choice {
-            design: Some(0),
+            design: Some(job.first_design()),
             pose: None,
         },
         title: None,
-    };
-    plot::map(&Table::open(table)?, &map).map(Drawing::Map)
+    })
 }
 
 /// `<job>-<figure>`, numbered from 1 where the job has several figures of the kind.

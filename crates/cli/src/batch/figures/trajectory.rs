@@ -1,5 +1,6 @@
 //! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
 
+use hyperstat_assembly::Floor;
 use hyperstat_figures::{SecondMethod, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job, Scale};
 use rayon::prelude::*;
@@ -7,9 +8,9 @@ use rayon::prelude::*;
 use super::figure_scale;
 use crate::batch::record::Record;
 use crate::case::job_model;
-use crate::drawing::{SECOND, difference, linear};
+use crate::drawing::{SECOND, difference_in, linear};
 
-/// Most poses that a figure shows: more cannot be told apart, and the reference solver is slow.
+/// Most poses that a figure shows: more cannot be told apart.
 const MOST_POSES: usize = 1000;
 
 /// Positions and displacements of a job's output at evenly spaced poses that have a result.
@@ -40,9 +41,10 @@ impl Trajectory {
     /// Adds the next poses.
     pub(crate) fn add(&mut self, records: &[Record]) {
         for record in records {
-            match &record.result {
-                Ok(found) if self.seen.is_multiple_of(self.stride) => {
-                    let [x, y, z, ..] = record.pose;
+            match (&record.result, record.pose) {
+                (Ok(found), [Some(x), Some(y), Some(z), ..])
+                    if self.seen.is_multiple_of(self.stride) =>
+                {
                     self.poses.push(self.seen);
                     self.commanded.push([x, y, z]);
                     self.displacement.push(linear(&found.displacement));
@@ -69,17 +71,23 @@ impl Trajectory {
         }
     }
 
-    /// The reference solver's displacements; `None` where it has no answer at some pose.
+    /// The reference solver's displacements at the poses that the figure marks; `None` where it has
+    /// no answer at some of them. It is slow: at every pose it would take far longer than the sweep.
     fn second(&self, job: &Job) -> Option<SecondMethod> {
-        let solve = |&pose: &usize| {
-            let model = job_model(job, pose).ok()?;
+        let at = TrajectoryFigure::marked(self.poses.len());
+        let solve = |&place: &usize| {
+            let model = job_model(job, self.poses[place]).ok()?;
             let solution = hyperstat_reference::solve(&model).ok()?;
             Some(linear(&solution.displacement?))
         };
-        let displacement: Vec<_> = self.poses.par_iter().map(solve).collect::<Option<_>>()?;
+        let displacement: Vec<_> = at.par_iter().map(solve).collect::<Option<_>>()?;
+        let ours: Vec<_> = at.iter().map(|place| self.displacement[*place]).collect();
+        let first = job_model(job, *self.poses.first()?).ok()?;
+        let least = Floor::of(&first).ok()?.least_displacement();
         Some(SecondMethod {
             name: SECOND.into(),
-            difference: difference(&self.displacement, &displacement),
+            difference: difference_in(&ours, &displacement, &self.displacement, least),
+            at,
             displacement,
         })
     }

@@ -7,8 +7,9 @@ use std::path::Path;
 use hyperstat_mechanisms::Value;
 
 use crate::atomic::AtomicFile;
-use crate::batch::record::{Columns, NUMBERS};
+use crate::batch::record::{Columns, NUMBERS, UPPER};
 use crate::batch::sweep::{Chunk, Row};
+use crate::cells::quoted;
 
 /// A CSV file being written.
 pub(crate) struct Csv(AtomicFile);
@@ -16,7 +17,8 @@ pub(crate) struct Csv(AtomicFile);
 impl Csv {
     pub(super) fn create(path: &Path, columns: &Columns<'_>) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
-        let names: Vec<_> = super::columns(columns).map(quoted).collect();
+        let names = super::columns(columns).map(|name| quoted(&name).into_owned());
+        let names: Vec<_> = names.collect();
         writeln!(file, "{}", names.join(","))?;
         Ok(Self(file))
     }
@@ -44,21 +46,30 @@ fn append(text: &mut String, row: &Row<'_>) {
     let record = row.record;
     // Writing to a String cannot fail.
     let _ = write!(text, "{}", row.pose);
-    append_numbers(text, &record.pose);
+    append_known(text, &record.pose);
     text.push(',');
     text.push_str(record.status());
-    match &record.result {
-        Ok(found) => {
-            append_numbers(text, &found.numbers());
-            for number in &found.further {
-                match number {
-                    Some(number) => append_numbers(text, &[*number]),
-                    None => text.push(','),
-                }
+    let further = match record.known() {
+        Some((displacement, further)) => {
+            append_numbers(text, displacement.as_slice());
+            match &record.result {
+                Ok(found) => append_numbers(text, &found.upper()),
+                Err(_) => text.extend(std::iter::repeat_n(',', UPPER)),
             }
+            further
         }
-        Err(_) => text.extend(std::iter::repeat_n(',', NUMBERS + row.further)),
+        None => {
+            text.extend(std::iter::repeat_n(',', NUMBERS));
+            &[]
+        }
+    };
+    for k in 0..further.len().max(row.further) {
+        match further.get(k).copied().flatten() {
+            Some(number) => append_numbers(text, &[number]),
+            None => text.push(','),
+        }
     }
+    append_numbers(text, row.drives);
     if let Some((number, values)) = row.design {
         let _ = write!(text, ",{number}");
         for value in values {
@@ -66,7 +77,7 @@ fn append(text: &mut String, row: &Row<'_>) {
                 Value::Number(number) => append_numbers(text, &[*number]),
                 Value::Text(words) => {
                     text.push(',');
-                    text.push_str(&quoted(words.clone()));
+                    text.push_str(&quoted(words));
                 }
             }
         }
@@ -74,12 +85,13 @@ fn append(text: &mut String, row: &Row<'_>) {
     text.push('\n');
 }
 
-/// A cell that holds `text`: in quotes, and its quotes doubled, where it would not be one cell.
-fn quoted(text: String) -> String {
-    if text.contains(['"', ',', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text
+/// Appends each number as [`append_numbers`], nothing but the comma for one that is not known.
+fn append_known(text: &mut String, numbers: &[Option<f64>]) {
+    for number in numbers {
+        match number {
+            Some(number) => append_numbers(text, &[*number]),
+            None => text.push(','),
+        }
     }
 }
 
@@ -99,14 +111,14 @@ mod tests {
     use nalgebra::{Matrix6, Vector6};
 
     use super::append;
-    use crate::batch::record::{Columns, Failure, Found, Record};
+    use crate::batch::record::{Columns, Failure, Found, Held, Record};
     use crate::batch::sweep::Row;
     use crate::batch::table::columns;
 
     fn two_further() -> Columns<'static> {
         Columns {
             further: vec!["f1".into(), "f2".into()],
-            varied: &[],
+            ..Columns::default()
         }
     }
 
@@ -115,6 +127,7 @@ mod tests {
             pose,
             record,
             further: 0,
+            drives: &[],
             design: None,
         }
     }
@@ -128,7 +141,7 @@ mod tests {
         };
         let mut text = String::new();
         let record = Record {
-            pose: [1.0 / 7.0, 0.0, 0.5, 0.0, 0.0, -1e-20],
+            pose: [1.0 / 7.0, 0.0, 0.5, 0.0, 0.0, -1e-20].map(Some),
             result: Ok(found.clone()),
         };
         append(&mut text, &row(12, &record));
@@ -139,8 +152,8 @@ mod tests {
         let number = |name: &str| cell(name).parse::<f64>().unwrap();
         assert_eq!(cell("pose"), "12");
         assert_eq!(cell("status"), "ok");
-        assert_eq!(number("x"), record.pose[0]);
-        assert_eq!(number("rz"), record.pose[5]);
+        assert_eq!(Some(number("x")), record.pose[0]);
+        assert_eq!(Some(number("rz")), record.pose[5]);
         assert_eq!((number("f1"), cell("f2")), (0.1, ""));
         for (k, name) in ["dx", "dy", "dz", "drx", "dry", "drz"].iter().enumerate() {
             assert_eq!(number(name).to_bits(), found.displacement[k].to_bits());
@@ -154,11 +167,14 @@ mod tests {
     }
 
     #[test]
-    fn a_pose_without_result_has_empty_numbers() {
-        let what = "too far".to_string();
+    fn a_rigidly_held_output_has_a_displacement_and_no_stiffness() {
+        let held = Held {
+            displacement: Vector6::new(1.0, 0.0, 2.0, 0.0, 0.0, 0.5),
+            further: vec![Some(3.0)],
+        };
         let record = Record {
-            pose: [9.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-            result: Err(Failure::Pose(PoseError::Unreachable { what })),
+            pose: [Some(0.0); 6],
+            result: Err(Failure::Rigid(Box::new(held))),
         };
         let mut text = String::new();
         let row = Row {
@@ -166,11 +182,43 @@ mod tests {
             ..row(0, &record)
         };
         append(&mut text, &row);
-        assert!(text.starts_with("0,9.0,0.0,0.0,0.0,0.0,0.0,unreachable,,"));
+        let numbers = "1.0,0.0,2.0,0.0,0.0,0.5";
+        let stiffness = ",".repeat(21);
+        assert!(
+            text.ends_with(&format!(",rigid,{numbers}{stiffness},3.0,\n")),
+            "{text}"
+        );
         assert_eq!(
             text.matches(',').count() + 1,
             columns(&two_further()).count()
         );
-        assert!(text.trim_end().ends_with(&",".repeat(29)));
+    }
+
+    #[test]
+    fn what_is_not_known_is_empty() {
+        let what = "too far".to_string();
+        let record = Record {
+            pose: [Some(9.0), Some(0.0), None, None, Some(-0.5), None],
+            result: Err(Failure::Pose(PoseError::Unreachable { what })),
+        };
+        let mut text = String::new();
+        let row = Row {
+            further: 2,
+            drives: &[0.25, -1.0],
+            ..row(0, &record)
+        };
+        append(&mut text, &row);
+        let nothing = ",".repeat(29);
+        assert_eq!(
+            text,
+            format!("0,9.0,0.0,,,-0.5,,unreachable{nothing},0.25,-1.0\n")
+        );
+        let drives = ["A1.v", "A2.v"].map(String::from);
+        let wanted = Columns {
+            drives: &drives,
+            ..two_further()
+        };
+        assert_eq!(text.matches(',').count() + 1, columns(&wanted).count());
+        assert!(columns(&wanted).skip(35 + 2).eq(drives.clone()));
     }
 }

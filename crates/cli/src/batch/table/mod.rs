@@ -17,7 +17,8 @@ const STATUS: &str = "status";
 const DESIGN: &str = "design";
 
 /// Names of the columns: the number of the pose, the pose, the status, and the numbers found; of a
-/// job that varies the number of the design and its values after them.
+/// job whose poses are values of drives these after them; of a job that varies the number of the design
+/// and its values last.
 pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     let varied = columns.varied;
     let pose = ["pose", "x", "y", "z", "rx", "ry", "rz"];
@@ -28,7 +29,17 @@ pub(crate) fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
     let values = varied.iter().map(|varied| varied.path.clone());
     let found = first.map(String::from).chain(stiffness);
     let found = found.chain(columns.further.iter().cloned());
+    let found = found.chain(columns.drives.iter().cloned());
     found.chain(design).chain(values)
+}
+
+/// Names of the columns that hold numbers.
+pub(crate) fn numeric(of: &Columns<'_>) -> Vec<String> {
+    let is_text = |name: &String| {
+        let mut varied = of.varied.iter();
+        name == STATUS || varied.any(|varied| varied.path == *name && !varied.numeric)
+    };
+    columns(of).filter(|name| !is_text(name)).collect()
 }
 
 /// A table being written; its file gets its name when it is complete.

@@ -31,18 +31,22 @@ pub(crate) struct Parquet {
     group: Group,
 }
 
+/// Columns of the displacement, the first of the numbers.
+const DISPLACEMENT: usize = 6;
+
 /// The rows that are not written yet, by columns.
 #[derive(Default)]
 struct Group {
     pose: Vec<i64>,
-    coordinates: [Vec<f64>; 6],
+    coordinates: [Known; 6],
     status: Vec<ByteArray>,
-    /// 1 where a row has numbers, 0 where it has none.
-    levels: Vec<i16>,
+    /// 1 where a row has a displacement and a stiffness, 0 where it has none.
+    levels: [Vec<i16>; 2],
     /// Of the rows that have them.
     numbers: [Vec<f64>; NUMBERS],
-    /// Of the rows that have them, as well.
-    further: Vec<Further>,
+    further: Vec<Known>,
+    /// Of a job whose poses are values of drives.
+    drives: Vec<Vec<f64>>,
     /// A copy of every status met, which others share.
     statuses: Vec<(&'static str, ByteArray)>,
     /// Of a job that varies.
@@ -50,11 +54,32 @@ struct Group {
     values: Vec<Values>,
 }
 
-/// A column of further numbers.
+/// A column of numbers of which not every row has one.
 #[derive(Clone, Default)]
-struct Further {
+struct Known {
+    /// 1 where a row has a number, 0 where it has none.
     levels: Vec<i16>,
+    /// Of the rows that have them.
     numbers: Vec<f64>,
+}
+
+impl Known {
+    fn push(&mut self, number: Option<f64>) {
+        self.levels.push(i16::from(number.is_some()));
+        self.numbers.extend(number);
+    }
+
+    fn write(
+        &self,
+        writer: &mut SerializedRowGroupWriter<'_, AtomicFile>,
+    ) -> Result<(), ParquetError> {
+        write::<DoubleType>(writer, &self.numbers, Some(&self.levels))
+    }
+
+    fn clear(&mut self) {
+        self.levels.clear();
+        self.numbers.clear();
+    }
 }
 
 /// A column of varied values.
@@ -103,7 +128,8 @@ impl Parquet {
         Ok(Self {
             writer: writer.map_err(io_error)?,
             group: Group {
-                further: vec![Further::default(); columns.further.len()],
+                further: vec![Known::default(); columns.further.len()],
+                drives: vec![Vec::new(); columns.drives.len()],
                 values: columns.varied.iter().map(Values::of).collect(),
                 ..Group::default()
             },
@@ -130,14 +156,19 @@ impl Parquet {
         let mut writer = self.writer.next_row_group()?;
         write::<Int64Type>(&mut writer, &group.pose, None)?;
         for column in &group.coordinates {
-            write::<DoubleType>(&mut writer, column, None)?;
+            column.write(&mut writer)?;
         }
         write::<ByteArrayType>(&mut writer, &group.status, None)?;
-        for column in &group.numbers {
-            write::<DoubleType>(&mut writer, column, Some(&group.levels))?;
+        let [displaced, stiff] = &group.levels;
+        for (k, column) in group.numbers.iter().enumerate() {
+            let levels = if k < DISPLACEMENT { displaced } else { stiff };
+            write::<DoubleType>(&mut writer, column, Some(levels))?;
         }
         for column in &group.further {
-            write::<DoubleType>(&mut writer, &column.numbers, Some(&column.levels))?;
+            column.write(&mut writer)?;
+        }
+        for column in &group.drives {
+            write::<DoubleType>(&mut writer, column, None)?;
         }
         if !group.values.is_empty() {
             write::<Int64Type>(&mut writer, &group.design, None)?;
@@ -174,15 +205,22 @@ impl Group {
             }
             let status = self.status(record.status());
             self.status.push(status);
-            self.levels.push(i16::from(record.result.is_ok()));
+            let known = record.known();
+            let [displaced, stiff] = &mut self.levels;
+            displaced.push(i16::from(known.is_some()));
+            stiff.push(i16::from(record.result.is_ok()));
             for (k, column) in self.further.iter_mut().enumerate() {
-                let found = record.result.as_ref().ok();
-                let number = found.and_then(|found| found.further.get(k).copied().flatten());
-                column.levels.push(i16::from(number.is_some()));
-                column.numbers.extend(number);
+                column.push(known.and_then(|(_, further)| further.get(k).copied().flatten()));
+            }
+            for (column, value) in self.drives.iter_mut().zip(row.drives) {
+                column.push(*value);
+            }
+            let displacement = known.into_iter().flat_map(|(displacement, _)| displacement);
+            for (column, value) in self.numbers.iter_mut().zip(displacement) {
+                column.push(*value);
             }
             if let Ok(found) = &record.result {
-                for (column, value) in self.numbers.iter_mut().zip(found.numbers()) {
+                for (column, value) in self.numbers[DISPLACEMENT..].iter_mut().zip(found.upper()) {
                     column.push(value);
                 }
             }
@@ -200,14 +238,12 @@ impl Group {
 
     fn clear(&mut self) {
         self.pose.clear();
-        self.coordinates.iter_mut().for_each(Vec::clear);
+        self.coordinates.iter_mut().for_each(Known::clear);
         self.status.clear();
-        self.levels.clear();
+        self.levels.iter_mut().for_each(Vec::clear);
         self.numbers.iter_mut().for_each(Vec::clear);
-        for column in &mut self.further {
-            column.levels.clear();
-            column.numbers.clear();
-        }
+        self.further.iter_mut().for_each(Known::clear);
+        self.drives.iter_mut().for_each(Vec::clear);
         self.design.clear();
         self.values.iter_mut().for_each(Values::clear);
     }
@@ -226,10 +262,11 @@ fn write<T: DataType>(
     Ok(())
 }
 
-/// The columns: what is found is null where a pose has no result.
+/// The columns: what is found is null where a pose has no result, a coordinate where it is not known.
 fn schema(given: &Columns<'_>) -> Result<Type, ParquetError> {
     let mut columns = Vec::new();
-    let design = 8 + NUMBERS + given.further.len();
+    let drives = 8 + NUMBERS + given.further.len();
+    let design = drives + given.drives.len();
     for (place, name) in super::columns(given).enumerate() {
         let text = match place.checked_sub(design + 1) {
             None => name == STATUS,
@@ -240,10 +277,9 @@ fn schema(given: &Columns<'_>) -> Result<Type, ParquetError> {
             _ if place == 0 || place == design => (PhysicalType::INT64, None),
             _ => (PhysicalType::DOUBLE, None),
         };
-        let found = 8..design;
-        let repetition = match found.contains(&place) {
-            true => Repetition::OPTIONAL,
-            false => Repetition::REQUIRED,
+        let repetition = match place {
+            _ if (1..7).contains(&place) || (8..drives).contains(&place) => Repetition::OPTIONAL,
+            _ => Repetition::REQUIRED,
         };
         let column = Type::primitive_type_builder(&name, kind)
             .with_logical_type(meaning)

@@ -18,6 +18,14 @@ impl DoubleDouble {
         self.high
     }
 
+    /// The square root of a positive number: a step of Newton's method from that of its first half.
+    #[allow(dead_code)] // Not every test that shares this file needs it.
+    pub fn sqrt(self) -> Self {
+        let root = Self::from(self.high.sqrt());
+        let two = Self::from(2.0);
+        root + (self - root * root) / (two * root)
+    }
+
     /// The exact sum of `high` and `low`, where |high| ≥ |low|.
     fn renormalised(high: f64, low: f64) -> Self {
         let sum = high + low;
@@ -87,6 +95,12 @@ impl Div for DoubleDouble {
         let rest = rest - other * second.into();
         Self::renormalised(first, second) + (rest.high / other.high).into()
     }
+}
+
+#[test]
+fn square_roots_keep_about_32_digits() {
+    let root = DoubleDouble::from(2.0).sqrt();
+    assert!((root * root - 2.0.into()).to_f64().abs() < 1e-31);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use super::Delta;
 use super::limb::Limb;
 use super::topology::Posed;
-use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt, construction, coordinates};
+use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt, ROTATION, construction, coordinates};
 
 impl Prebuilt for Delta {
     fn kind(&self) -> &str {
@@ -15,6 +15,10 @@ impl Prebuilt for Delta {
 
     fn coordinates(&self) -> &'static [PoseCoordinate] {
         &[PoseCoordinate::X, PoseCoordinate::Y, PoseCoordinate::Z]
+    }
+
+    fn zero_coordinates(&self) -> &'static [PoseCoordinate] {
+        ROTATION
     }
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {

@@ -1,4 +1,18 @@
-//! What the loader owes to any bytes at all: the function that `fuzz/` runs and the tests share.
+//! What the loader and the solvers owe to any text at all: the functions that `fuzz/` runs and the
+//! tests share.
+//!
+//! A text stands in a [`Folder`] beside all files that the repository's mechanisms name.
+//! [`answer`] reads it as a mechanism or batch, [`table`] as the tables that files name; [`solve`]
+//! takes what was read on: poses, plans, solutions. Each says whether the text was taken.
+
+// A fuzz target uses a part of this, and the tests use the rest.
+#![allow(dead_code)]
+
+mod folder;
+mod mutator;
+mod random;
+mod solve;
+mod table;
 
 use std::path::Path;
 
@@ -6,17 +20,23 @@ use hyperstat_mechanisms::{
     Input, LoadError, Registry, WriteError, load_str, mechanism_from_str, write,
 };
 
-/// Reads a text, which messages call `path`. The loader must answer with a mechanism or batch,
-/// or with an error that points into the text or into a file that it names; a mechanism must be
-/// the same after it is written and read again.
-pub fn answer(text: &str, path: &Path) {
+pub use folder::{Folder, jobs_alone, seeds};
+pub use mutator::Mutator;
+pub use random::Random;
+pub use solve::solve;
+pub use table::{ROLES, table};
+
+/// Reads a text that stands at `path`. The loader must answer with a mechanism or batch, or with an
+/// error that points into the text or into a file that it names; a mechanism must be the same after
+/// it is written and read again.
+pub fn answer(text: &str, path: &Path) -> bool {
     let registry = Registry::builtin();
     match load_str(text, path, &registry) {
-        Ok(Input::Batch(_)) => {}
+        Ok(Input::Batch(_)) => true,
         Ok(Input::Mechanism(mechanism)) => {
             let written = match write(&mechanism.model, &registry) {
                 Ok(written) => written,
-                Err(WriteError::Flexible { .. }) => return,
+                Err(WriteError::Flexible { .. }) => return true,
                 Err(error) => panic!("it came from a file, but {error}"),
             };
             let again = mechanism_from_str(&written, path, &registry)
@@ -25,11 +45,16 @@ pub fn answer(text: &str, path: &Path) {
             assert_eq!(again.nodes().len(), mechanism.model.nodes().len());
             assert_eq!(again.loads(), mechanism.model.loads());
             assert_eq!(again.output(), mechanism.model.output());
+            true
         }
-        Err(error) => check_error(&error, text, path),
+        Err(error) => {
+            check_error(&error, text, path);
+            false
+        }
     }
 }
 
+/// An error about `text`, which stands at `path`, or about another file.
 fn check_error(error: &LoadError, text: &str, path: &Path) {
     let at = error.location().expect("the text itself was read");
     assert!(at.line >= 1 && at.column >= 1 && at.width >= 1);

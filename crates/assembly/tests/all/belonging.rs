@@ -1,0 +1,313 @@
+//! What must belong together is one object or an error: the nodes of a joint, ids, geometries, plans
+//! and buffers of another model.
+
+use hyperstat_assembly::{
+    Axes, BodyId, Connection, Geometry, JointId, JointStiffness, LANES, LineLoad, Load, LoadCase,
+    LoadSet, ModalOptions, ModalPlan, Model, ModelError, NodeId, Plan, SegmentId, SolveError,
+    analyse, modes, section_wrench, segment_displacement, solve,
+};
+use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
+use hyperstat_joints::{DofSet, Fixed, Joint};
+use nalgebra::{Point3, Rotation3, Vector3, Vector6};
+
+/// A bar of `length` from the origin along x, welded to the ground, and a rigid plate on its end; the
+/// plate's node lies `apart` from the bar's end, along y.
+fn bar_and_plate(length: f64, apart: f64) -> Model {
+    let mut model = Model::new("bar and plate");
+    let steel = Material::new(2.1e11, Elasticity::Poisson(0.3), Some(7850.0)).expect("steel");
+    let rod = Section::new(SectionShape::Circle { diameter: 0.02 }, None, None).expect("a rod");
+    let (a, b) = (Point3::origin(), Point3::new(length, 0.0, 0.0));
+    model
+        .add_beam("bar", &[("A", a), ("B", b)], &steel, &rod, None, 1)
+        .expect("a bar");
+    let on_plate = Point3::new(length, apart, 0.0);
+    let tip = Point3::new(length, 0.0, 0.3);
+    model
+        .add_rigid("plate", &[("P", on_plate), ("T", tip)])
+        .expect("a plate");
+    let weld = |name: &str, between| Connection {
+        name: name.into(),
+        between,
+        joint: Box::new(Fixed) as Box<dyn Joint>,
+        locked: DofSet::EMPTY,
+        stiffness: JointStiffness::default(),
+    };
+    let [foot, end, plate] =
+        [("bar", "A"), ("bar", "B"), ("plate", "P")].map(|(body, at)| model.node(body, at));
+    let joints = [("foot", [None, foot]), ("head", [end, plate])];
+    for (name, between) in joints {
+        let frame = Rotation3::identity();
+        model
+            .add_joint(weld(name, between), frame)
+            .expect("a joint");
+    }
+    let tip = model.node("plate", "T").expect("a node");
+    model.set_output(tip);
+    let force = Vector6::new(0.0, 100.0, 0.0, 0.0, 0.0, 0.0);
+    model.add_load(tip, force).expect("a load");
+    model
+}
+
+#[test]
+fn a_joint_of_two_points_that_are_not_one_is_refused() {
+    solve(&bar_and_plate(0.5, 0.0)).expect("a solution");
+    // Six typed digits.
+    solve(&bar_and_plate(0.5, 1e-7)).expect("a solution");
+    let model = bar_and_plate(0.5, 1.0);
+    let expected = SolveError::Model(ModelError::Apart {
+        joint: "head".into(),
+        first: "bar.B".into(),
+        second: "plate.P".into(),
+        distance: 1.0,
+    });
+    assert_eq!(solve(&model).expect_err("a lever"), expected);
+    let modal = ModalPlan::new(&model, &ModalOptions::lowest(1));
+    assert_eq!(modal.expect_err("a lever"), expected);
+    for apart in [1e-3, 1e-4, f64::MIN_POSITIVE] {
+        let model = bar_and_plate(0.5, apart);
+        assert_eq!(solve(&model).is_err(), apart > 1e-5, "{apart}");
+    }
+}
+
+/// The same in a sweep, where a pose may bring them apart, in lanes and one by one.
+#[test]
+fn a_pose_that_takes_a_joint_apart_is_refused() {
+    let model = bar_and_plate(0.5, 0.0);
+    let plan = Plan::new(&model).expect("a plan");
+    let mut parted = model.geometry().clone();
+    parted.positions[model.node("plate", "P").expect("a node").0].y += 0.1;
+    let is_apart = |error: SolveError| {
+        assert!(
+            matches!(error, SolveError::Model(ModelError::Apart { .. })),
+            "{error}"
+        );
+    };
+    let one = plan.sweep(&model, &parted, &mut plan.workspace());
+    is_apart(one.expect_err("apart"));
+    let mut lanes = plan.lanes(&model);
+    assert!(lanes.is_parallel());
+    lanes.geometry_mut(2).clone_from(&parted);
+    let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    for (pose, found) in found.into_iter().enumerate() {
+        match (pose, found.expect("a result")) {
+            (2, found) => is_apart(found.expect_err("apart")),
+            (_, found) => assert!(found.is_ok()),
+        }
+    }
+    let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
+    is_apart(modal.frequencies(&parted).expect_err("apart"));
+    let mut moved = model.clone();
+    moved.set_geometry(parted).expect("of its size");
+    is_apart(plan.solve(&moved).expect_err("apart"));
+}
+
+#[test]
+fn ids_of_another_model_are_refused() {
+    let foreign = |what: &'static str, index: usize, count: usize| ModelError::ForeignId {
+        what,
+        index,
+        count,
+    };
+    let (node, segment) = (foreign("node", 99, 4), foreign("segment", 99, 1));
+    let (body, joint) = (foreign("body", 99, 2), foreign("joint", 99, 2));
+    let mut model = bar_and_plate(0.5, 0.0);
+    let force = Vector6::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    assert_eq!(model.add_load(NodeId(99), force), Err(node.clone()));
+    let on_node = LoadSet::on(NodeId(99), force);
+    assert_eq!(model.set_loads(on_node.clone()), Err(node.clone()));
+    let case = LoadCase {
+        name: "case".into(),
+        loads: on_node.clone(),
+    };
+    assert_eq!(model.add_case(case), Err(node.clone()));
+    let line = LineLoad {
+        segment: SegmentId(99),
+        ends: [force; 2],
+        axes: Axes::Global,
+    };
+    let along = LoadSet {
+        lines: vec![line],
+        ..LoadSet::default()
+    };
+    assert_eq!(model.set_loads(along), Err(segment));
+    let turning = LoadSet {
+        nodes: vec![Load {
+            node: NodeId(0),
+            wrench: force,
+            axes: Axes::Body {
+                body: BodyId(99),
+                home: Rotation3::identity(),
+            },
+        }],
+        ..LoadSet::default()
+    };
+    assert_eq!(model.set_loads(turning), Err(body.clone()));
+    assert_eq!(model.set_temperature(BodyId(99), 1.0), Err(body));
+    assert_eq!(model.set_misfit(JointId(99), &force), Err(joint.clone()));
+    assert_eq!(model.set_preload(JointId(99), &force), Err(joint));
+    let connection = Connection {
+        name: "foreign".into(),
+        between: [None, Some(NodeId(99))],
+        joint: Box::new(Fixed),
+        locked: DofSet::EMPTY,
+        stiffness: JointStiffness::default(),
+    };
+    let added = model.add_joint(connection, Rotation3::identity());
+    assert_eq!(added, Err(node.clone()));
+    let plan = Plan::new(&model).expect("a plan");
+    let respond = plan.respond(&model, &[on_node]);
+    assert_eq!(
+        respond.expect_err("foreign"),
+        SolveError::Model(node.clone())
+    );
+    // What is only looked up is not there.
+    assert_eq!(model.node_of(BodyId(99), "A"), None);
+    assert_eq!(model.body_frame(BodyId(99)), None);
+    assert_eq!(model.misfit(JointId(99)), None);
+    assert_eq!(model.node_name(NodeId(99)), "node 99");
+    solve(&model).expect("as it was");
+
+    let mut heavy = model.clone();
+    heavy.add_mass(NodeId(99), RigidMass::point(1.0).expect("a mass"));
+    assert_eq!(
+        solve(&heavy).expect_err("foreign"),
+        SolveError::Model(node.clone())
+    );
+    let geometry = heavy.geometry().clone();
+    assert_eq!(heavy.set_geometry(geometry), Err(node.clone()));
+    let mut elsewhere = model.clone();
+    elsewhere.set_output(NodeId(99));
+    let expected = SolveError::Model(node);
+    assert_eq!(solve(&elsewhere).expect_err("foreign"), expected);
+    let modal = ModalPlan::new(&elsewhere, &ModalOptions::lowest(1));
+    assert_eq!(modal.expect_err("foreign"), expected);
+    analyse(&elsewhere).expect("counts do not ask for the output");
+}
+
+#[test]
+fn geometries_of_another_model_are_refused() {
+    let mut model = bar_and_plate(0.5, 0.0);
+    let plan = Plan::new(&model).expect("a plan");
+    let whole = model.geometry().clone();
+    let changes: [fn(&mut Geometry); 5] = [
+        |g| {
+            g.positions.pop();
+        },
+        |g| g.positions.push(Point3::origin()),
+        |g| g.y_axes.push(Some(Vector3::y())),
+        |g| g.frames.clear(),
+        |g| g.rotations.push(Rotation3::identity()),
+    ];
+    for change in changes {
+        let mut foreign = whole.clone();
+        change(&mut foreign);
+        let is_foreign = |error: SolveError| {
+            let foreign = matches!(error, SolveError::Model(ModelError::ForeignGeometry { .. }));
+            assert!(foreign, "{error}");
+        };
+        let set = model.set_geometry(foreign.clone());
+        is_foreign(set.expect_err("foreign").into());
+        assert_eq!(*model.geometry(), whole);
+        let swept = plan.sweep(&model, &foreign, &mut plan.workspace());
+        is_foreign(swept.expect_err("foreign"));
+        let mut lanes = plan.lanes(&model);
+        lanes.geometry_mut(LANES - 1).clone_from(&foreign);
+        let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+        for (pose, found) in found.into_iter().enumerate() {
+            match found.expect("a result") {
+                Err(error) if pose == LANES - 1 => is_foreign(error),
+                found => assert!(found.is_ok() && pose < LANES - 1),
+            }
+        }
+        let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
+        is_foreign(modal.frequencies(&foreign).expect_err("foreign"));
+    }
+}
+
+#[test]
+fn plans_serve_models_that_are_like_theirs() {
+    let model = bar_and_plate(0.5, 0.0);
+    let plan = Plan::new(&model).expect("a plan");
+    // Another one with the same bodies, joints and output: its own result.
+    let longer = bar_and_plate(0.7, 0.0);
+    let found = plan.solve(&longer).expect("a solution");
+    let expected = solve(&longer).expect("a solution");
+    assert_eq!(found.output.displacement, expected.output.displacement);
+
+    let mut welded = model.clone();
+    let third = Connection {
+        name: "third".into(),
+        between: [None, welded.node("plate", "T")],
+        joint: Box::new(Fixed),
+        locked: DofSet::EMPTY,
+        stiffness: JointStiffness::default(),
+    };
+    welded
+        .add_joint(third, Rotation3::identity())
+        .expect("a joint");
+    let mut elsewhere = model.clone();
+    elsewhere.set_output(model.node("bar", "B").expect("a node"));
+    for other in [&welded, &elsewhere] {
+        let error = plan.solve(other).expect_err("another model");
+        assert_eq!(error, SolveError::ForeignModel);
+        let geometry = other.geometry();
+        let swept = plan.sweep(other, geometry, &mut plan.workspace());
+        assert_eq!(swept.expect_err("another model"), SolveError::ForeignModel);
+        let respond = plan.respond(other, &[]);
+        assert_eq!(
+            respond.expect_err("another model"),
+            SolveError::ForeignModel
+        );
+        let mut lanes = plan.lanes(other);
+        let found = plan.sweep_lanes(other, &mut lanes, [true; LANES]);
+        let found = found.map(|found| found.expect("a result").expect_err("another model"));
+        assert_eq!(found, [const { SolveError::ForeignModel }; LANES]);
+    }
+    // Lanes hold what acts, too.
+    let mut lanes = plan.lanes(&model);
+    let mut unloaded = model.clone();
+    unloaded.clear_loads();
+    let found = plan.sweep_lanes(&unloaded, &mut lanes, [true; LANES]);
+    let found = found.map(|found| found.expect("a result").expect_err("another model"));
+    assert_eq!(found, [const { SolveError::ForeignModel }; LANES]);
+}
+
+/// Segments and bodies of another model are none of a solution's.
+#[test]
+fn results_are_asked_of_their_own_model() {
+    let model = bar_and_plate(0.5, 0.0);
+    let solution = solve(&model).expect("a solution");
+    let far = SegmentId(99);
+    assert!(solution.inner_displacements(&model, SegmentId(0)).is_ok());
+    solution
+        .inner_displacements(&model, far)
+        .expect_err("foreign");
+    assert!(solution.worst_point(&model, BodyId(0)).is_some());
+    assert!(solution.worst_point(&model, BodyId(99)).is_none());
+    let forces = &solution.segments[0];
+    assert!(section_wrench(&model, far, forces, 0.5).is_none());
+    let curve = |displacements, segment| {
+        let geometry = model.geometry();
+        segment_displacement(&model, geometry, displacements, segment, None, 0.5)
+    };
+    assert!(curve(&solution.displacements, SegmentId(0)).is_ok());
+    curve(&solution.displacements, far).expect_err("foreign");
+    curve(&solution.displacements[1..], SegmentId(0)).expect_err("too few");
+    let modes = modes(&model, &ModalOptions::lowest(1)).expect("a mode");
+    let mode = &modes.modes[0];
+    assert!(mode.segment_displacement(&model, SegmentId(0), 0.5).is_ok());
+    mode.segment_displacement(&model, far, 0.5)
+        .expect_err("foreign");
+}
+
+#[test]
+fn buffers_serve_the_plan_that_made_them() {
+    let model = bar_and_plate(0.5, 0.0);
+    let [plan, other] = [(); 2].map(|()| Plan::new(&model).expect("a plan"));
+    let swept = plan.sweep(&model, model.geometry(), &mut other.workspace());
+    assert_eq!(swept.expect_err("foreign"), SolveError::ForeignWorkspace);
+    let mut lanes = other.lanes(&model);
+    let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    let found = found.map(|found| found.expect("a result").expect_err("foreign"));
+    assert_eq!(found, [const { SolveError::ForeignWorkspace }; LANES]);
+}
