@@ -5,10 +5,11 @@ use std::time::{Duration, Instant};
 
 use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Plan, Workspace};
 use hyperstat_mechanisms::Job;
-use hyperstat_reference::{TraditionalOptions, traditional};
+use hyperstat_reference::{TraditionalForm, TraditionalOptions, traditional};
 
 /// Springs for what is rigid or free, as good as they get on the delta.
 const SPRINGS: TraditionalOptions = TraditionalOptions {
+    form: TraditionalForm::Penalty,
     joint_stiffness: 1e13,
     angular_stiffness: 1e13,
     free_stiffness: 1e-7,

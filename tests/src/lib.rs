@@ -8,6 +8,7 @@ pub mod lattice;
 pub mod prebuilt;
 pub mod random;
 pub mod runner;
+pub mod sketches;
 pub mod states;
 
 use std::path::{Path, PathBuf};

@@ -70,4 +70,4 @@ pub use redundancy::{Redundancy, redundant_constraints};
 pub use sensitivity::Sensitivity;
 pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
 pub use solve::{PoseResult, solve};
-pub use worst::{WorstPoint, section_wrench, stations};
+pub use worst::{WorstPoint, section_strain, section_wrench, stations};

@@ -2,10 +2,10 @@
 //! largest.
 
 use hyperstat_elements::stress::{normal_stress, stress_along, stress_parts};
-use hyperstat_elements::{StraightBeam, Taper};
+use hyperstat_elements::{SectionStrain, Taper};
 use nalgebra::Vector6;
 
-use crate::cluster::{SegmentBeam, segment_beam};
+use crate::cluster::segment_beam;
 use crate::model::{BodyId, Model, SegmentId};
 use crate::solution::{SegmentForces, Solution, State};
 
@@ -29,6 +29,12 @@ pub struct WorstPoint {
     pub von_mises: f64,
     /// That over the material's yield strength; `None` where it has none.
     pub utilisation: Option<f64>,
+    /// Strains of the section there (Eq. 46), those of temperature included.
+    pub section_strain: SectionStrain,
+    /// Normal strain at the point, positive in tension, that of temperature included.
+    pub normal_strain: f64,
+    /// Largest shear strain of torsion in the section.
+    pub shear_strain: f64,
 }
 
 impl Solution {
@@ -71,6 +77,7 @@ fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<Wors
         .unwrap_or_else(|| Taper::constant(segment.section.clone()));
     let peak = stress_along(&taper, forces.length, &forces.ends[1], &load)?.von_mises;
     let section_wrench = section_wrench(model, id, forces, peak.xi)?;
+    let section_strain = section_strain(model, id, forces, peak.xi)?;
     let section = if taper.is_constant() {
         taper.from().clone()
     } else {
@@ -88,6 +95,9 @@ fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<Wors
         shear: parts.torsional,
         von_mises: parts.von_mises,
         utilisation: yields.map(|limit| parts.von_mises / limit),
+        section_strain,
+        normal_strain: section_strain.normal(y, z),
+        shear_strain: parts.torsional / segment.material.shear(),
     })
 }
 
@@ -103,11 +113,21 @@ pub fn section_wrench(
 ) -> Option<Vector6<f64>> {
     model.check_segment(segment).ok()?;
     let (beam, _, _) = segment_beam(model, model.geometry(), segment).ok()?;
-    let beam: &dyn StraightBeam = match &beam {
-        SegmentBeam::Prismatic(beam) => beam,
-        SegmentBeam::Tapered(beam) => beam,
-    };
+    let beam = beam.straight();
     Some(beam.loaded_section_wrench(xi, &forces.ends[1], &forces.load))
+}
+
+/// Strains of the section (Eq. 46) at `xi` along a segment of the model, as [`section_wrench`] has
+/// its wrench; those that no force makes, such as those of temperature, are in them.
+pub fn section_strain(
+    model: &Model,
+    segment: SegmentId,
+    forces: &SegmentForces,
+    xi: f64,
+) -> Option<SectionStrain> {
+    let (beam, _, _) = segment_beam(model, model.geometry(), segment).ok()?;
+    let beam = beam.straight();
+    Some(beam.loaded_strain(xi, &forces.ends[1], &forces.load))
 }
 
 /// Places along a segment, 0 to 1, at which its section forces are told: its ends, which say it all

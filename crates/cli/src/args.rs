@@ -41,7 +41,7 @@ Exit status:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Solve one mechanism and print everything found
+    /// Solve one mechanism: stiffness, displacement and worst points, or all that was found
     #[command(after_help = SOLVE_HELP)]
     Solve(Solve),
     /// Run every job of a batch file: one table a job, CSV or Parquet, and its figures
@@ -60,14 +60,16 @@ pub(crate) enum Command {
 
 const SOLVE_HELP: &str = concat!(
     "\
-The report holds the output's stiffness, compliance and displacement, the mechanism's mobility and
-over-constraint, the displacement of every node, the wrench in every joint (on the second body of
-`between`, at the joint, in the joint frame), and for every beam segment the forces at its ends
-(element frame) and its largest stresses (Circle, Tube and Rectangle
-sections, and General ones with y_max, z_max and torsion_modulus).
+The report holds the mechanism's mobility and over-constraint, warnings, what acts, the output's
+displacement, in every case too, its stiffness, and the worst points of the bodies (Circle, Tube and
+Rectangle sections, and General ones with y_max, z_max and torsion_modulus).
+With --full, and always with --format json, also the output's compliance, the displacement of every
+node, the wrench in every joint (on the second body of `between`, at the joint, in the joint frame),
+and for every beam segment the forces at its ends (element frame) and its largest stresses.
 
 Examples:
   hyperstat solve portal.ron
+  hyperstat solve portal.ron --full          Displacements, wrenches and forces of every part too
   hyperstat solve portal.ron --format json > portal.json
   hyperstat solve portal.ron --verify
   hyperstat solve portal.ron --all-nodes     The nodes inside segments of `elements: n` too
@@ -184,7 +186,11 @@ pub(crate) struct Solve {
     /// Take an output that moves freely as a result (semidefinite stiffness), not as an error
     #[arg(long)]
     pub(crate) allow_free: bool,
-    /// Report the displacements of the nodes between a segment's elements too, as `body.A-B.k`
+    /// Print everything: compliance, displacements of all nodes, joint wrenches, forces and stresses
+    /// of all segments, of every case too
+    #[arg(long)]
+    pub(crate) full: bool,
+    /// As --full, with the displacements of the nodes between a segment's elements, as `body.A-B.k`
     #[arg(long)]
     pub(crate) all_nodes: bool,
     /// Find the N lowest natural frequencies and their modes [default: a job's `modes`]

@@ -148,7 +148,8 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         }
     }
     print(&match args.format {
-        Format::Text => report.text(),
+        Format::Text if args.full || args.all_nodes => report.full(),
+        Format::Text => report.answer(),
         Format::Json => json(&report)?,
     })?;
     if args.allow_free {

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use hyperstat_assembly::{
-    BodyKind, Mode, Model, Modes, SegmentForces, SegmentId, Solution, SolveError, section_wrench,
-    segment_displacement,
+    BodyKind, Mode, Model, Modes, SegmentForces, SegmentId, Solution, SolveError, section_strain,
+    section_wrench, segment_displacement,
 };
-use hyperstat_elements::stress::section_stress;
+use hyperstat_elements::stress::stress_parts;
 use nalgebra::{Vector3, Vector6};
 
 use crate::drawing::linear;
@@ -72,8 +72,18 @@ struct Cell {
 struct Section {
     /// N Vy Vz T My Mz.
     forces: [f64; 6],
-    /// Largest von Mises stress; none where it is not known.
-    von_mises: Option<f64>,
+    /// What is known of its worst point; none of a general section that does not state enough.
+    worst: Option<Worst>,
+}
+
+/// The point of a section with the largest normal stress.
+#[derive(Debug, Clone, Copy, Default)]
+struct Worst {
+    von_mises: f64,
+    /// Strain along the beam there, positive in tension.
+    normal_strain: f64,
+    /// The largest shear strain of torsion in the section.
+    shear_strain: f64,
 }
 
 /// The solution of a model, its cases too, with its modes where there are some, as the text of a
@@ -169,13 +179,21 @@ impl Found<'_> {
             _ => segment.section.clone(),
         };
         let of_state = |state: &State<'_>| {
-            let wrench = section_wrench(self.model, id, &state.segments[id.0], xi);
-            let stress = wrench
-                .as_ref()
-                .and_then(|wrench| section_stress(&section, wrench));
+            let forces = &state.segments[id.0];
+            let wrench = section_wrench(self.model, id, forces, xi);
+            let worst = || {
+                let stress = stress_parts(&section, wrench.as_ref()?)?;
+                let strain = section_strain(self.model, id, forces, xi)?;
+                let [y, z] = stress.point;
+                Some(Worst {
+                    von_mises: stress.von_mises,
+                    normal_strain: strain.normal(y, z),
+                    shear_strain: stress.torsional / segment.material.shear(),
+                })
+            };
             Section {
+                worst: worst(),
                 forces: wrench.unwrap_or_default().into(),
-                von_mises: stress.map(|stress| stress.von_mises),
             }
         };
         self.states.iter().map(of_state).collect()
@@ -301,13 +319,20 @@ impl Grid {
                 let column = sections().map(|section| section.forces[component]);
                 floats(&mut text, &format!("{prefix}{name}"), 1, column);
             }
-            let stresses = sections().map(|section| section.von_mises.unwrap_or(0.0));
-            floats(&mut text, &format!("{prefix}von_mises"), 1, stresses);
+            let columns: [(&str, fn(Worst) -> f64); 3] = [
+                ("von_mises", |worst| worst.von_mises),
+                ("normal_strain", |worst| worst.normal_strain),
+                ("shear_strain", |worst| worst.shear_strain),
+            ];
+            for (name, of) in columns {
+                let column = sections().map(|section| of(section.worst.unwrap_or_default()));
+                floats(&mut text, &format!("{prefix}{name}"), 1, column);
+            }
         }
         // Whether a section has stresses does not depend on the state.
         let known = self.cells.iter().map(|cell| {
             let base = cell.sections.first();
-            usize::from(base.is_some_and(|section| section.von_mises.is_some()))
+            usize::from(base.is_some_and(|section| section.worst.is_some()))
         });
         integers(&mut text, "has_stress", known);
         let parts = self.cells.iter().map(|cell| cell.part as usize);

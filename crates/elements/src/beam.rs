@@ -57,6 +57,20 @@ impl From<Vector6<f64>> for SectionStrain {
     }
 }
 
+impl From<SectionStrain> for [f64; 6] {
+    /// The components (εx γy γz κx κy κz).
+    fn from(s: SectionStrain) -> Self {
+        [
+            s.axial,
+            s.shear_y,
+            s.shear_z,
+            s.twist,
+            s.curvature_y,
+            s.curvature_z,
+        ]
+    }
+}
+
 impl SectionStrain {
     /// Normal strain at the point (y, z) \[m\] of the section.
     pub fn normal(&self, y: f64, z: f64) -> f64 {

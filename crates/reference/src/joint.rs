@@ -1,5 +1,17 @@
 //! A joint as conditions and springs on its relative coordinates `q = basis⁻¹ Tᵀ (u_i − u_j)`, or
 //! with a misfit m on `q + m`.
+//!
+//! A finite-element program states a joint by what its axes keep: of a universal joint `x_i · y_j = 0`
+//! (Eq. 67), x fixed in the first body and y in the second. Both turn with their nodes, `x_i = x +
+//! φ_i × x` and `y_j = y + φ_j × y`; to first order the condition is
+//!
+//! ```text
+//! (φ_i × x) · y + x · (φ_j × y) = (φ_i − φ_j) · (x × y) = 0
+//! ```
+//!
+//! and with `Δ_i = Δ_j` that is all that a universal joint holds: x, y, z and w of its frame. It is
+//! linear in the nodes' rotations, is checked once, at the configuration that is solved, and needs no
+//! search for independent rotations.
 
 use hyperstat_assembly::{Connection, JointStiffness, Misfit};
 use hyperstat_joints::Dof;
@@ -228,4 +240,66 @@ fn modes(matrix: &Matrix6<f64>) -> Vec<Mode> {
         })
         .filter(|mode| mode.value > -0.5)
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use hyperstat_assembly::{Model, NodeId};
+    use hyperstat_joints::{DofSet, Universal};
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+
+    /// Eq. 67, `x_i · y_j`, differentiated by central differences of finite rotations of both nodes,
+    /// is the row of the universal joint's w; the first three rows are `Δ_i − Δ_j`.
+    #[test]
+    fn the_row_of_a_universal_joint_is_the_linearised_condition() {
+        let mut model = Model::new("universal");
+        let (a, b) = (Point3::origin(), Point3::new(1.0, 0.0, 0.0));
+        model.add_rigid("first", &[("A", a), ("B", b)]).unwrap();
+        model.add_rigid("second", &[("B", b)]).unwrap();
+        let between = [model.node("first", "B"), model.node("second", "B")];
+        let frame = Rotation3::from_euler_angles(0.7, -0.3, 1.2);
+        let connection = Connection {
+            name: "joint".into(),
+            between,
+            joint: Box::new(Universal),
+            locked: DofSet::EMPTY,
+            stiffness: JointStiffness::default(),
+        };
+        let conditions = JointConditions::new(&connection, &frame, None).unwrap();
+        assert_eq!(conditions.holds.len(), 4);
+        let rows = conditions.holds.iter();
+        let rows: Vec<Row> = rows
+            .map(|hold| conditions.row(&hold.combination, hold.flexibility))
+            .collect();
+        let term = |row: &Row, node: Option<NodeId>| {
+            let found = row.terms.iter().find(|(n, _)| Some(NodeId(*n)) == node);
+            found.map(|(_, a)| *a).unwrap()
+        };
+        let (x, y) = (frame * Vector3::x(), frame * Vector3::y());
+        let condition = |turns: [Vector3<f64>; 2]| {
+            let [i, j] = turns.map(Rotation3::new);
+            (i * x).dot(&(j * y))
+        };
+        let step = 1e-4;
+        for (side, node) in between.into_iter().enumerate() {
+            for axis in 0..3 {
+                let at = |size: f64| {
+                    let mut turns = [Vector3::zeros(); 2];
+                    turns[side][axis] = size;
+                    condition(turns)
+                };
+                let slope = (at(step) - at(-step)) / (2.0 * step);
+                // The difference of cubes: a sixth of the square of the step.
+                let found = term(&rows[3], node)[3 + axis];
+                assert!((found - slope).abs() < step * step, "{found} {slope}");
+            }
+        }
+        for row in &rows[..3] {
+            let [i, j] = between.map(|node| term(row, node));
+            assert_eq!(i, -j);
+            assert_eq!(i.fixed_rows::<3>(3).amax(), 0.0);
+        }
+    }
 }

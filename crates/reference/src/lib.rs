@@ -21,4 +21,4 @@ mod traditional;
 pub use error::ReferenceError;
 pub use frequencies::natural_frequencies;
 pub use solution::{ReferenceSolution, ReferenceState, solve};
-pub use traditional::{TraditionalOptions, TraditionalSolution, traditional};
+pub use traditional::{TraditionalForm, TraditionalOptions, TraditionalSolution, traditional};

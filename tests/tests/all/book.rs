@@ -22,6 +22,8 @@ struct Block {
     info: String,
     /// Line of the opening fence, from 1.
     line: usize,
+    /// The line of prose before it.
+    before: String,
     text: String,
 }
 
@@ -54,6 +56,7 @@ impl Page {
             blocks: Vec::new(),
         };
         let mut open: Option<Block> = None;
+        let mut before = String::new();
         for (k, line) in text.lines().enumerate() {
             let fence = line.trim_start().strip_prefix("```");
             match (&mut open, fence) {
@@ -61,10 +64,14 @@ impl Page {
                     open = Some(Block {
                         info: info.trim().to_owned(),
                         line: k + 1,
+                        before: std::mem::take(&mut before),
                         text: String::new(),
                     });
                 }
                 (None, None) => {
+                    if !line.trim().is_empty() {
+                        before = line.to_owned();
+                    }
                     page.prose.push(without_code(line));
                     if line.starts_with('#') {
                         page.headings.push(line.to_owned());
@@ -240,16 +247,62 @@ fn the_first_mechanism_is_the_same_everywhere() {
     }
 }
 
+/// A block after a line that is a file's name, such as "`examples/own-joints/lever.ron`:", is that file.
+/// Nothing is left to a program that puts files together: the pages are read as they are.
 #[test]
-fn every_included_file_exists() {
+fn quoted_files_are_the_files() {
+    let root = root();
+    let mut quoted = 0;
     for page in pages() {
         for block in &page.blocks {
-            for rest in block.text.split("{{#include ").skip(1) {
-                let file = rest.split("}}").next().unwrap_or_default();
-                let path = page.path.parent().unwrap_or(&page.path).join(file);
-                assert!(path.exists(), "{}: {file}", page.place(block));
-            }
+            let place = page.place(block);
+            assert!(!block.text.contains("{{#"), "{place}: an instruction");
+            let named = block.before.strip_prefix('`');
+            let named = named.and_then(|rest| rest.strip_suffix("`:"));
+            let Some(file) = named.filter(|name| name.contains('/') && !name.contains('`')) else {
+                continue;
+            };
+            let text = fs::read_to_string(root.join(file));
+            let text = text.unwrap_or_else(|error| panic!("{place}: {file}: {error}"));
+            assert_eq!(block.text, text, "{place} is not {file}");
+            quoted += 1;
         }
+    }
+    assert!(quoted >= 4, "only {quoted} files were found");
+}
+
+/// The built book holds `docs/src` and nothing else: a picture outside is not there.
+#[test]
+fn every_picture_of_the_book_lies_inside_it() {
+    let book = root().join("docs/src");
+    let mut pictures = 0;
+    for path in markdown(&book) {
+        let page = Page::read(&path);
+        for link in page.links() {
+            let Some((target, _)) = target(&page.path, link) else {
+                continue;
+            };
+            if target.extension().is_some_and(|e| e == "md") {
+                continue;
+            }
+            assert!(
+                target.starts_with(&book) && target.is_file(),
+                "{}: {link}",
+                path.display()
+            );
+            pictures += 1;
+        }
+    }
+    assert!(pictures >= 10, "only {pictures} pictures were found");
+}
+
+/// The sketches are what the program draws: `cargo run -p hyperstat-tests --example sketches`.
+#[test]
+fn the_sketches_are_drawn_from_the_source() {
+    for (name, document) in hyperstat_tests::sketches::sketches() {
+        let path = root().join("docs/src/images").join(name);
+        let file = fs::read_to_string(&path).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(file == document, "{name} is not what the source draws");
     }
 }
 

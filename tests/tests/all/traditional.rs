@@ -3,7 +3,7 @@
 
 use hyperstat_assembly::{Connection, JointStiffness, Model, solve};
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt, SingleFreedom};
-use hyperstat_reference::{TraditionalOptions, traditional};
+use hyperstat_reference::{ReferenceError, TraditionalForm, TraditionalOptions, traditional};
 use hyperstat_tests::{rebuilt, stiffness, stiffness_difference};
 use nalgebra::{Matrix5, Matrix6, Vector5};
 
@@ -40,7 +40,13 @@ fn delta(k: f64) -> Model {
 
 /// The output's stiffness by the traditional method with springs `k`.
 fn by_springs(model: &Model, k: f64, free_stiffness: f64) -> Matrix6<f64> {
+    in_form(TraditionalForm::Penalty, model, k, free_stiffness)
+}
+
+/// The same in a form of the method.
+fn in_form(form: TraditionalForm, model: &Model, k: f64, free_stiffness: f64) -> Matrix6<f64> {
     let options = TraditionalOptions {
+        form,
         joint_stiffness: k,
         angular_stiffness: k,
         free_stiffness,
@@ -127,6 +133,41 @@ fn delta_with_springs_of_any_stiffness() {
         closest > 1e-9,
         "springs come near rigid joints: {closest:e}"
     );
+}
+
+/// Deblaise's form, the joints' wrenches as multipliers and K_J inverted: stiff springs cost no digit, and
+/// the rigid joint is a limit that is reached. What is wrong is the small stiffness of what is free, and
+/// without it there is no inverse.
+#[test]
+fn the_deltas_joints_as_multipliers() {
+    let rigid = Delta::paper().model(&POSE).expect("a reachable pose");
+    let rigid = exact(&rigid);
+    for exponent in [8, 12, 15, 18] {
+        let k = 10.0_f64.powi(exponent);
+        let model = delta(k);
+        let expected = exact(&model);
+        let form = TraditionalForm::Lagrange;
+        let found = in_form(form, &model, k, 1e-7);
+        let lost = stiffness_difference(&found, &expected);
+        assert!(lost < 1e-9, "1e{exponent}: {lost:e}");
+        // The error does not come from rounding: a hundred times the small stiffness, a hundred times the
+        // error.
+        let stiffer = stiffness_difference(&in_form(form, &model, k, 1e-5), &expected);
+        let ratio = stiffer / lost;
+        assert!((50.0..200.0).contains(&ratio), "1e{exponent}: {ratio}");
+        if exponent == 18 {
+            let error = stiffness_difference(&found, &rigid);
+            assert!(error < 1e-9, "{error:e}");
+        }
+        let free = TraditionalOptions {
+            form,
+            joint_stiffness: k,
+            angular_stiffness: k,
+            free_stiffness: 0.0,
+        };
+        let result = traditional(&model, &free);
+        assert_eq!(result.unwrap_err(), ReferenceError::Singular);
+    }
 }
 
 /// Where springs for rigid joints are too soft, the error falls as 1/k.

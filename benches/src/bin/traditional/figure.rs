@@ -71,6 +71,11 @@ fn errors(case: &Case) -> Panel {
                 value: |row| Some(row.traditional?.rigid_joints),
             },
             Curve {
+                name: "traditional with multipliers, same springs, free rotations 1e-7 N·m/rad",
+                color: SKY,
+                value: |row| Some(row.lagrange?.same_springs),
+            },
+            Curve {
                 name: "traditional, same springs, free rotations 1e-7 N·m/rad",
                 color: ORANGE,
                 value: |row| Some(row.traditional_not_free?.same_springs),
@@ -92,8 +97,8 @@ fn errors(case: &Case) -> Panel {
 fn times(case: &Case) -> Panel {
     Panel {
         title: format!(
-            "Equations: traditional {}, this method {}",
-            case.equations, case.unknowns
+            "Equations: traditional {}, with multipliers {}, this method {}",
+            case.equations, case.lagrange_equations, case.unknowns
         ),
         quantity: "time (ms)",
         label: plain,
@@ -103,6 +108,11 @@ fn times(case: &Case) -> Panel {
                 name: "this method, solve: with plan, diagnosis, all wrenches",
                 color: SKY,
                 value: |row| Some(row.solve_time.as_secs_f64() * 1e3),
+            },
+            Curve {
+                name: "traditional with multipliers",
+                color: ORANGE,
+                value: |row| Some(row.lagrange_time.as_secs_f64() * 1e3),
             },
             Curve {
                 name: "traditional",

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use hyperstat_assembly::{Connection, JointStiffness, Model, Plan};
 use hyperstat_benches::POSE;
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt, SingleFreedom};
-use hyperstat_reference::{ReferenceError, TraditionalOptions, traditional};
+use hyperstat_reference::{ReferenceError, TraditionalForm, TraditionalOptions, traditional};
 use hyperstat_tests::{rebuilt, stiffness, stiffness_difference};
 use nalgebra::Matrix6;
 
@@ -16,13 +16,16 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = 3..=18;
 const FREE_STIFFNESS: f64 = 1e-7;
 
 /// Every time is the shortest of so many runs.
-const RUNS: usize = 20;
+const RUNS: usize = 50;
 
 /// A case study at all joint stiffnesses.
 pub struct Case {
     pub name: &'static str,
-    /// Equations of the traditional method: displacements of all nodes, and multipliers.
+    /// Equations of the traditional method: displacements of all nodes, and multipliers of rigid
+    /// bodies.
     pub equations: usize,
+    /// Equations of its form with multipliers for the joints too.
+    pub lagrange_equations: usize,
     /// Independent coordinates of this method.
     pub unknowns: usize,
     pub rows: Vec<Row>,
@@ -37,6 +40,9 @@ pub struct Row {
     /// Free directions with 1e-7 N·m/rad; the same as above where no direction is free.
     pub traditional_not_free: Option<Errors>,
     pub traditional_time: Duration,
+    /// The joints' wrenches as multipliers, K_J inverted; free directions with 1e-7 N·m/rad.
+    pub lagrange: Option<Errors>,
+    pub lagrange_time: Duration,
     /// This method, against the same springs.
     pub ours: f64,
     /// [`hyperstat_assembly::solve`].
@@ -121,22 +127,24 @@ fn case(
     rigid_joints: Matrix6<f64>,
     difference: impl Fn(&Matrix6<f64>, &Matrix6<f64>) -> f64,
 ) -> Case {
-    let (mut equations, mut unknowns) = (0, 0);
+    let mut unknowns = 0;
+    let mut equations = [0; 2];
     let rows = EXPONENTS.map(|exponent| {
         let k = 10.0_f64.powi(exponent);
         let model = springs(k);
         let same_springs = exact(k, &model);
-        let by_springs = |free_stiffness: f64| {
+        let by_springs = |form: TraditionalForm, free_stiffness: f64| {
             let options = TraditionalOptions {
+                form,
                 joint_stiffness: k,
                 angular_stiffness: k,
                 free_stiffness,
             };
             traditional(&model, &options)
         };
-        let mut errors = |free_stiffness: f64| match by_springs(free_stiffness) {
+        let mut errors = |form, free_stiffness: f64| match by_springs(form, free_stiffness) {
             Ok(found) => {
-                equations = found.equations;
+                equations[form as usize] = found.equations;
                 Some(Errors {
                     same_springs: difference(&found.stiffness, &same_springs),
                     rigid_joints: difference(&found.stiffness, &rigid_joints),
@@ -151,9 +159,11 @@ fn case(
         let mut workspace = plan.workspace();
         Row {
             exponent,
-            traditional: errors(0.0),
-            traditional_not_free: errors(FREE_STIFFNESS),
-            traditional_time: shortest(|| by_springs(0.0)),
+            traditional: errors(TraditionalForm::Penalty, 0.0),
+            traditional_not_free: errors(TraditionalForm::Penalty, FREE_STIFFNESS),
+            traditional_time: shortest(|| by_springs(TraditionalForm::Penalty, 0.0)),
+            lagrange: errors(TraditionalForm::Lagrange, FREE_STIFFNESS),
+            lagrange_time: shortest(|| by_springs(TraditionalForm::Lagrange, FREE_STIFFNESS)),
             ours: difference(&stiffness(&solution), &same_springs),
             solve_time: shortest(|| hyperstat_assembly::solve(&model)),
             pose_time: shortest(|| plan.sweep(&model, model.geometry(), &mut workspace)),
@@ -162,7 +172,8 @@ fn case(
     Case {
         name,
         rows: rows.collect(),
-        equations,
+        equations: equations[TraditionalForm::Penalty as usize],
+        lagrange_equations: equations[TraditionalForm::Lagrange as usize],
         unknowns,
     }
 }

@@ -4,7 +4,8 @@ use hyperstat_assembly::{CaseSolution, Model, NodeId, SegmentId, Solution, Solve
 use serde::Serialize;
 
 use super::forces::{BodyReport, bodies, write_worst};
-use super::solve::{JointReport, SegmentReport, joint_table, segment_tables};
+use super::joints::{JointReport, joint_table};
+use super::solve::{SegmentReport, segment_tables};
 use super::{
     Entries, WRENCH, displacement_table, heads, inner_displacements_of, numbers, output_table,
     section,
@@ -13,16 +14,16 @@ use super::{
 /// What a case does. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseReport {
-    output: Output,
-    displacements: Entries<[f64; 6]>,
+    pub(super) output: Output,
+    pub(super) displacements: Entries<[f64; 6]>,
     joints: Entries<JointReport>,
     segments: Vec<SegmentReport>,
-    bodies: Entries<BodyReport>,
+    pub(super) bodies: Entries<BodyReport>,
 }
 
 #[derive(Debug, Serialize)]
-struct Output {
-    displacement: [f64; 6],
+pub(super) struct Output {
+    pub(super) displacement: [f64; 6],
 }
 
 /// The cases of a solution by name.

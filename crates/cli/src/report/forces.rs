@@ -1,5 +1,7 @@
 //! Forces along segments and the worst point of every body.
 
+use std::collections::HashSet;
+
 use hyperstat_assembly::{
     BodyId, Model, SegmentForces, SegmentId, WorstPoint, section_wrench, stations,
 };
@@ -37,6 +39,18 @@ struct WorstReport {
     shear: f64,
     von_mises: f64,
     utilisation: Option<f64>,
+    strain: StrainReport,
+}
+
+/// Strains at a point of a section (Eq. 46), those of temperature included.
+#[derive(Debug, Serialize)]
+struct StrainReport {
+    /// At the point, positive in tension.
+    normal: f64,
+    /// The largest of torsion in the section.
+    shear: f64,
+    /// ε γ_y γ_z κ_x κ_y κ_z of the section, element frame [–, 1/m].
+    section: [f64; 6],
 }
 
 /// Section forces of a segment at the places where they are told.
@@ -73,6 +87,11 @@ pub(super) fn bodies(
                     shear: found.shear,
                     von_mises: found.von_mises,
                     utilisation: found.utilisation,
+                    strain: StrainReport {
+                        normal: found.normal_strain,
+                        shear: found.shear_strain,
+                        section: found.section_strain.into(),
+                    },
                 }
             });
             (body.name.clone(), BodyReport { worst })
@@ -80,59 +99,89 @@ pub(super) fn bodies(
         .collect()
 }
 
-/// The worst points as a table, the worst first; `title` begins its heading.
+/// The worst point of every body, the worst first; `title` begins its heading.
 pub(super) fn write_worst(bodies: &Entries<BodyReport>, title: &str, text: &mut String) {
-    let named = bodies.0.iter();
-    let mut worst: Vec<_> = named
-        .filter_map(|(name, body)| Some((name, body.worst.as_ref()?)))
-        .collect();
+    write_worst_of(&[("", bodies)], title, usize::MAX, text);
+}
+
+/// The worst points of every body over several states, each with its name, the worst first, and no
+/// more than `most` of them.
+pub(super) fn write_worst_of(
+    states: &[(&str, &Entries<BodyReport>)],
+    title: &str,
+    most: usize,
+    text: &mut String,
+) {
+    let mut worst = Vec::new();
+    for (state, bodies) in states {
+        for (body, (name, found)) in bodies.iter().enumerate() {
+            worst.extend((found.worst.iter()).map(|point| (body, name, *state, point)));
+        }
+    }
     if worst.is_empty() {
         return;
     }
-    let limited = worst.iter().all(|(_, point)| point.utilisation.is_some());
+    let has_limit = |point: &WorstReport| point.utilisation.is_some();
+    let limited = worst.iter().all(|(.., point)| has_limit(point));
+    let some_limit = worst.iter().any(|(.., point)| has_limit(point));
     let measure = |point: &WorstReport| match point.utilisation {
         Some(utilisation) if limited => utilisation,
         _ => point.von_mises,
     };
-    worst.sort_by(|(_, a), (_, b)| measure(b).total_cmp(&measure(a)));
-    let heads = [
-        "body",
-        "segment",
-        "at",
-        "y",
-        "z",
-        "normal",
-        "shear",
-        "von Mises",
-    ];
-    let some_limit = worst.iter().any(|(_, point)| point.utilisation.is_some());
+    worst.sort_by(|(.., a), (.., b)| measure(b).total_cmp(&measure(a)));
+    // Of each body the state in which it is worst.
+    let mut taken = HashSet::new();
+    worst.retain(|(body, ..)| taken.insert(*body));
+    let left = worst.len().saturating_sub(most);
+    worst.truncate(most);
+    let names: &[&str] = match states {
+        [_] => &["body", "segment"],
+        _ => &["body", "case", "segment"],
+    };
+    let heads = ["at", "y", "z", "normal", "shear", "von Mises", "ε", "γ"];
     let more = some_limit.then_some("utilisation");
-    let heads: Vec<_> = heads.into_iter().chain(more).collect();
-    let mut table = Table::new(2, &heads);
-    for (name, point) in worst {
+    let heads: Vec<_> = (names.iter().copied()).chain(heads).chain(more).collect();
+    let mut table = Table::new(names.len(), &heads);
+    for (_, name, state, point) in worst {
         let segment = point.segment.join("-");
-        let size = point.y.hypot(point.z);
-        let in_section =
-            [point.y, point.z].map(|c| if c.abs() < ROUNDING * size { 0.0 } else { c });
-        let mut row = vec![
-            point.at,
-            in_section[0],
-            in_section[1],
-            point.normal,
-            point.shear,
-            point.von_mises,
-        ];
-        if some_limit {
-            row.push(point.utilisation.unwrap_or(f64::NAN));
-        }
-        table.row(&[name, &segment], row);
+        let names = match states {
+            [_] => vec![name, &segment],
+            _ => vec![name, state, &segment],
+        };
+        table.row(&names, point.numbers(some_limit));
     }
+    let left = match left {
+        0 => String::new(),
+        left => format!("  … and {left} more\n"),
+    };
     section(
         text,
         &format!(
             "{title} of every body: place along the segment (0 to 1), point of the section [m], \
-             stresses [Pa]"
+             stresses [Pa], normal strain ε, shear strain γ of torsion"
         ),
-        table,
+        format!("{table}{left}"),
     );
+}
+
+impl WorstReport {
+    /// The numbers of its row.
+    fn numbers(&self, with_utilisation: bool) -> Vec<f64> {
+        let size = self.y.hypot(self.z);
+        let in_section = [self.y, self.z].map(|c| if c.abs() < ROUNDING * size { 0.0 } else { c });
+        let mut row = vec![
+            self.at,
+            in_section[0],
+            in_section[1],
+            self.normal,
+            self.shear,
+            self.von_mises,
+            self.strain.normal,
+            self.strain.shear,
+        ];
+        if with_utilisation {
+            row.push(self.utilisation.unwrap_or(f64::NAN));
+        }
+        row
+    }
 }

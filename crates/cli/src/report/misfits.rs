@@ -7,7 +7,7 @@ use hyperstat_joints::Dof;
 use nalgebra::Vector6;
 use serde::Serialize;
 
-use super::solve::JointReport;
+use super::joints::JointReport;
 use super::{Entries, Table, heads, number, section};
 use crate::case::Case;
 

@@ -1,9 +1,11 @@
 //! What `solve` and `check` print: plain data that JSON and the tables are both made from.
 
+mod answer;
 mod cases;
 mod check;
 mod forces;
 mod inner;
+mod joints;
 mod loads;
 mod misfits;
 mod modes;

@@ -1,18 +1,16 @@
 //! The report of `hyperstat solve`.
 
-use std::fmt::Write as _;
-
 use hyperstat_assembly::{
-    JointId, Misfit, Model, Segment, SegmentForces, SegmentId, Solution, SolveError,
-    describe_motions,
+    JointId, Model, Segment, SegmentForces, SegmentId, Solution, SolveError, describe_motions,
 };
 use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
 use hyperstat_elements::{BeamLoad, Taper};
-use nalgebra::Vector6;
+use nalgebra::{Rotation3, Vector6};
 use serde::Serialize;
 
 use super::cases::{CaseReport, cases};
 use super::forces::{BodyReport, SectionForces, bodies, section_forces, write_worst};
+use super::joints::{JointReport, joint_table};
 use super::loads::loads;
 use super::misfits::write_misfits;
 use super::why::Why;
@@ -28,64 +26,50 @@ use crate::verification::Verification;
 /// Everything that one solve found. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]
 pub(crate) struct SolveReport {
-    name: String,
+    pub(super) name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    job: Option<String>,
+    pub(super) job: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    design: Option<usize>,
+    pub(super) design: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pose: Option<usize>,
-    unknowns: usize,
-    mobility: usize,
-    overconstraint: usize,
-    redundant_constraints: Vec<Vec<String>>,
-    idle_modes: usize,
-    idle_motions: Vec<String>,
-    output: OutputReport,
-    displacements: Entries<[f64; 6]>,
-    joints: Entries<JointReport>,
-    undetermined: Vec<String>,
-    segments: Vec<SegmentReport>,
-    warnings: Vec<String>,
+    pub(super) pose: Option<usize>,
+    pub(super) unknowns: usize,
+    pub(super) mobility: usize,
+    pub(super) overconstraint: usize,
+    pub(super) redundant_constraints: Vec<Vec<String>>,
+    pub(super) idle_modes: usize,
+    pub(super) idle_motions: Vec<String>,
+    pub(super) output: OutputReport,
+    pub(super) displacements: Entries<[f64; 6]>,
+    pub(super) joints: Entries<JointReport>,
+    pub(super) undetermined: Vec<String>,
+    pub(super) segments: Vec<SegmentReport>,
+    pub(super) warnings: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    verification: Option<Verification>,
+    pub(super) verification: Option<Verification>,
     #[serde(flatten)]
-    modes: Option<ModesReport>,
-    bodies: Entries<BodyReport>,
+    pub(super) modes: Option<ModesReport>,
+    pub(super) bodies: Entries<BodyReport>,
     #[serde(flatten)]
-    why: Option<Why>,
+    pub(super) why: Option<Why>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    frequency_sensitivities: Vec<FrequencyReport>,
+    pub(super) frequency_sensitivities: Vec<FrequencyReport>,
     #[serde(skip_serializing_if = "Entries::is_empty")]
-    cases: Entries<CaseReport>,
+    pub(super) cases: Entries<CaseReport>,
     /// The loads in words and tables, for the text only.
     #[serde(skip)]
-    loads: String,
+    pub(super) loads: String,
 }
 
 #[derive(Debug, Serialize)]
-struct OutputReport {
-    node: String,
-    position: [f64; 3],
-    stiffness: Option<Rows>,
-    compliance: Option<Rows>,
-    displacement: [f64; 6],
-    rigid_directions: Vec<[f64; 6]>,
-    free_motions: Vec<[f64; 6]>,
-}
-
-#[derive(Debug, Serialize)]
-pub(super) struct JointReport {
-    /// On the second body of `between`, at the joint, in the joint frame.
-    wrench: Option<[f64; 6]>,
-    /// The same on the first body.
-    first: Option<[f64; 6]>,
-    /// What the second body stands off from the first, where it does, in the joint frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) misfit: Option<[f64; 6]>,
-    /// What presses on the second body, where anything does, in the joint frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) preload: Option<[f64; 6]>,
+pub(super) struct OutputReport {
+    pub(super) node: String,
+    pub(super) position: [f64; 3],
+    pub(super) stiffness: Option<Rows>,
+    pub(super) compliance: Option<Rows>,
+    pub(super) displacement: [f64; 6],
+    pub(super) rigid_directions: Vec<[f64; 6]>,
+    pub(super) free_motions: Vec<[f64; 6]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -98,6 +82,8 @@ pub(super) struct SegmentReport {
     axes: [[f64; 3]; 3],
     /// Wrench on the segment at its first and second node, in the element frame.
     end_forces: [[f64; 6]; 2],
+    /// The same in global axes (Eq. 38).
+    end_forces_global: [[f64; 6]; 2],
     stress: Option<StressReport>,
     section_forces: Vec<SectionForces>,
 }
@@ -109,6 +95,10 @@ struct StressReport {
     shear: f64,
     von_mises: f64,
 }
+
+/// The heading over idle motions.
+pub(super) const IDLE: &str =
+    "Idle motions (the displacements of these bodies are defined only up to them)";
 
 /// What is said of derivatives of frequencies that could not be counted.
 const UNCOUNTED: &str = "sensitivities of frequencies: not all frequencies could be counted; where one \
@@ -146,7 +136,7 @@ impl SolveReport {
                 .enumerate()
                 .map(|(k, (joint, wrench))| {
                     let report = JointReport::new(wrench.as_ref());
-                    (joint.name.clone(), report.with(model.misfit(JointId(k))))
+                    (joint.name.clone(), report.of(model, JointId(k)))
                 })
                 .collect(),
             undetermined: solution
@@ -213,23 +203,11 @@ impl SolveReport {
         self.modes = Some(modes);
     }
 
-    /// The report as tables.
-    pub(crate) fn text(&self) -> String {
-        let mut text = String::new();
-        let title = super::title(&self.name, self.job.as_deref(), self.design, self.pose);
-        // Writing to a String cannot fail.
-        let _ = write!(
-            text,
-            "{title}\n\n  mobility         {}\n  over-constraint  {}\n  unknowns         {}\n  \
-             idle motions     {}\n",
-            self.mobility, self.overconstraint, self.unknowns, self.idle_modes
-        );
+    /// Everything as tables; [`SolveReport::answer`] is the first page.
+    pub(crate) fn full(&self) -> String {
+        let mut text = self.counts();
         list(&mut text, "Warnings", &self.warnings);
-        list(
-            &mut text,
-            "Idle motions (the displacements of these bodies are defined only up to them)",
-            &self.idle_motions,
-        );
+        list(&mut text, IDLE, &self.idle_motions);
         text += &self.loads;
         self.output.write(&self.displacements, &mut text);
 
@@ -242,17 +220,32 @@ impl SolveReport {
         for (name, case) in &self.cases.0 {
             case.write(name, &mut text);
         }
+        self.write_asked(&mut text);
+        text
+    }
+
+    /// The title and the counts.
+    pub(super) fn counts(&self) -> String {
+        let title = super::title(&self.name, self.job.as_deref(), self.design, self.pose);
+        format!(
+            "{title}\n\n  mobility         {}\n  over-constraint  {}\n  unknowns         {}\n  \
+             idle motions     {}\n",
+            self.mobility, self.overconstraint, self.unknowns, self.idle_modes
+        )
+    }
+
+    /// What an option asked for: modes, what is soft and why, verification.
+    pub(super) fn write_asked(&self, text: &mut String) {
         if let Some(modes) = &self.modes {
-            modes.write(&mut text);
+            modes.write(text);
         }
         if let Some(why) = &self.why {
-            why.write(&mut text);
+            why.write(text);
         }
         for frequencies in &self.frequency_sensitivities {
-            frequencies.write(&mut text);
+            frequencies.write(text);
         }
-        self.write_verification(&mut text);
-        text
+        self.write_verification(text);
     }
 
     fn write_verification(&self, text: &mut String) {
@@ -298,24 +291,6 @@ impl SolveReport {
     }
 }
 
-/// The wrenches of joints as a table.
-pub(super) fn joint_table(joints: &Entries<JointReport>, heads: Vec<&str>) -> Table {
-    let mut table = Table::new(1, &heads);
-    let rounding = Rounding::of(
-        joints
-            .0
-            .iter()
-            .filter_map(|(_, joint)| joint.wrench.as_ref()),
-    );
-    for (name, joint) in &joints.0 {
-        match joint.wrench {
-            Some(wrench) => table.row(&[name], rounding.shown(&wrench)),
-            None => table.remark(&[name], "not determined by statics"),
-        }
-    }
-    table
-}
-
 /// The forces on the ends of segments and their largest stresses as tables.
 pub(super) fn segment_tables(segments: &[SegmentReport]) -> (Table, Table) {
     let mut forces = Table::new(3, &heads(&["body", "segment", "at"], WRENCH));
@@ -337,26 +312,16 @@ pub(super) fn segment_tables(segments: &[SegmentReport]) -> (Table, Table) {
     (forces, stresses)
 }
 
-impl JointReport {
-    /// Of a wrench, where statics determines it.
-    pub(super) fn new(wrench: Option<&Vector6<f64>>) -> Self {
-        Self {
-            wrench: wrench.map(numbers),
-            first: wrench.map(|wrench| numbers(&-wrench)),
-            misfit: None,
-            preload: None,
-        }
-    }
+/// The axes of a frame, each in global axes.
+pub(super) fn axes(frame: &Rotation3<f64>) -> [[f64; 3]; 3] {
+    std::array::from_fn(|axis| frame.matrix().column(axis).into_owned().into())
+}
 
-    /// With the misfit and preload of the joint, where it has any.
-    fn with(self, entry: Option<&Misfit>) -> Self {
-        let given = |values: &Vector6<f64>| (*values != Vector6::zeros()).then(|| numbers(values));
-        Self {
-            misfit: entry.and_then(|entry| given(&entry.misfit)),
-            preload: entry.and_then(|entry| given(&entry.preload)),
-            ..self
-        }
-    }
+/// A wrench of a frame in global axes.
+fn global(wrench: &Vector6<f64>, frame: &Rotation3<f64>) -> [f64; 6] {
+    let (force, moment) = (wrench.fixed_rows::<3>(0), wrench.fixed_rows::<3>(3));
+    let [force, moment] = [force, moment].map(|part| frame * part.into_owned());
+    [force.x, force.y, force.z, moment.x, moment.y, moment.z]
 }
 
 impl OutputReport {
@@ -381,16 +346,37 @@ impl OutputReport {
     }
 
     fn write(&self, nodes: &Entries<[f64; 6]>, text: &mut String) {
-        let [x, y, z] = self.position.map(super::number);
         let table = output_table(&self.displacement, nodes);
+        section(text, &self.heading(), table);
+        self.write_stiffness(text);
+        match &self.compliance {
+            Some(compliance) => section(
+                text,
+                "Compliance of the output [m/N, 1/N; rad/N, rad/(N·m)]",
+                matrix_table(DISPLACEMENT, WRENCH, compliance),
+            ),
+            None => self.write_free_motions(text),
+        }
+    }
+
+    /// What stands over the displacement of the output.
+    pub(super) fn heading(&self) -> String {
+        let [x, y, z] = self.position.map(super::number);
+        format!(
+            "Output {} at ({x}, {y}, {z}) m: displacement [m, rad]",
+            self.node
+        )
+    }
+
+    pub(super) fn write_free_motions(&self, text: &mut String) {
         section(
             text,
-            &format!(
-                "Output {} at ({x}, {y}, {z}) m: displacement [m, rad]",
-                self.node
-            ),
-            table,
+            "Compliance of the output: none that is finite, it moves freely in these directions",
+            twists(&self.free_motions),
         );
+    }
+
+    pub(super) fn write_stiffness(&self, text: &mut String) {
         match &self.stiffness {
             Some(stiffness) => section(
                 text,
@@ -403,18 +389,6 @@ impl OutputReport {
                 twists(&self.rigid_directions),
             ),
         }
-        match &self.compliance {
-            Some(compliance) => section(
-                text,
-                "Compliance of the output [m/N, 1/N; rad/N, rad/(N·m)]",
-                matrix_table(DISPLACEMENT, WRENCH, compliance),
-            ),
-            None => section(
-                text,
-                "Compliance of the output: none that is finite, it moves freely in these directions",
-                twists(&self.free_motions),
-            ),
-        }
     }
 }
 
@@ -425,13 +399,13 @@ impl SegmentReport {
         segment: &Segment,
         forces: &SegmentForces,
     ) -> Self {
-        let frame = forces.frame.matrix();
         Self {
             body: model.bodies()[segment.body.0].name.clone(),
             points: segment.ends.map(|node| model.nodes()[node.0].point.clone()),
             length: forces.length,
-            axes: std::array::from_fn(|axis| frame.column(axis).into_owned().into()),
+            axes: axes(&forces.frame),
             end_forces: forces.ends.each_ref().map(numbers),
+            end_forces_global: (forces.ends.each_ref()).map(|wrench| global(wrench, &forces.frame)),
             stress: StressReport::new(segment, forces),
             section_forces: section_forces(model, id, forces),
         }

@@ -107,7 +107,9 @@ fn every_case_has_its_worst_points() {
         assert_near(utilisation, stress / 2e8, 1e-11, 1.0);
         assert_eq!(worst["at"], 0.0);
     }
-    let tables = bench.hyperstat(&["solve", "bar.ron"]).ends_with(0);
+    let tables = bench
+        .hyperstat(&["solve", "bar.ron", "--full"])
+        .ends_with(0);
     let heading = "Case `push`: worst point of every body: ";
     assert!(tables.out().contains(heading), "{}", tables.out());
 }

@@ -1,5 +1,7 @@
 //! The help, as the only thing a stranger has.
 
+use std::path::Path;
+
 use crate::support::{BATCH, Bench, CANTILEVER};
 
 #[test]
@@ -69,6 +71,34 @@ fn every_command_has_help_with_an_example() {
             );
         }
     }
+}
+
+/// What the book's table of `status` has, `run --help` has.
+#[test]
+fn the_help_has_every_status() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/commands.md");
+    let Ok(page) = std::fs::read_to_string(page) else {
+        return; // The crate alone, without the book.
+    };
+    let (_, table) = page.split_once("| status | |\n|---|---|\n").unwrap();
+    let rows = table.lines().take_while(|line| line.starts_with('|'));
+    let mut words: Vec<_> = rows.map(|row| row.split('`').nth(1).unwrap()).collect();
+    assert!(words.contains(&"branch") && words.len() >= 6, "{words:?}");
+    let outcome = Bench::new("help-status").hyperstat(&["run", "--help"]);
+    let outcome = outcome.ends_with(0);
+    let (_, told) = outcome
+        .out()
+        .split_once("why there is no result:\n")
+        .unwrap();
+    let rows = told.lines().take_while(|line| line.starts_with("  "));
+    // A line further to the right goes on with the one before.
+    let rows = rows.filter(|line| !line.starts_with("   "));
+    let mut told: Vec<_> = rows
+        .filter_map(|row| row.split_whitespace().next())
+        .collect();
+    told.sort_unstable();
+    words.sort_unstable();
+    assert_eq!(told, words);
 }
 
 #[test]

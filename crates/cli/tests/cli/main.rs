@@ -1,5 +1,6 @@
 //! The binary as a user meets it: files in, reports, files and exit statuses out.
 
+mod answer;
 mod cases;
 mod check;
 mod designs;
@@ -22,6 +23,7 @@ mod safety;
 mod shapes;
 mod solve;
 mod states;
+mod strains;
 mod support;
 mod tables;
 mod tutorials;

@@ -182,7 +182,7 @@ fn a_delta_with_a_long_rod() {
     }
     // The book quotes the report: what is rounding in it apart.
     let text = bench
-        .hyperstat(&["solve", example, "--why", "--along", "z"])
+        .hyperstat(&["solve", example, "--full", "--why", "--along", "z"])
         .ends_with(0);
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/theory/states.md");
     let page = std::fs::read_to_string(page).expect("the page");

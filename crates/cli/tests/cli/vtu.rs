@@ -138,6 +138,14 @@ fn a_cantilever_has_the_curve_and_the_forces_of_the_textbook() {
         let twisted = 16.0 * 10.0 / (PI * 0.02_f64.powi(3));
         let expected = (bent * bent + 3.0 * twisted * twisted).sqrt();
         assert_near(grid["von_mises"][cell][0], expected, 1e-9, expected);
+        let young = young(CANTILEVER);
+        let strains = [
+            ("normal_strain", bent / young),
+            ("shear_strain", twisted * 2.6 / young),
+        ];
+        for (name, strain) in strains {
+            assert_near(grid[name][cell][0], strain, 1e-9, strain);
+        }
         assert_eq!(grid["has_stress"][cell], [1.0]);
     }
 }

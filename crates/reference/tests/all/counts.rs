@@ -5,7 +5,9 @@ use crate::common;
 use common::{JointSpec, assert_close, circle, node, point, steel, stiffness_error};
 use hyperstat_assembly::Model;
 use hyperstat_joints::{Cylindrical, DofSet, Fixed, Joint, Revolute, Screw, Spherical};
-use hyperstat_reference::{ReferenceError, TraditionalOptions, solve, traditional};
+use hyperstat_reference::{
+    ReferenceError, TraditionalForm, TraditionalOptions, solve, traditional,
+};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 /// Two beams from walls, with a rod between ball joints at their tips; the output is a tip.
@@ -224,6 +226,7 @@ fn a_full_stiffness_and_a_joint_of_its_own_compliance() {
     let own = build(JointSpec::new("foot", "A", ["ground", "beam"], own));
     let found = solve(&full).unwrap().stiffness.unwrap();
     let options = TraditionalOptions {
+        form: TraditionalForm::Penalty,
         joint_stiffness: 1e12,
         angular_stiffness: 1e9,
         free_stiffness: 0.0,

@@ -5,8 +5,10 @@ use crate::common;
 
 use common::{JointSpec, circle, node, point, steel, stiffness_error};
 use hyperstat_assembly::Model;
-use hyperstat_joints::{Fixed, Screw, Spherical};
-use hyperstat_reference::{ReferenceError, TraditionalOptions, solve, traditional};
+use hyperstat_joints::{Fixed, Revolute, Screw, Spherical};
+use hyperstat_reference::{
+    ReferenceError, TraditionalForm, TraditionalOptions, solve, traditional,
+};
 use nalgebra::{Rotation3, Vector6};
 
 /// Two bent beams to a rigid plate; `joint` makes the joint at the plate.
@@ -51,6 +53,7 @@ fn bracket(joint: impl Fn(&'static str, &'static str, [&'static str; 2]) -> Join
 
 fn options(stiffness: f64, free_stiffness: f64) -> TraditionalOptions {
     TraditionalOptions {
+        form: TraditionalForm::Penalty,
         joint_stiffness: stiffness,
         angular_stiffness: stiffness,
         free_stiffness,
@@ -70,13 +73,58 @@ fn both_methods_agree_on_elastic_joints() {
             .springs(&springs)
     });
     let ours = solve(&model).unwrap();
-    let theirs = traditional(&model, &options(f64::NAN, f64::NAN)).unwrap();
-    let error = stiffness_error(&theirs.stiffness, &ours.stiffness.unwrap());
-    assert!(error < 1e-10, "{error:e}");
-    let displacement = ours.displacement.unwrap();
-    assert!((theirs.displacement - displacement).amax() < 1e-10 * displacement.amax());
     // Seven nodes and one inside the left beam; two of the plate's follow its first.
-    assert_eq!(theirs.equations, 6 * 8 + 6 * 2);
+    let penalty = 6 * 8 + 6 * 2;
+    for (form, equations) in [
+        (TraditionalForm::Penalty, penalty),
+        (TraditionalForm::Lagrange, penalty + 6 * 4),
+    ] {
+        let options = TraditionalOptions {
+            form,
+            ..options(f64::NAN, f64::NAN)
+        };
+        let theirs = traditional(&model, &options).unwrap();
+        let error = stiffness_error(&theirs.stiffness, &ours.stiffness.unwrap());
+        assert!(error < 1e-10, "{form:?}: {error:e}");
+        let displacement = ours.displacement.unwrap();
+        assert!((theirs.displacement - displacement).amax() < 1e-10 * displacement.amax());
+        assert_eq!(theirs.equations, equations);
+    }
+}
+
+/// The form of Lagrange inverts K_J: it stands for rigid joints as well as the springs are stiff, and
+/// cannot have a free direction without a stiffness.
+#[test]
+fn the_form_of_lagrange_inverts_the_joints_stiffness() {
+    let frame = Rotation3::from_euler_angles(0.7, -0.3, 1.2);
+    let lagrange = |k: f64, free_stiffness: f64| TraditionalOptions {
+        form: TraditionalForm::Lagrange,
+        ..options(k, free_stiffness)
+    };
+    let model = bracket(|name, at, between| JointSpec::new(name, at, between, Fixed).frame(frame));
+    let exact = solve(&model).unwrap().stiffness.unwrap();
+    let error = |k: f64| {
+        let found = traditional(&model, &lagrange(k, 0.0)).unwrap().stiffness;
+        stiffness_error(&found, &exact)
+    };
+    let (soft, stiff) = (error(1e10), error(1e12));
+    assert!(
+        (soft / stiff / 100.0 - 1.0).abs() < 0.1,
+        "{soft:e} {stiff:e}"
+    );
+    // The springs' own stiffness stands in one equation only: no digit is lost by it.
+    assert!(error(1e18) < 1e-10, "{:e}", error(1e18));
+
+    let hinged = bracket(|name, at, between| match name {
+        "b" => JointSpec::new(name, at, between, Revolute).frame(frame),
+        _ => JointSpec::new(name, at, between, Fixed).frame(frame),
+    });
+    let result = traditional(&hinged, &lagrange(1e15, 0.0));
+    assert_eq!(result.unwrap_err(), ReferenceError::Singular);
+    let found = traditional(&hinged, &lagrange(1e15, 1e-7)).unwrap();
+    let exact = solve(&hinged).unwrap().stiffness.unwrap();
+    let error = stiffness_error(&found.stiffness, &exact);
+    assert!(error < 1e-6, "{error:e}");
 }
 
 /// Springs for rigid joints: the error falls as 1/k while they are soft, and rises again where
