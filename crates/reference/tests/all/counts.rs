@@ -326,6 +326,7 @@ fn models_that_are_not_one_whole_are_refused() {
         joint_stiffness: 1e12,
         angular_stiffness: 1e9,
         free_stiffness: 0.0,
+        form: TraditionalForm::Penalty,
     };
     let error = traditional(&model, &options).unwrap_err();
     assert!(matches!(error, ReferenceError::Model(_)), "{error}");
