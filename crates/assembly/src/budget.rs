@@ -1,5 +1,7 @@
 //! The compliance budget: which part gives how much of a displacement of the output.
 
+use std::cmp::Ordering;
+
 use hyperstat_joints::Dof;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
@@ -7,6 +9,16 @@ use crate::influence::{Influence, State};
 use crate::measures::compliance_along;
 use crate::model::{BodyId, JointId};
 use crate::solution::Solution;
+
+/// Order by size, the largest first. What is equal to nine digits, as equal parts of a symmetric
+/// mechanism are but for rounding, is equal here, so that a stable sort keeps the order of the file.
+pub fn larger_first(a: f64, b: f64) -> Ordering {
+    let coarse = |number: f64| {
+        let bits = number.abs().to_bits().saturating_add(1 << 22);
+        f64::from_bits(bits >> 23 << 23)
+    };
+    coarse(b).total_cmp(&coarse(a))
+}
 
 /// Where the displacement of the output along a direction comes from.
 ///
@@ -148,7 +160,7 @@ impl Influence<'_> {
         }
         let accounted: f64 = found.iter().map(|(_, _, work)| work).sum();
         found.retain(|(_, _, work)| clean(*work) != 0.0);
-        found.sort_by(|a, b| b.2.abs().total_cmp(&a.2.abs()));
+        found.sort_by(|a, b| larger_first(a.2, b.2));
         let parts = found
             .into_iter()
             .map(|(source, deformation, displacement)| Part {
@@ -265,7 +277,25 @@ impl Budget {
                 None => sums.push((key, part.displacement)),
             }
         }
-        sums.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        sums.sort_by(|a, b| larger_first(a.1, b.1));
         sums
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::larger_first;
+
+    #[test]
+    fn what_differs_by_rounding_keeps_its_order() {
+        let mut shares = [
+            ("a", 1.0),
+            ("b", -3.0),
+            ("c", 1.0 + 1e-14),
+            ("d", 1.001),
+            ("e", 0.0),
+        ];
+        shares.sort_by(|x, y| larger_first(x.1, y.1));
+        assert_eq!(shares.map(|share| share.0), ["b", "d", "a", "c", "e"]);
     }
 }

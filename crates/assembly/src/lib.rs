@@ -49,7 +49,7 @@ mod sparse_elimination;
 mod topology;
 mod worst;
 
-pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource};
+pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};
 pub use error::{ModelError, SolveError};
 pub use floor::Floor;
 pub use influence::Influence;

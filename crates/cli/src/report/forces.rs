@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use hyperstat_assembly::{
-    BodyId, Model, SegmentForces, SegmentId, WorstPoint, section_wrench, stations,
+    BodyId, Model, SegmentForces, SegmentId, WorstPoint, larger_first, section_wrench, stations,
 };
 use serde::Serialize;
 
@@ -128,7 +128,7 @@ pub(super) fn write_worst_of(
         Some(utilisation) if limited => utilisation,
         _ => point.von_mises,
     };
-    worst.sort_by(|(.., a), (.., b)| measure(b).total_cmp(&measure(a)));
+    worst.sort_by(|(.., a), (.., b)| larger_first(measure(a), measure(b)));
     // Of each body the state in which it is worst.
     let mut taken = HashSet::new();
     worst.retain(|(body, ..)| taken.insert(*body));

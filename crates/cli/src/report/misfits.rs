@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Influence, MisfitEffect};
+use hyperstat_assembly::{Influence, MisfitEffect, larger_first};
 use hyperstat_joints::Dof;
 use nalgebra::Vector6;
 use serde::Serialize;
@@ -66,7 +66,7 @@ pub(super) fn misfit_effects(
     let key = |e: &MisfitEffect| (e.direction.is_rotation(), e.per_unit.unwrap_or(0.0).abs());
     effects.sort_by(|a, b| {
         let ((a_turns, a_size), (b_turns, b_size)) = (key(a), key(b));
-        a_turns.cmp(&b_turns).then(b_size.total_cmp(&a_size))
+        a_turns.cmp(&b_turns).then(larger_first(a_size, b_size))
     });
     let report = |effect: MisfitEffect| MisfitEffectReport {
         joint: case.model.joints()[effect.joint.0].name.clone(),

@@ -1,6 +1,6 @@
 //! Natural frequencies and modes in the report of `hyperstat solve`.
 
-use hyperstat_assembly::{Mode, Model, Modes};
+use hyperstat_assembly::{Mode, Model, Modes, larger_first};
 use serde::Serialize;
 
 use super::inner::segment_names;
@@ -139,7 +139,7 @@ impl ModeReport {
     /// The bodies with most of the kinetic energy, in words.
     fn most_moved(&self) -> String {
         let mut shares: Vec<_> = self.kinetic_energy.0.iter().collect();
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        shares.sort_by(|a, b| larger_first(*a.1, *b.1));
         let shown = shares
             .iter()
             .take(SHOWN)

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use hyperstat_assembly::{
     FrequencySensitivity, Influence, ModalSensitivities, Sensitivity, Solution, SolveError,
+    larger_first,
 };
 use serde::Serialize;
 
@@ -71,7 +72,7 @@ impl SensitivityReport {
             })
             .collect();
         let size = |s: &Self| s.relative.unwrap_or(0.0).abs();
-        all.sort_by(|a, b| size(b).total_cmp(&size(a)));
+        all.sort_by(|a, b| larger_first(size(a), size(b)));
         Ok(all)
     }
 
@@ -118,7 +119,7 @@ impl FrequencyReport {
             };
             let all = found.parameters.iter().zip(&names);
             let mut sensitivities: Vec<_> = all.map(own).collect();
-            sensitivities.sort_by(|a, b| b.size().total_cmp(&a.size()));
+            sensitivities.sort_by(|a, b| larger_first(a.size(), b.size()));
             Self {
                 modes: group.clone().map(|place| place + 1).collect(),
                 frequency: found.frequencies[group.start],

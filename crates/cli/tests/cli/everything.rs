@@ -36,11 +36,11 @@ fn files(folder: &str) -> Vec<File> {
 }
 
 /// Runs a command on a file; its exit status must be one of these, and an error must be told.
-fn run(bench: &Bench, words: &[&str], file: &Path, job: Option<&str>, statuses: &[i32]) -> Outcome {
+fn run(bench: &Bench, words: &[&str], file: &Path, chosen: &[&str], statuses: &[i32]) -> Outcome {
     let file = file.to_str().unwrap();
     let mut command = vec![words[0], file];
     command.extend(&words[1..]);
-    command.extend(job.into_iter().flat_map(|job| ["--job", job]));
+    command.extend(chosen);
     let outcome = bench.hyperstat(&command);
     let (status, said) = (outcome.status(), outcome.err());
     assert!(statuses.contains(&status), "{command:?}: {status}\n{said}");
@@ -52,8 +52,8 @@ fn run(bench: &Bench, words: &[&str], file: &Path, job: Option<&str>, statuses: 
 /// The commands that tell of one mechanism: a file, or a job of one. All these can be solved; modes
 /// need densities, the dense solver takes small models only, and a flexible body's table cannot be
 /// written into a file.
-fn told(bench: &Bench, file: &Path, job: Option<&str>) {
-    let run = |words: &[&str], statuses: &[i32]| run(bench, words, file, job, statuses);
+fn told(bench: &Bench, file: &Path, chosen: &[&str]) {
+    let run = |words: &[&str], statuses: &[i32]| run(bench, words, file, chosen, statuses);
     run(&["check"], &[0]);
     run(&["solve", "--why", "--modes", "3", "--verify"], &[0, 2]);
     let json = ["solve", "--why", "--all-nodes", "--format", "json"];
@@ -63,7 +63,7 @@ fn told(bench: &Bench, file: &Path, job: Option<&str>) {
 
 /// The figures of one mechanism.
 fn drawn(bench: &Bench, file: &Path) {
-    let run = |words: &[&str], statuses: &[i32]| run(bench, words, file, None, statuses);
+    let run = |words: &[&str], statuses: &[i32]| run(bench, words, file, &[], statuses);
     run(&["plot", "--budget", "--out", "budget"], &[0]);
     run(&["plot", "--deformed", "--out", "deformed"], &[0]);
     run(&["plot", "--mode", "1", "--out", "mode"], &[0, 2]);
@@ -75,7 +75,7 @@ fn run_and_drawn(bench: &Bench, file: &File) {
         bench,
         &["run", "--out", "out", "--summary"],
         &file.path,
-        None,
+        &[],
         &[0, 1],
     );
     for job in &file.jobs {
@@ -86,7 +86,7 @@ fn run_and_drawn(bench: &Bench, file: &File) {
             &["plot", "--trajectory"],
         ] {
             // Not every table has what a figure is of.
-            run(bench, kind, &table, None, &[0, 2]);
+            run(bench, kind, &table, &[], &[0, 2]);
         }
     }
 }
@@ -95,7 +95,7 @@ fn run_and_drawn(bench: &Bench, file: &File) {
 fn every_command_on_every_reference_file() {
     let bench = Bench::new("everything-reference");
     for file in files("tests/reference") {
-        told(&bench, &file.path, None);
+        told(&bench, &file.path, &[]);
     }
 }
 
@@ -103,7 +103,7 @@ fn every_command_on_every_reference_file() {
 fn every_command_on_every_example_of_a_mechanism() {
     let bench = Bench::new("everything-examples");
     for file in files("examples").iter().filter(|file| file.jobs.is_empty()) {
-        told(&bench, &file.path, None);
+        told(&bench, &file.path, &[]);
         drawn(&bench, &file.path);
     }
 }
@@ -113,7 +113,14 @@ fn every_command_on_every_job_of_the_examples() {
     let bench = Bench::new("everything-jobs");
     for file in files("examples") {
         for job in &file.jobs {
-            told(&bench, &file.path, Some(job));
+            let path = file.path.to_str().unwrap();
+            let in_reach = |pose: &&str| {
+                let check = ["check", path, "--job", job, "--pose", pose];
+                bench.hyperstat(&check).status() == 0
+            };
+            let pose = ["0", "40"].into_iter().find(in_reach);
+            let pose = pose.unwrap_or_else(|| panic!("{path}, {job}: no pose in reach"));
+            told(&bench, &file.path, &["--job", job, "--pose", pose]);
         }
     }
 }
@@ -141,10 +148,10 @@ fn broken_files_are_refused_by_every_command() {
         if path.extension().is_some_and(|extension| extension == "ron") {
             count += 1;
             if count % 8 == 0 {
-                let checked = run(&bench, &["check"], &path, None, &[0, 2]).status();
-                run(&bench, &["solve"], &path, None, &[checked]);
-                run(&bench, &["run", "--out", "out"], &path, None, &[0, 1, 2]);
-                run(&bench, &["export"], &path, None, &[0, 2]);
+                let checked = run(&bench, &["check"], &path, &[], &[0, 2]).status();
+                run(&bench, &["solve"], &path, &[], &[checked]);
+                run(&bench, &["run", "--out", "out"], &path, &[], &[0, 1, 2]);
+                run(&bench, &["export"], &path, &[], &[0, 2]);
             }
         }
     }
