@@ -139,7 +139,7 @@ impl ModeReport {
     /// The bodies with most of the kinetic energy, in words.
     fn most_moved(&self) -> String {
         let mut shares: Vec<_> = self.kinetic_energy.0.iter().collect();
-        shares.sort_by(|a, b| larger_first(*a.1, *b.1));
+        shares.sort_by(|a, b| larger_first(a.1, b.1));
         let shown = shares
             .iter()
             .take(SHOWN)
