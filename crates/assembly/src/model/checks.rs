@@ -80,12 +80,13 @@ impl Model {
             };
             let [p, q] = [first, second].map(|node| geometry.positions[node.0]);
             // Most often they are the same to the last bit. NaN is no point.
-            if p != q && !((p - q).norm() <= one_point) {
+            let distance = (p - q).norm();
+            if p != q && (distance > one_point || distance.is_nan()) {
                 return Err(ModelError::Apart {
                     joint: joint.name.clone(),
                     first: self.node_name(first),
                     second: self.node_name(second),
-                    distance: (p - q).norm(),
+                    distance,
                 });
             }
         }
