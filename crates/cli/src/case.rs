@@ -275,7 +275,7 @@ impl Case {
             location: Box::new(self.source().output()),
             output: model.node_name(output),
             motions: solution.output.free_motions.iter().map(in_words).collect(),
-            drives: MissingDrives::of(model, body),
+            drives: Box::new(MissingDrives::of(model, body)),
         })
     }
 
@@ -386,7 +386,7 @@ impl Source<'_> {
         CliError::Unsolvable {
             location: Box::new(location),
             source: error,
-            drives,
+            drives: Box::new(drives),
         }
     }
 

@@ -72,7 +72,7 @@ pub(crate) enum CliError {
         location: Box<Location>,
         source: SolveError,
         /// What could hold what moves.
-        drives: MissingDrives,
+        drives: Box<MissingDrives>,
     },
     /// An output that moves without energy.
     #[error("the output `{output}` moves freely, drives locked: {}", .motions.join("; "))]
@@ -81,7 +81,7 @@ pub(crate) enum CliError {
         output: String,
         motions: Vec<String>,
         /// What could hold it.
-        drives: MissingDrives,
+        drives: Box<MissingDrives>,
     },
     /// A model that the independent solver does not take.
     #[error("the independent solver has no result to compare with: {0}")]

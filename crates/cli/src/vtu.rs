@@ -319,13 +319,14 @@ impl Grid {
                 let column = sections().map(|section| section.forces[component]);
                 floats(&mut text, &format!("{prefix}{name}"), 1, column);
             }
-            let columns: [(&str, fn(Worst) -> f64); 3] = [
-                ("von_mises", |worst| worst.von_mises),
-                ("normal_strain", |worst| worst.normal_strain),
-                ("shear_strain", |worst| worst.shear_strain),
-            ];
-            for (name, of) in columns {
-                let column = sections().map(|section| of(section.worst.unwrap_or_default()));
+            let of_worst =
+                |worst: Worst| [worst.von_mises, worst.normal_strain, worst.shear_strain];
+            for (k, name) in ["von_mises", "normal_strain", "shear_strain"]
+                .iter()
+                .enumerate()
+            {
+                let column =
+                    sections().map(|section| of_worst(section.worst.unwrap_or_default())[k]);
                 floats(&mut text, &format!("{prefix}{name}"), 1, column);
             }
         }

@@ -160,13 +160,9 @@ fn compare(name: &str, scale: f64, [own, other]: [&Results; 2]) {
     let names =
         |r: &Results| -> Vec<_> { r.sensitivities.iter().map(|s| s.name.clone()).collect() };
     assert_eq!(names(own), names(other), "{name}");
-    let kinds: [(&str, fn(&Results) -> Vec<Numbers>); 3] = [
-        ("statics", statics),
-        ("derivatives", derivatives),
-        ("frequencies", frequencies),
-    ];
-    for (what, of) in kinds {
-        let (own, other) = (of(own), of(other));
+    let all = |r: &Results| [statics(r), derivatives(r), frequencies(r)];
+    let kinds = ["statics", "derivatives", "frequencies"].into_iter();
+    for (what, (own, other)) in kinds.zip(all(own).into_iter().zip(all(other))) {
         assert_eq!(own.len(), other.len(), "{name}: {what}");
         for (place, (own, other)) in own.iter().zip(&other).enumerate() {
             assert_eq!(own.len(), other.len(), "{name}: {what} {place}");
