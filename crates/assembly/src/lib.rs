@@ -10,50 +10,31 @@
 //! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
 //! full solve, which also refines, recovers and diagnoses.
 
-mod acting;
-mod budget;
-mod cluster;
-mod condense;
-mod coordinates;
+mod answer;
 mod directions;
-mod dissection;
-mod elimination;
 mod error;
-mod floor;
-mod form;
-mod influence;
-mod jacobian;
 mod kinematics;
 mod lanes;
-mod load_change;
 mod loads;
-pub mod measures;
-mod misfit;
 mod modal;
 mod model;
-mod numeric;
 mod orientation;
-mod parameters;
 mod parts;
 mod plan;
-mod precision;
-mod recover;
-mod redundancy;
-mod restraint;
+mod pose;
+mod rank;
+mod response;
 mod room;
-mod sensitivity;
-mod solution;
 mod solve;
-mod sparse;
-mod sparse_elimination;
-mod topology;
-mod worst;
-
-pub use budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};
+mod state;
+pub use answer::curve::segment_displacement;
+pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
+pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations};
 pub use error::{ModelError, SolveError};
-pub use floor::Floor;
-pub use influence::Influence;
-pub use kinematics::{Kinematics, analyse, describe_motions};
+pub use kinematics::motion::Motion;
+pub use kinematics::motion::describe_motions;
+pub use kinematics::redundancy::{Redundancy, redundant_constraints};
+pub use kinematics::{Kinematics, analyse};
 pub use lanes::{LANES, Lanes};
 pub use modal::{
     BeamMass, FrequencySensitivity, ModalOptions, ModalPlan, ModalSensitivities, Mode, Modes, modes,
@@ -63,11 +44,11 @@ pub use model::{
     JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
     NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };
-pub use parameters::Parameter;
-pub use plan::{Plan, Workspace};
-pub use recover::segment_displacement;
-pub use redundancy::{Redundancy, redundant_constraints};
-pub use sensitivity::Sensitivity;
-pub use solution::{CaseSolution, Motion, Output, SegmentForces, Solution, State, Warning};
+pub use plan::Plan;
+pub use plan::workspace::Workspace;
+pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};
+pub use response::influence::Influence;
+pub use response::parameters::Parameter;
+pub use response::sensitivity::Sensitivity;
 pub use solve::{PoseResult, solve};
-pub use worst::{WorstPoint, section_strain, section_wrench, stations};
+pub use state::floor::Floor;

@@ -14,14 +14,14 @@ use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
 pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
+pub(crate) use crate::model::checks::fresh_revision;
+use crate::model::checks::{check_semidefinite, check_stiffness};
+pub use crate::model::doubts::Doubt;
+pub use crate::model::values::ValuePlace;
 pub use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
     Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
 };
-pub(crate) use checks::fresh_revision;
-use checks::{check_semidefinite, check_stiffness};
-pub use doubts::Doubt;
-pub use values::ValuePlace;
 
 /// A mechanism in one configuration.
 #[derive(Debug, Clone)]

@@ -2,20 +2,24 @@
 
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
-use crate::acting::Acting;
-use crate::condense::{LOADS, UNITS};
-use crate::coordinates::read;
-use crate::elimination::Elimination;
+use crate::answer::solution::{CaseSolution, Output, Solution, State, Warning};
 use crate::error::SolveError;
-use crate::floor::Floor;
-use crate::kinematics::{characteristic_length, echelon};
+use crate::kinematics::characteristic_length;
 use crate::loads::LoadSet;
 use crate::model::{Geometry, Model};
-use crate::numeric::{Fault, evaluate, node_displacement};
-use crate::plan::{Plan, Workspace};
-use crate::recover::{check_recovery, recover};
-use crate::restraint::{Restraint, scaled};
-use crate::solution::{CaseSolution, Output, Solution, State, Warning};
+use crate::plan::Plan;
+use crate::plan::blocks::read;
+use crate::plan::fault::Fault;
+use crate::plan::workspace::Workspace;
+use crate::pose::condense::{LOADS, UNITS};
+use crate::pose::recover::{check_recovery, recover};
+use crate::pose::restraint::{Restraint, scaled};
+use crate::pose::restraint::{SUSPICIOUS_PIVOT, is_nearly_free, scale_of};
+use crate::pose::{evaluate, node_displacement};
+use crate::rank::dense::Elimination;
+use crate::rank::echelon::echelon;
+use crate::state::acting::Acting;
+use crate::state::floor::Floor;
 
 /// A full solve refines down to rounding.
 const ROUNDING: f64 = 1e-15;
@@ -23,8 +27,7 @@ const ROUNDING: f64 = 1e-15;
 const ENOUGH_IN_SWEEP: f64 = 1e-8;
 /// An error above this, or a last correction above this share of the solution, is worth a warning.
 const LOST_DIGITS: f64 = 1e-10;
-/// Pivots of the scaled output stiffness below this ask for a look at the mechanism's freedom.
-const SUSPICIOUS_PIVOT: f64 = 1e-9;
+
 /// Pivots below this make the output so uneven that its displacement is refined in a sweep too.
 const UNEVEN_PIVOT: f64 = 1e-4;
 
@@ -479,7 +482,7 @@ impl Plan {
         let carrier = self.topology.carrier_of[self.output.0];
         let block = self.block(workspace, carrier);
         let reference = self.topology.carriers[carrier].reference;
-        let shift = crate::coordinates::shift(geometry, reference, self.output);
+        let shift = crate::plan::blocks::shift(geometry, reference, self.output);
         let mut rows = DMatrix::zeros(self.columns[carrier].len(), 6);
         for (k, &idc) in self.columns[carrier].iter().enumerate() {
             let (_, dof) = workspace.identities[idc];
@@ -492,11 +495,6 @@ impl Plan {
             .map(|v| unscaled(&Vector6::from_column_slice(v.as_slice()), size))
             .collect()
     }
-}
-
-/// Length scale of a component: the mechanism's size for translations, 1 for rotations.
-fn scale_of(component: usize, size: f64) -> f64 {
-    if component < 3 { size } else { 1.0 }
 }
 
 /// A twist with translations over `size`, in metres again.
@@ -520,14 +518,6 @@ fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
     Some(Matrix6::from_fn(|r, c| {
         inverse[(r, c)] / (scale[r] * scale[c])
     }))
-}
-
-/// Whether the output's stiffness along or about some axis is next to nothing beside the largest, those
-/// of translations at the mechanism's size: it may be rounding.
-pub(crate) fn is_nearly_free(stiffness: &Matrix6<f64>, size: f64) -> bool {
-    let along = |k: usize| stiffness[(k, k)] * scale_of(k, size).powi(2);
-    let largest = (0..6).map(along).fold(0.0, f64::max);
-    (0..6).any(|k| along(k) <= SUSPICIOUS_PIVOT * largest)
 }
 
 /// A fault of a plan made for this very configuration.

@@ -11,40 +11,25 @@
 // be compiled with the instruction set chosen at run time.
 #![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
 
-mod assemble;
-mod blocks;
-mod buffers;
-mod chain;
-mod compliance;
-mod ends;
-mod factor;
-mod fronts;
-mod hang;
-mod idle;
-mod inputs;
-mod lane;
-mod parts;
 mod pass;
 mod program;
 #[cfg(test)]
 mod random_tests;
-mod scatter;
-mod series;
 #[cfg(test)]
 mod tests;
-mod transmit;
-
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::SolveError;
 use crate::kinematics::characteristic_length;
+use crate::lanes::pass::buffers::Buffers;
+use crate::lanes::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
+use crate::lanes::program::Program;
 use crate::model::{Geometry, Model};
-use crate::plan::{Plan, Workspace};
-use crate::solve::{PoseResult, is_nearly_free};
-use buffers::Buffers;
-use pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
-use program::Program;
+use crate::plan::Plan;
+use crate::plan::workspace::Workspace;
+use crate::pose::restraint::is_nearly_free;
+use crate::solve::PoseResult;
 
 /// Poses that are handed to [`Plan::sweep_lanes`] together.
 pub const LANES: usize = 8;

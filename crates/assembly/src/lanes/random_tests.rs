@@ -9,7 +9,7 @@ use hyperstat_joints::{
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
-use super::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes};
 use crate::model::{Connection, Geometry, JointStiffness, Member, Model, Tapering};
 use crate::plan::Plan;
 use crate::solve::PoseResult;

@@ -6,8 +6,8 @@ use hyperstat_joints::{Dof, DofSet, Fixed, Revolute, Spherical, frame_from_axis}
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
-use super::LANES;
-use super::factor::{Matrix, eliminate};
+use super::pass::factor::{Matrix, eliminate};
+use crate::lanes::LANES;
 use crate::model::{Connection, Geometry, JointStiffness, Model};
 use crate::plan::Plan;
 use crate::solve::PoseResult;

@@ -9,7 +9,8 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::system::{Mode, System};
 use crate::error::SolveError;
-use crate::numeric::dot;
+use crate::plan::blocks::dot;
+use crate::plan::blocks::subtract;
 
 /// Vectors of a block.
 pub(super) const BLOCK: usize = 4;
@@ -226,13 +227,6 @@ impl Basis {
         let mut modes: Vec<Mode> = modes.collect();
         modes.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
         modes
-    }
-}
-
-/// `vector -= share * other`.
-pub(super) fn subtract(vector: &mut [f64], share: f64, other: &[f64]) {
-    for (value, other) in vector.iter_mut().zip(other) {
-        *value -= share * other;
     }
 }
 

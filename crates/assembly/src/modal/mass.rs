@@ -4,16 +4,19 @@
 use hyperstat_elements::rotate_matrix12;
 use nalgebra::{Vector3, Vector6};
 
-use super::ModalOptions;
-use crate::cluster::segment_beam;
-use crate::coordinates::{read, shift};
 use crate::error::SolveError;
+use crate::modal::ModalOptions;
 use crate::model::{BodyId, Geometry, Model, NodeId, SegmentId};
-use crate::numeric::{dot, multiply};
-use crate::parameters::line_mass;
-use crate::plan::{Plan, Source, Workspace};
-use crate::room::{self, MOST_NUMBERS};
-use crate::sparse::Pattern;
+use crate::plan::Plan;
+use crate::plan::blocks::{dot, multiply};
+use crate::plan::blocks::{read, shift};
+use crate::plan::elements::Source;
+use crate::plan::sparse::Pattern;
+use crate::plan::workspace::Workspace;
+use crate::pose::cluster::segment_beam;
+use crate::response::parameters::line_mass;
+use crate::room;
+use crate::room::MOST_NUMBERS;
 
 /// How the masses of beams are put on the nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -217,7 +220,7 @@ impl MassPlan {
             let mut moved = vec![0.0; element.rows];
             let columns = element.operator.chunks_exact(element.rows);
             for (c, column) in holder.columns.iter().zip(columns) {
-                super::lanczos::subtract(&mut moved, -x[*c], column);
+                crate::plan::blocks::subtract(&mut moved, -x[*c], column);
             }
             let mut force = vec![0.0; element.rows];
             multiply(&element.mass, &moved, element.rows, &mut force);

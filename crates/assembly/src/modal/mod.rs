@@ -15,16 +15,19 @@ use hyperstat_elements::{MassShape, RotaryInertia};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
+use crate::modal::lanczos::lowest;
+pub use crate::modal::mass::BeamMass;
+use crate::modal::mass::{MassPlan, Masses};
+pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
+use crate::modal::system::{Mode as Found, System};
 use crate::model::{BodyId, Geometry, Model, NodeId, Segment};
-use crate::numeric::{Fault, evaluate};
-use crate::plan::{Plan, Workspace};
-use crate::restraint::Restraint;
-use crate::room::{self, MOST_NUMBERS};
-use lanczos::lowest;
-pub use mass::BeamMass;
-use mass::{MassPlan, Masses};
-pub use sensitivity::{FrequencySensitivity, ModalSensitivities};
-use system::{Mode as Found, System};
+use crate::plan::Plan;
+use crate::plan::fault::Fault;
+use crate::plan::workspace::Workspace;
+use crate::pose::evaluate;
+use crate::pose::restraint::Restraint;
+use crate::room;
+use crate::room::MOST_NUMBERS;
 
 /// What the inner nodes of too many elements ask for.
 const COORDINATES: &str = "the coordinates of its elements";

@@ -17,12 +17,12 @@ use hyperstat_elements::{
 use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 
 use super::system::each_deformation;
-use super::{BeamMass, Found, ModalPlan, Outcome, hertz};
-use crate::cluster::segment_beam;
 use crate::error::SolveError;
+use crate::modal::{BeamMass, Found, ModalPlan, Outcome, hertz};
 use crate::model::{Geometry, NodeId, NodeMass, SegmentId};
-use crate::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
-use crate::plan::Source;
+use crate::plan::elements::Source;
+use crate::pose::cluster::segment_beam;
+use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 
 /// Eigenvalues ω² that differ by no more than this part are equal. Vectors are good to some 1e-11
 /// over the part by which their eigenvalues differ: beyond it to 1e-5 or better. A symmetric

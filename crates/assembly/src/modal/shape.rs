@@ -3,10 +3,10 @@
 use hyperstat_elements::{element_frame, rotate_vector6};
 use nalgebra::Vector6;
 
-use super::Mode;
-use crate::cluster::SegmentBeam;
 use crate::error::SolveError;
+use crate::modal::Mode;
 use crate::model::{Model, SegmentId};
+use crate::pose::cluster::SegmentBeam;
 
 impl Mode {
     /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes

@@ -2,18 +2,23 @@
 
 use nalgebra::DVector;
 
-use super::lanczos::{BLOCK, subtract};
+use super::lanczos::BLOCK;
 use super::mass::{MassPlan, Masses};
-use crate::elimination::RANK_TOLERANCE;
 use crate::error::SolveError;
-use crate::kinematics::{characteristic_length, node_twist};
+use crate::kinematics::characteristic_length;
+use crate::kinematics::motion::Motion;
+use crate::kinematics::motion::node_twist;
 use crate::model::{Geometry, Model};
-use crate::numeric::{dot, multiply};
-use crate::plan::{ElementPlan, Plan, Workspace};
-use crate::restraint::{Restraint, largest_minor, scaled};
-use crate::room::{self, MOST_NUMBERS};
-use crate::solution::Motion;
-use crate::sparse::Factor;
+use crate::plan::Plan;
+use crate::plan::blocks::subtract;
+use crate::plan::blocks::{dot, multiply};
+use crate::plan::elements::ElementPlan;
+use crate::plan::sparse::Factor;
+use crate::plan::workspace::Workspace;
+use crate::pose::restraint::{Restraint, largest_minor, scaled};
+use crate::rank::dense::RANK_TOLERANCE;
+use crate::room;
+use crate::room::MOST_NUMBERS;
 
 /// Refinement steps of a solve at the most.
 const MOST_REFINEMENTS: usize = 4;

@@ -4,9 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::Matrix6;
 
-use super::{Axes, BodyId, Geometry, JointId, JointStiffness, LoadSet, Model, NodeId, SegmentId};
 use crate::error::ModelError;
 use crate::kinematics::characteristic_length;
+use crate::model::{
+    Axes, BodyId, Geometry, JointId, JointStiffness, LoadSet, Model, NodeId, SegmentId,
+};
 
 /// Two nodes of a joint that are no farther apart, over the mechanism's size, are one point:
 /// coordinates are typed to six digits or more, and redundant loops of such coordinates leave a few

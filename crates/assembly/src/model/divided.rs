@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering, fresh_revision};
-use crate::cluster::segment_beam;
 use crate::error::SolveError;
+use crate::model::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering, fresh_revision};
+use crate::pose::cluster::segment_beam;
 
 impl Model {
     /// The same model without loads, every segment of n elements made n segments. Nodes keep

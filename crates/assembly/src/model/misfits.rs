@@ -3,9 +3,9 @@
 use hyperstat_joints::DofSet;
 use nalgebra::Vector6;
 
-use super::{Model, fresh_revision};
 use crate::directions::Directions;
 use crate::error::ModelError;
+use crate::model::{Model, fresh_revision};
 use crate::parts::{JointId, Misfit};
 
 impl Model {

@@ -1,6 +1,6 @@
 //! The masses of nodes in other configurations.
 
-use super::{Geometry, Model, NodeMass};
+use crate::model::{Geometry, Model, NodeMass};
 use crate::orientation::turn;
 
 impl Model {

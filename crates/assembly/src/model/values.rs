@@ -2,7 +2,7 @@
 
 use hyperstat_joints::Dof;
 
-use super::{JointId, JointStiffness, Model, SegmentId};
+use crate::model::{JointId, JointStiffness, Model, SegmentId};
 
 /// Where a value of a model stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

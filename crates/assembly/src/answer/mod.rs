@@ -1,0 +1,6 @@
+//! What a full solve says: displacements, wrenches, section forces, worst points, measures.
+
+pub(crate) mod curve;
+pub mod measures;
+pub(crate) mod solution;
+pub(crate) mod worst;

@@ -1,0 +1,120 @@
+//! What wrenches of a chain do on the coordinates of its ends.
+
+use pulp::Simd;
+
+use super::assemble::Assembly;
+use super::blocks::vector;
+use super::compliance::{Frame, Six};
+use super::lane::{Lane, Mat3, Vec3, add, cross, dot, scaled, sub, three};
+use crate::lanes::program::chain::Chain;
+use crate::lanes::program::element::NodeMotion;
+
+/// Works of wrenches on the coordinates of a chain's ends, each its own (by ends), end 0 with the
+/// opposite sign; every `stride`-th entry of `out`.
+#[inline(always)]
+pub(crate) fn works<S: Simd>(
+    assembly: &Assembly<'_, S>,
+    chain: &Chain,
+    frame: &Frame<S>,
+    nodes: &[NodeMotion],
+    wrenches: [&Six<S>; 2],
+    (out, stride): (&mut [S::f64s], usize),
+) {
+    let simd = assembly.simd;
+    let size = Lane::splat(simd, chain.size);
+    let mut next = 0;
+    for (end, node) in nodes.iter().enumerate() {
+        if !node.moves() {
+            continue;
+        }
+        let z = wrenches[end];
+        let force = to_global(&frame.axes, &[z[5], z[3], z[4]]);
+        let moment = to_global(&frame.axes, &scaled(&[z[0], z[1], z[2]], size));
+        let arm = sub(
+            &frame.origin,
+            &vector(simd, assembly.inputs, chain.origins[end]),
+        );
+        let moment = add(&moment, &cross(&arm, &force));
+        let (force, moment) = if end == 0 {
+            (three!(k => -force[k]), three!(k => -moment[k]))
+        } else {
+            (force, moment)
+        };
+        if node.root.is_some() {
+            for k in 0..3 {
+                out[next + k * stride] = force[k].value;
+                out[next + (3 + k) * stride] = moment[k].value;
+            }
+            next += 6 * stride;
+        }
+        for screw in &node.screws {
+            let (v, w) = assembly.screw(*screw);
+            out[next] = (dot(&v, &force) + dot(&w, &moment)).value;
+            next += stride;
+        }
+    }
+}
+
+/// What the work of a wrench on a coordinate is a sum of: where the sum is none, its rounding is
+/// that of these terms.
+pub(crate) struct Terms<S: Simd> {
+    by_force: Lane<S>,
+    by_moment: Lane<S>,
+}
+
+impl<S: Simd> Terms<S> {
+    #[inline(always)]
+    pub fn new(
+        assembly: &Assembly<'_, S>,
+        chain: &Chain,
+        frame: &Frame<S>,
+        end: usize,
+        root: Option<usize>,
+        coordinate: usize,
+    ) -> Self {
+        let simd = assembly.simd;
+        let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
+        let (linear, angular) = match root {
+            Some(root) if (root..root + 3).contains(&coordinate) => (one, zero),
+            Some(root) if (root..root + 6).contains(&coordinate) => (zero, one),
+            _ => {
+                let (v, w) = assembly.screw(coordinate);
+                (dot(&v, &v), dot(&w, &w))
+            }
+        };
+        let arm = sub(
+            &frame.origin,
+            &vector(simd, assembly.inputs, chain.origins[end]),
+        );
+        Self {
+            by_force: dot(&arm, &arm).mul_add(angular, linear),
+            by_moment: angular * Lane::splat(simd, chain.size * chain.size),
+        }
+    }
+
+    /// The sum of their squares, of those of a force and of a moment over the chain's size.
+    #[inline(always)]
+    pub fn by(&self, force: Lane<S>, moment: Lane<S>) -> Lane<S> {
+        force.mul_add(self.by_force, moment * self.by_moment)
+    }
+
+    /// The sum of their squares for a wrench.
+    #[inline(always)]
+    pub fn of(&self, wrench: &Six<S>) -> Lane<S> {
+        let force = dot(
+            &[wrench[3], wrench[4], wrench[5]],
+            &[wrench[3], wrench[4], wrench[5]],
+        );
+        let moment = dot(
+            &[wrench[0], wrench[1], wrench[2]],
+            &[wrench[0], wrench[1], wrench[2]],
+        );
+        self.by(force, moment)
+    }
+}
+
+/// A vector in axes given as rows, in global axes.
+#[inline(always)]
+fn to_global<S: Simd>(axes: &Mat3<S>, v: &Vec3<S>) -> Vec3<S> {
+    three!(i => axes[0][i].mul_add(v[0], axes[1][i].mul_add(v[1], axes[2][i] * v[2])))
+}

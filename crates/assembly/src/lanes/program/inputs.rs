@@ -1,0 +1,141 @@
+//! What the lanes read of a geometry, three numbers at a time.
+
+use hyperstat_elements::element_frame;
+use nalgebra::{Rotation3, Vector3};
+
+use crate::kinematics::characteristic_length;
+use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
+
+/// Place of a point among the inputs.
+pub(crate) type Point = usize;
+
+/// Where three numbers of a geometry come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Position(NodeId),
+    FrameColumn(JointId, usize),
+    YAxis(SegmentId, [NodeId; 2]),
+    RotationColumn(FlexibleId, usize),
+}
+
+/// The vectors that a program reads, each by its place.
+#[derive(Debug)]
+pub(crate) struct Inputs {
+    sources: Vec<Source>,
+    /// One node for all nodes at the same point.
+    same: Vec<NodeId>,
+}
+
+impl Inputs {
+    /// None yet. `None` where the nodes of a joint are apart by more than `apart` of the
+    /// mechanism's size: such a joint is no point.
+    pub fn new(model: &Model, geometry: &Geometry, apart: f64) -> Option<Self> {
+        let count = geometry.positions.len();
+        let mut same: Vec<usize> = (0..count).collect();
+        fn find(same: &mut [usize], mut k: usize) -> usize {
+            while same[k] != k {
+                same[k] = same[same[k]];
+                k = same[k];
+            }
+            k
+        }
+        let bound = apart * characteristic_length(geometry);
+        for joint in model.joints() {
+            if let [Some(a), Some(b)] = joint.between {
+                if (geometry.positions[a.0] - geometry.positions[b.0]).norm() > bound {
+                    return None;
+                }
+                let (a, b) = (find(&mut same, a.0), find(&mut same, b.0));
+                same[a.max(b)] = a.min(b);
+            }
+        }
+        let same = (0..count).map(|k| NodeId(find(&mut same, k))).collect();
+        Some(Self {
+            sources: Vec::new(),
+            same,
+        })
+    }
+
+    /// Number of vectors.
+    pub fn len(&self) -> usize {
+        self.sources.len()
+    }
+
+    fn place(&mut self, source: Source) -> usize {
+        match self.sources.iter().position(|s| *s == source) {
+            Some(place) => place,
+            None => {
+                self.sources.push(source);
+                self.sources.len() - 1
+            }
+        }
+    }
+
+    /// Place of a node's position.
+    pub fn point(&mut self, node: NodeId) -> Point {
+        self.place(Source::Position(self.same[node.0]))
+    }
+
+    /// Places of two points, from and to; `None` where they are one.
+    pub fn arm(&mut self, from: NodeId, to: NodeId) -> Option<[Point; 2]> {
+        let apart = self.same[from.0] != self.same[to.0];
+        apart.then(|| [self.point(from), self.point(to)])
+    }
+
+    /// Place of a column of a joint's frame.
+    pub fn frame_column(&mut self, joint: JointId, column: usize) -> usize {
+        self.place(Source::FrameColumn(joint, column))
+    }
+
+    /// Place of the direction of local y of a segment, run through from one node to the other.
+    pub fn y_axis(&mut self, segment: SegmentId, ends: [NodeId; 2]) -> usize {
+        self.place(Source::YAxis(segment, ends))
+    }
+
+    /// Place of a column of a flexible body's rotation.
+    pub fn rotation(&mut self, body: FlexibleId, column: usize) -> usize {
+        self.place(Source::RotationColumn(body, column))
+    }
+
+    /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
+    /// `(3 v + k) · width + lane`.
+    pub fn read(&self, geometry: &Geometry, out: &mut [f64], width: usize, lane: usize) {
+        for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
+            let vector = source.at(geometry);
+            out[lane] = vector.x;
+            out[width + lane] = vector.y;
+            out[2 * width + lane] = vector.z;
+        }
+    }
+
+    /// The vector at a place.
+    pub fn at(&self, geometry: &Geometry, place: usize) -> Vector3<f64> {
+        self.sources[place].at(geometry)
+    }
+}
+
+impl Source {
+    fn at(self, geometry: &Geometry) -> Vector3<f64> {
+        let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
+            rotation.matrix().column(c).into_owned()
+        };
+        match self {
+            Self::Position(node) => geometry.positions[node.0].coords,
+            Self::FrameColumn(joint, c) => column(&geometry.frames[joint.0], c),
+            Self::YAxis(segment, ends) => match geometry.y_axes[segment.0] {
+                Some(given) => given,
+                None => upright(geometry, ends),
+            },
+            Self::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
+        }
+    }
+}
+
+/// Local y of a segment whose section stands upright; zero, which no lane takes, where it has none.
+fn upright(geometry: &Geometry, [from, to]: [NodeId; 2]) -> Vector3<f64> {
+    let span = geometry.positions[to.0] - geometry.positions[from.0];
+    let frame = element_frame(&span, None);
+    frame.map_or(Vector3::zeros(), |frame| {
+        frame.matrix().column(1).into_owned()
+    })
+}

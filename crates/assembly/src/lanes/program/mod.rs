@@ -1,0 +1,195 @@
+//! What the lanes do at every pose, worked out once a topology.
+//!
+//! The lanes take other coordinates than the one-by-one path: the root of every component keeps
+//! its six global components, and a joint's own coordinates are its relative motions q along the
+//! moving directions, `u_i = u_j + S q`. They are as independent as the IDCs of Eqs. 17–36 and
+//! span the same motions, so the condensed output is the same; and no choice of axes that could
+//! differ from lane to lane is left (the book, "Lanes").
+//!
+//! Every carrier moves as a rigid body by `root + Σ screw · q`, with the twists of root and screws
+//! taken at one reference point a component. Beams and elastic joints in series are one element
+//! ([`series`](super::series)); what lies between them has no coordinates.
+
+pub(crate) mod chain;
+pub(crate) mod element;
+pub(crate) mod fronts;
+pub(crate) mod hang;
+pub(crate) mod idle;
+pub(crate) mod inputs;
+pub(crate) mod parts;
+pub(crate) mod scatter;
+pub(crate) mod series;
+
+use nalgebra::Vector6;
+
+use crate::kinematics::characteristic_length;
+use crate::model::{Geometry, JointId, Model};
+use crate::plan::Plan;
+use crate::plan::topology::Topology;
+
+use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
+use super::program::fronts::Scatter;
+use super::program::fronts::{Fronts, Group};
+use super::program::hang::{hang, late_roots};
+use super::program::idle::idle_coordinates;
+use super::program::inputs::Inputs;
+use super::program::parts::{Parts, Placed, screws};
+use super::program::series::Series;
+
+/// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
+const MOST_COORDINATES: usize = 600;
+/// Nodes of a joint farther apart than this share of the mechanism's size are no one point.
+const APART: f64 = 1e-9;
+
+/// The work of a pose.
+#[derive(Debug)]
+pub(crate) struct Program {
+    pub inputs: Inputs,
+    pub screws: Vec<Screw>,
+    pub elements: Vec<Element>,
+    /// Constant stiffnesses between two coordinates.
+    pub springs: Vec<Spring>,
+    /// Loads on nodes.
+    pub loads: Vec<NodeLoad>,
+    pub fronts: Fronts,
+    /// All coordinates, the loads' row included.
+    pub coordinates: usize,
+    /// By coordinates: whether it tells an idle motion.
+    pub idle: Vec<bool>,
+    /// Blocks that the largest element needs, 36 entries each.
+    pub most_blocks: usize,
+    /// Coordinates of the chain that has most.
+    pub most_ends: usize,
+}
+
+impl Program {
+    /// The program of a plan; `None` where the lanes do not take it: closed loops of rigid bodies
+    /// whose elimination depends on the pose, motions of the output without energy, too many
+    /// coordinates.
+    pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
+        let topology = Topology::new(model, geometry, plan.output, false).ok()?;
+        let closed = |component: &crate::plan::trees::Component| !component.closings.is_empty();
+        if topology.components.iter().any(closed) || topology.coordinates > MOST_COORDINATES {
+            return None;
+        }
+        let mut inputs = Inputs::new(model, geometry, APART)?;
+        let placed = Placed::all(&topology);
+        let screws = screws(model, &topology, &placed, &mut inputs)?;
+        let mut parts = Parts {
+            model,
+            geometry,
+            topology: &topology,
+            placed: &placed,
+            size: characteristic_length(geometry),
+            elements: Vec::new(),
+            springs: Vec::new(),
+        };
+        for cluster in &topology.clusters {
+            parts.add_cluster(cluster, &mut inputs)?;
+        }
+        for joint in 0..model.joints().len() {
+            parts.add_joint(JointId(joint), &mut inputs)?;
+        }
+        let mut loads = Vec::new();
+        for load in model.loads() {
+            let wrench = load.wrench;
+            let node = parts.motion(load.node, &mut inputs)?;
+            if node.moves() && wrench != Vector6::zeros() {
+                let point = inputs.point(load.node);
+                loads.push(NodeLoad {
+                    node,
+                    point,
+                    wrench,
+                });
+            }
+        }
+        let idle = if plan.has_idle {
+            idle_coordinates(plan, &topology, model, geometry, &placed, &parts.elements)?
+        } else {
+            Vec::new()
+        };
+        let output = topology.output_start..topology.output_start + 6;
+        let with_root = topology.components.iter().filter(|c| c.root.is_some());
+        let components: Vec<_> = with_root
+            .map(|c| c.coordinates.clone())
+            .filter(|c| !c.contains(&output.start))
+            .collect();
+        let parts = Series {
+            elements: parts.elements,
+            springs: parts.springs,
+            loads,
+            private: idle.clone(),
+            idle,
+            gone: vec![false; topology.coordinates],
+        };
+        let Series {
+            mut elements,
+            springs,
+            loads,
+            idle,
+            gone,
+            ..
+        } = parts.joined(&screws, &components, |place| inputs.at(geometry, place));
+        // Loads on an idle motion of what only the ground holds show in nothing that is found here.
+        if !elements.iter().all(Element::moves) {
+            return None;
+        }
+        let screws: Vec<Screw> = screws
+            .into_iter()
+            .filter(|screw| !gone[screw.coordinate])
+            .collect();
+        let of_output =
+            |l: &NodeLoad| l.node.root == Some(output.start) && l.node.screws.is_empty();
+        let at_output = loads.iter().all(of_output) && elements.iter().all(|e| !e.is_loaded());
+
+        let unknowns = topology.coordinates;
+        let loads_row = (!at_output).then_some(unknowns);
+        let mut groups: Vec<Group> = Vec::new();
+        for (k, element) in elements.iter().enumerate() {
+            let own = element.nodes.iter().flat_map(NodeMotion::coordinates);
+            let row = loads_row.filter(|_| element.is_loaded());
+            groups.push(Group::element(k, own.chain(row).collect()));
+        }
+        for (k, spring) in springs.iter().enumerate() {
+            groups.push(Group::spring(k, spring.coordinates.to_vec()));
+        }
+        for (k, load) in loads.iter().enumerate() {
+            let own = load.node.coordinates();
+            groups.push(Group::load(k, own.chain(loads_row).collect()));
+        }
+        let weights: Vec<f64> = elements.iter().map(Element::weight).collect();
+        let references = placed
+            .iter()
+            .flatten()
+            .filter_map(|p| Some((p.root?, p.reference)));
+        let references = references.filter(|(root, _)| !gone[*root]).collect();
+        let late = late_roots(&elements, &weights, &references);
+        let late = |c: usize| late.iter().any(|root| (*root..*root + 6).contains(&c));
+        let eliminated = (0..unknowns).filter(|c| !gone[*c]).collect();
+        let mut fronts = Fronts::new(eliminated, groups, &idle, output, loads_row, late)?;
+        hang(
+            &mut fronts,
+            &mut elements,
+            &weights,
+            &references,
+            &mut inputs,
+        );
+        for front in &mut fronts.list {
+            front.scatter = Scatter::new(front, &elements);
+        }
+        let blocks = elements.iter().map(Element::blocks);
+        let ends = elements.iter().map(Element::ends);
+        Some(Self {
+            most_blocks: blocks.max().unwrap_or(0),
+            most_ends: ends.max().unwrap_or(0),
+            idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
+            inputs,
+            screws,
+            elements,
+            springs,
+            loads,
+            fronts,
+            coordinates: unknowns + usize::from(loads_row.is_some()),
+        })
+    }
+}

@@ -1,0 +1,104 @@
+//! Elements and their places in the matrix.
+
+use super::sparse::Pattern;
+use super::topology::Topology;
+use crate::model::{JointId, Model, NodeId};
+
+/// What an element is made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A run of segments with its absorbed joints.
+    Cluster(usize),
+    /// The elastic directions of a joint that keep coordinates of their own.
+    Spring(JointId),
+}
+
+/// An element: deformations `δ = D U + δ₀` over its IDCs, and their stiffness.
+#[derive(Debug, Clone)]
+pub(crate) struct ElementPlan {
+    pub source: Source,
+    /// Number of deformations.
+    pub rows: usize,
+    /// IDCs, ascending: `inner` inner ones, then the output's.
+    pub columns: Vec<usize>,
+    pub inner: usize,
+    /// Nodes it depends on, each with the places in `columns` of its carrier's columns.
+    pub nodes: Vec<(NodeId, Vec<usize>)>,
+    pub operator_start: usize,
+    pub stiffness_start: usize,
+    pub initial_start: usize,
+    pub places_start: usize,
+}
+
+/// One element a cluster, and one a joint whose elastic directions keep their coordinates.
+pub(crate) fn elements(
+    model: &Model,
+    topology: &Topology,
+    columns: &[Vec<usize>],
+) -> Vec<ElementPlan> {
+    let clusters = topology.clusters.iter().enumerate().map(|(k, cluster)| {
+        let rows = 6 * (cluster.nodes.len() - 1);
+        (Source::Cluster(k), rows, cluster.nodes.clone())
+    });
+    let springs = topology.joints.iter().enumerate().filter_map(|(k, role)| {
+        if role.springs.is_empty() {
+            return None;
+        }
+        let nodes: Vec<NodeId> = model.joints()[k]
+            .between
+            .iter()
+            .flatten()
+            .copied()
+            .collect();
+        Some((Source::Spring(JointId(k)), role.springs.len(), nodes))
+    });
+    let mut elements: Vec<ElementPlan> = Vec::new();
+    let (mut operator_start, mut stiffness_start, mut initial_start) = (0, 0, 0);
+    for (source, rows, nodes) in clusters.chain(springs) {
+        let mut all: Vec<usize> = nodes
+            .iter()
+            .flat_map(|n| &columns[topology.carrier_of[n.0]])
+            .copied()
+            .collect();
+        all.sort_unstable();
+        all.dedup();
+        let nodes = nodes
+            .into_iter()
+            .map(|n| {
+                let own = &columns[topology.carrier_of[n.0]];
+                let place = |c: &usize| all.partition_point(|other| other < c);
+                (n, own.iter().map(place).collect())
+            })
+            .collect();
+        let count = all.len();
+        elements.push(ElementPlan {
+            source,
+            rows,
+            columns: all,
+            inner: 0,
+            nodes,
+            operator_start,
+            stiffness_start,
+            initial_start,
+            places_start: 0,
+        });
+        operator_start += rows * count;
+        stiffness_start += rows * rows;
+        initial_start += rows;
+    }
+    elements
+}
+
+/// Where every pair (a ≤ b) of an element's inner columns goes in the assembled values.
+pub(crate) fn places(elements: &mut [ElementPlan], pattern: &Pattern) -> Vec<usize> {
+    let mut places = Vec::new();
+    for element in elements {
+        element.places_start = places.len();
+        element.inner = element.columns.partition_point(|c| *c < pattern.size());
+        for (b, &row) in element.columns[..element.inner].iter().enumerate() {
+            let columns = &element.columns[..=b];
+            places.extend(columns.iter().map(|column| pattern.place(row, *column)));
+        }
+    }
+    places
+}

@@ -1,0 +1,455 @@
+//! What is worked out once a topology: coordinates and their order, elements, sparsity pattern,
+//! symbolic factorization; and the buffers that one thread needs for a pose.
+
+pub(crate) mod blocks;
+pub(crate) mod clusters;
+pub(crate) mod coordinates;
+pub(crate) mod dissection;
+pub(crate) mod elements;
+pub(crate) mod fault;
+pub(crate) mod form;
+pub(crate) mod roles;
+pub(crate) mod sparse;
+pub(crate) mod topology;
+pub(crate) mod trees;
+pub(crate) mod workspace;
+
+use std::sync::Arc;
+
+use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
+use hyperstat_joints::{Dof, DofSet};
+
+use crate::directions::Directions;
+use nalgebra::{Matrix6, Vector3};
+
+use crate::error::SolveError;
+use crate::kinematics::characteristic_length;
+use crate::kinematics::jacobian::Jacobian;
+use crate::model::{BodyId, Geometry, JointId, Model, NodeId, fresh_revision};
+use crate::plan::coordinates::TreeBlocks;
+use crate::plan::elements::{ElementPlan, elements, places};
+use crate::plan::form::Form;
+use crate::plan::sparse::Pattern;
+use crate::plan::topology::Topology;
+use crate::plan::workspace::Workspace;
+use crate::pose::condense::LOADS;
+use crate::rank::dense::Elimination;
+use crate::room;
+use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};
+
+/// A topology made ready: one plan serves every pose of a mechanism.
+#[derive(Debug)]
+pub struct Plan {
+    /// A number that no other plan has.
+    pub(crate) id: u64,
+    /// What the plan is made for, and the [revision](Model) of the model that it was made from.
+    pub(crate) form: Form,
+    pub(crate) revision: u64,
+    /// How far apart (m) two nodes of a joint may lie.
+    pub(crate) one_point: f64,
+    pub(crate) topology: Topology,
+    pub(crate) output: NodeId,
+    /// IDC of every tree coordinate, where its component has no closing joint.
+    pub(crate) idc_of: Vec<Option<usize>>,
+    /// Components with closing joints.
+    pub(crate) closed: Vec<Closed>,
+    /// IDCs of the columns of every carrier's block.
+    pub(crate) columns: Vec<Vec<usize>>,
+    /// Start of every carrier's reduced block; `None`: its tree block serves.
+    pub(crate) reduced_starts: Vec<Option<usize>>,
+    reduced_len: usize,
+    /// Whether motions without energy are to be looked for at every pose.
+    pub(crate) has_idle: bool,
+    /// Number of IDCs.
+    pub(crate) unknowns: usize,
+    /// Number of IDCs that are factored: all but the output's, where those are independent.
+    pub(crate) inner: usize,
+    pub(crate) elements: Vec<ElementPlan>,
+    /// Deformations of all elements.
+    pub(crate) deformations: usize,
+    pub(crate) pattern: Arc<Pattern>,
+    /// Places of every element's upper triangle in the assembled values.
+    pub(crate) places: Arc<[usize]>,
+}
+
+/// A component whose closing joints are eliminated.
+#[derive(Debug)]
+pub(crate) struct Closed {
+    pub component: usize,
+    /// Coordinates to keep independent if possible (the output's six, or none).
+    pub spared: usize,
+    /// IDC of every independent coordinate, in ascending order of the coordinates with the
+    /// spared ones last.
+    pub idcs: Vec<usize>,
+}
+
+impl Plan {
+    /// Plan of a model in its own configuration.
+    ///
+    /// # Errors
+    /// No output, a model that is not one whole ([`Model::check`]), bodies that no chain of joints
+    /// connects to the ground or the output, a segment or joint that cannot be formed, a model too
+    /// large for memory.
+    pub fn new(model: &Model) -> Result<Self, SolveError> {
+        Self::at(model, model.geometry())
+    }
+
+    /// Plan of a model in another configuration.
+    pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        Self::absorbing(model, geometry, true)
+    }
+
+    /// [`Self::at`] with (`absorbs`) or without elastic joints inside subassemblies.
+    pub(crate) fn absorbing(
+        model: &Model,
+        geometry: &Geometry,
+        absorbs: bool,
+    ) -> Result<Self, SolveError> {
+        let output = model.output().ok_or(SolveError::NoOutput)?;
+        model.check()?;
+        let one_point = model.one_point();
+        model.check_geometry(geometry, one_point)?;
+        check_held(model, output)?;
+        let topology = Topology::new(model, geometry, output, absorbs)?;
+        check_stiffness(model, &topology)?;
+        check_loops(&topology)?;
+        let mut tree = TreeBlocks::new(&topology);
+        tree.evaluate(&topology, model, geometry)?;
+        let size = characteristic_length(geometry);
+
+        let output_carrier = topology.carrier_of[output.0];
+        let mut eliminations: Vec<Option<Elimination>> = Vec::new();
+        let mut output_component = 0;
+        for (k, component) in topology.components.iter().enumerate() {
+            let holds_output = component.root == Some(output_carrier);
+            if holds_output {
+                output_component = k;
+            }
+            eliminations.push((!component.closings.is_empty()).then(|| {
+                let spared = if holds_output { 6 } else { 0 };
+                tree.close(component, &topology, model, geometry, size, spared)
+            }));
+        }
+        let output_free = match &eliminations[output_component] {
+            Some(solved) => solved.independent.iter().take_while(|c| **c < 6).count() == 6,
+            None => true,
+        };
+
+        // Number the IDCs: components in order, the output's six last where they are independent.
+        let mut next = 0;
+        let mut idc_of = vec![None; topology.coordinates];
+        let mut closed = Vec::new();
+        let mut nodes = Vec::new();
+        let node_of = |coordinate: usize| tree.identities[coordinate].0.0;
+        for (k, (component, elimination)) in
+            topology.components.iter().zip(&eliminations).enumerate()
+        {
+            let holds_output = k == output_component;
+            match elimination {
+                None => {
+                    for coordinate in component.coordinates.clone() {
+                        let of_output = holds_output && output_free && {
+                            (topology.output_start..topology.output_start + 6).contains(&coordinate)
+                        };
+                        if !of_output {
+                            idc_of[coordinate] = Some(next);
+                            nodes.push(node_of(coordinate));
+                            next += 1;
+                        }
+                    }
+                }
+                Some(solved) => {
+                    let last = if holds_output && output_free { 6 } else { 0 };
+                    let own = solved.independent.len() - last;
+                    let first = component.coordinates.start;
+                    nodes.extend(
+                        solved.independent[last..]
+                            .iter()
+                            .map(|c| node_of(first + c)),
+                    );
+                    closed.push(Closed {
+                        component: k,
+                        spared: if holds_output { 6 } else { 0 },
+                        idcs: (next..next + own).collect(),
+                    });
+                    next += own;
+                }
+            }
+        }
+        let inner = next;
+        let unknowns = if output_free { inner + 6 } else { inner };
+        if output_free {
+            match closed.iter_mut().find(|c| c.component == output_component) {
+                Some(closed) => closed.idcs.extend(inner..unknowns),
+                None => {
+                    for k in 0..6 {
+                        idc_of[topology.output_start + k] = Some(inner + k);
+                    }
+                }
+            }
+        }
+
+        let mut columns: Vec<Vec<usize>> = topology
+            .carriers
+            .iter()
+            .map(|c| c.coordinates.iter().filter_map(|t| idc_of[*t]).collect())
+            .collect();
+        let mut reduced_starts = vec![None; topology.carriers.len()];
+        let mut reduced_len = 0;
+        for closed in &closed {
+            let component = &topology.components[closed.component];
+            let members = component
+                .root
+                .into_iter()
+                .chain(component.ties.iter().map(|t| t.child));
+            let size = room::matrix(6 * (component.ties.len() + 1), closed.idcs.len());
+            room::check(LOOPS, reduced_len + size, MOST_NUMBERS)?;
+            for carrier in members {
+                columns[carrier].clone_from(&closed.idcs);
+                reduced_starts[carrier] = Some(reduced_len);
+                reduced_len += 6 * closed.idcs.len();
+            }
+        }
+
+        let mut elements = elements(model, &topology, &columns);
+        let couplings = elements.iter().map(|e| e.columns.len() * e.columns.len());
+        let couplings = room::sum(couplings);
+        room::check(COUPLINGS, couplings, MOST_NUMBERS)?;
+        let mut inner_groups: Vec<Vec<usize>> = Vec::with_capacity(elements.len());
+        for element in &elements {
+            let inner_columns = element.columns.iter().copied().filter(|c| *c < inner);
+            inner_groups.push(inner_columns.collect());
+        }
+        let groups = inner_groups.iter().map(Vec::as_slice);
+        let pattern = Pattern::new(inner, groups, Some((&nodes, &geometry.positions)))?;
+        let places = places(&mut elements, &pattern);
+        let deformations = elements.iter().map(|e| e.rows).sum();
+        Ok(Self {
+            id: fresh_revision(),
+            form: Form::of(model),
+            revision: model.revision(),
+            one_point,
+            topology,
+            output,
+            idc_of,
+            closed,
+            columns,
+            reduced_starts,
+            reduced_len,
+            has_idle: Jacobian::held(model, geometry).eliminated().rank()
+                < 6 * model.bodies().len(),
+            unknowns,
+            inner,
+            elements,
+            deformations,
+            pattern: Arc::new(pattern),
+            places: places.into(),
+        })
+    }
+
+    /// Plan of another design of the model that this plan was made for: other dimensions,
+    /// sections, materials, stiffnesses and loads. Where the topology is the same, and so is every
+    /// joint's part in it, all that depends on it alone is shared with this plan; elsewhere, and
+    /// where loops of rigid bodies are eliminated, it is what [`Plan::new`] makes. Either way the
+    /// results are those of [`Plan::new`].
+    ///
+    /// # Errors
+    /// As [`Plan::new`].
+    pub fn for_design(&self, model: &Model) -> Result<Self, SolveError> {
+        if model.output() != Some(self.output) || !self.closed.is_empty() {
+            return Self::new(model);
+        }
+        model.check()?;
+        let geometry = model.geometry();
+        let topology = Topology::new(model, geometry, self.output, true)?;
+        if !topology.is_like(&self.topology) {
+            return Self::new(model);
+        }
+        check_stiffness(model, &topology)?;
+        TreeBlocks::new(&topology).evaluate(&topology, model, geometry)?;
+        Ok(Self {
+            id: fresh_revision(),
+            form: Form::of(model),
+            revision: model.revision(),
+            one_point: model.one_point(),
+            topology,
+            output: self.output,
+            idc_of: self.idc_of.clone(),
+            closed: Vec::new(),
+            columns: self.columns.clone(),
+            reduced_starts: self.reduced_starts.clone(),
+            reduced_len: self.reduced_len,
+            has_idle: self.has_idle,
+            unknowns: self.unknowns,
+            inner: self.inner,
+            elements: self.elements.clone(),
+            deformations: self.deformations,
+            pattern: self.pattern.clone(),
+            places: self.places.clone(),
+        })
+    }
+
+    /// Number of independent displacement coordinates, after loop elimination.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Buffers for one thread.
+    pub fn workspace(&self) -> Workspace {
+        let last = self.elements.last();
+        let triangle = |e: &ElementPlan| e.rows * e.rows;
+        let clusters = self.topology.clusters.iter();
+        let sizes = clusters.map(|cluster| {
+            let joints = cluster.joints.iter().flatten().count();
+            (cluster.nodes.len() - 1, joints)
+        });
+        let absorption = sizes.clone().map(|(n, j)| absorption_workspace(n, j));
+        let no_joint = JointFactor {
+            node: 0,
+            factor: Matrix6::zeros(),
+        };
+        let mut workspace = Workspace {
+            plan: self.id,
+            tree: TreeBlocks::new(&self.topology),
+            reduced: vec![0.0; self.reduced_len],
+            identities: vec![(NodeId(0), Dof::X); self.unknowns],
+            operators: vec![0.0; last.map_or(0, |e| e.operator_start + e.rows * e.columns.len())],
+            stiffnesses: vec![0.0; last.map_or(0, |e| e.stiffness_start + triangle(e))],
+            initial: Vec::new(),
+            offsets: Vec::new(),
+            values: vec![0.0; self.pattern.len()],
+            factor: self.pattern.factor_buffers(0),
+            loads: Vec::new(),
+            solutions: Vec::new(),
+            remainders: Vec::new(),
+            residuals: Vec::new(),
+            right_sides: Vec::new(),
+            doubtful: None,
+            energies: Vec::new(),
+            scratch: Vec::new(),
+            forces: Vec::new(),
+            arms: vec![Vector3::zeros(); sizes.clone().map(|s| s.0).max().unwrap_or(0)],
+            factors: vec![no_joint; sizes.map(|s| s.1).max().unwrap_or(0)],
+            absorption: vec![0.0; absorption.max().unwrap_or(0)],
+        };
+        self.make_room(&mut workspace, 1);
+        workspace
+    }
+
+    /// Refuses more sets of loads than there is room for, in the buffers or in their results.
+    pub(crate) fn check_sets(&self, model: &Model, sets: usize) -> Result<(), SolveError> {
+        const SETS: &str = "its cases, each with displacements and forces of its own,";
+        let results = 6 * (model.nodes().len() + model.joints().len() + 4 * model.segments().len());
+        let size = results.max(self.unknowns).max(self.deformations);
+        room::check(SETS, room::matrix(LOADS + sets, size), MOST_NUMBERS)
+    }
+
+    /// Makes room in the buffers for this many sets of loads.
+    pub(crate) fn make_room(&self, workspace: &mut Workspace, sets: usize) {
+        let columns = LOADS + sets;
+        if workspace.columns() == columns {
+            return;
+        }
+        let width = |e: &ElementPlan| e.rows * e.columns.len().max(columns);
+        let widest = self.elements.iter().map(width).max().unwrap_or(0);
+        workspace.factor = self.pattern.factor_buffers(columns);
+        for (buffer, length) in [
+            (&mut workspace.initial, sets * self.deformations),
+            (&mut workspace.loads, columns * self.unknowns),
+            (&mut workspace.solutions, columns * self.unknowns),
+            (&mut workspace.remainders, sets * self.unknowns),
+            (&mut workspace.residuals, columns * self.unknowns),
+            (&mut workspace.right_sides, columns * self.inner),
+            (&mut workspace.energies, columns),
+            (&mut workspace.scratch, widest),
+            (&mut workspace.forces, widest),
+        ] {
+            buffer.clear();
+            buffer.resize(length, 0.0);
+        }
+    }
+
+    /// Whether the output's six coordinates are independent.
+    pub(crate) fn output_is_independent(&self) -> bool {
+        self.inner < self.unknowns
+    }
+
+    /// Block of a carrier (6 × columns, column-major).
+    pub(crate) fn block<'a>(&self, workspace: &'a Workspace, carrier: usize) -> &'a [f64] {
+        let length = 6 * self.columns[carrier].len();
+        match self.reduced_starts[carrier] {
+            Some(start) => &workspace.reduced[start..start + length],
+            None => {
+                let start = workspace.tree.starts[carrier];
+                &workspace.tree.values[start..start + length]
+            }
+        }
+    }
+}
+
+/// What asks for too much room where loops are closed.
+const LOOPS: &str = "its loops of rigid bodies and joints, eliminated as one dense matrix,";
+/// What asks for too much room where elements depend on many coordinates.
+const COUPLINGS: &str = "its elastic parts at the ends of chains of rigid bodies";
+
+/// Refuses loops whose elimination would not end, or not fit into memory.
+fn check_loops(topology: &Topology) -> Result<(), SolveError> {
+    for component in topology.components.iter() {
+        let rigid = |joint: &JointId| topology.joints[joint.0].moving.complement().len();
+        let height = component.closings.iter().map(rigid).sum::<usize>();
+        let count = component.coordinates.len();
+        if height > 0 {
+            room::check(
+                LOOPS,
+                room::matrix(count, height.max(count)),
+                MOST_ELIMINATED,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Refuses springs with coordinates of their own that are rigid in some combination of them.
+fn check_stiffness(model: &Model, topology: &Topology) -> Result<(), SolveError> {
+    for (joint, role) in model.joints().iter().zip(&topology.joints) {
+        if !role.springs.is_empty() && !role.directions.has_stiffness {
+            return Err(SolveError::SingularCompliance {
+                joint: joint.name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses bodies that joints connect neither to the ground nor to the output.
+fn check_held(model: &Model, output: NodeId) -> Result<(), SolveError> {
+    let body_of = |n: NodeId| model.nodes()[n.0].body.0;
+    let count = model.bodies().len();
+    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); count];
+    let mut reached = vec![body_of(output)];
+    for joint in model.joints() {
+        if Directions::of(joint).free == DofSet::ALL {
+            continue;
+        }
+        match joint.between.map(|n| n.map(body_of)) {
+            [Some(a), Some(b)] => {
+                neighbours[a].push(b);
+                neighbours[b].push(a);
+            }
+            [a, b] => reached.extend(a.or(b)),
+        }
+    }
+    let mut held = vec![false; count];
+    while let Some(body) = reached.pop() {
+        if !std::mem::replace(&mut held[body], true) {
+            reached.extend(&neighbours[body]);
+        }
+    }
+    let loose = (0..count).filter(|b| !held[*b]).map(BodyId);
+    let bodies: Vec<String> = loose.map(|b| model.bodies()[b.0].name.clone()).collect();
+    if bodies.is_empty() {
+        Ok(())
+    } else {
+        Err(SolveError::Unheld { bodies })
+    }
+}

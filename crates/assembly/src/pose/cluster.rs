@@ -1,0 +1,421 @@
+//! The element of an elastic body: a run of segments or a flexible body, with the elastic joints
+//! at its nodes absorbed (paper §2.1).
+
+use hyperstat_elements::subassembly::{ElasticJoint, StiffSegment, absorb_joints, chain_stiffness};
+use hyperstat_elements::{
+    Beam, BeamLoad, ElementError, Material, Section, StraightBeam, Taper, TaperedBeam,
+    element_frame, rotate_matrix6, rotate_vector6,
+};
+use hyperstat_joints::rigid_motion;
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+
+use crate::error::SolveError;
+use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
+use crate::plan::Plan;
+use crate::plan::blocks::{read, shift};
+use crate::plan::clusters::{Cluster, LONGEST_CLUSTER};
+use crate::plan::elements::ElementPlan;
+use crate::plan::workspace::Workspace;
+use crate::state::acting::Acting;
+use crate::state::offsets::offset;
+use crate::state::preload::{along, spring_misfit, standing};
+
+/// The beam of a segment.
+#[allow(clippy::large_enum_variant)] // In a box, each pose would allocate.
+#[derive(Debug)]
+pub(crate) enum SegmentBeam {
+    Prismatic(Beam),
+    Tapered(TaperedBeam),
+}
+
+impl SegmentBeam {
+    /// A beam of constant section, or of the one that `taper` says.
+    pub fn new(
+        material: &Material,
+        section: &Section,
+        taper: Option<&Taper>,
+        length: f64,
+    ) -> Result<Self, ElementError> {
+        Ok(match taper {
+            None => Self::Prismatic(Beam::new(material, section, length)?),
+            Some(taper) => Self::Tapered(TaperedBeam::new(material, taper, length)?),
+        })
+    }
+
+    /// Stiffness at its second node with the first held, element frame.
+    pub fn cantilever_stiffness(&self) -> Matrix6<f64> {
+        match self {
+            Self::Prismatic(beam) => beam.cantilever_stiffness(),
+            Self::Tapered(beam) => beam.cantilever_stiffness(),
+        }
+    }
+
+    /// The same for the beam run through backwards, in the element frame turned by π about z: its
+    /// stiffness at the first node with the second held (Eq. 11).
+    fn reversed_stiffness(&self) -> Matrix6<f64> {
+        match self {
+            Self::Prismatic(beam) => beam.cantilever_stiffness(),
+            Self::Tapered(beam) => beam.reversed().cantilever_stiffness(),
+        }
+    }
+
+    /// What prismatic and tapered beams have in common.
+    pub fn straight(&self) -> &dyn StraightBeam {
+        match self {
+            Self::Prismatic(beam) => beam,
+            Self::Tapered(beam) => beam,
+        }
+    }
+
+    /// Displacement at `xi` for the displacements of its nodes under the load between them, element
+    /// frame.
+    pub fn displacement(
+        &self,
+        xi: f64,
+        u1: &Vector6<f64>,
+        u2: &Vector6<f64>,
+        load: Option<&BeamLoad>,
+    ) -> Vector6<f64> {
+        match (self, load) {
+            (_, Some(load)) => self.straight().loaded_displacement(xi, u1, u2, load),
+            (Self::Prismatic(beam), None) => beam.displacement(xi, u1, u2),
+            (Self::Tapered(beam), None) => beam.displacement(xi, u1, u2),
+        }
+    }
+}
+
+/// Beam of a segment, its frame and span in a configuration.
+pub(crate) fn segment_beam(
+    model: &Model,
+    geometry: &Geometry,
+    id: SegmentId,
+) -> Result<(SegmentBeam, Rotation3<f64>, Vector3<f64>), SolveError> {
+    let segment = &model.segments()[id.0];
+    let [a, b] = segment.ends.map(|n| geometry.positions[n.0]);
+    let span = b - a;
+    let frame = element_frame(&span, geometry.y_axes[id.0].as_ref())?;
+    let taper = segment.change_of_section()?;
+    let (material, section) = (&segment.material, &segment.section);
+    let beam = SegmentBeam::new(material, section, taper.as_ref(), span.norm())?;
+    Ok((beam, frame, span))
+}
+
+/// Axes of a cluster: those of its first segment, or of the flexible body.
+pub(crate) fn cluster_frame(
+    cluster: &Cluster,
+    geometry: &Geometry,
+) -> Result<Rotation3<f64>, SolveError> {
+    if let Some(id) = cluster.flexible {
+        return Ok(geometry.rotations[id.0]);
+    }
+    let (id, _) = cluster.segments[0];
+    let span = geometry.positions[cluster.nodes[1].0] - geometry.positions[cluster.nodes[0].0];
+    Ok(element_frame(&span, geometry.y_axes[id.0].as_ref())?)
+}
+
+/// An absorbed joint: its compliance in its own frame, and that frame in global axes.
+pub(crate) fn absorbed_joint(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    joint: JointId,
+) -> ElasticJoint {
+    let own = plan.topology.joints[joint.0].compliance;
+    let basis = model.joints()[joint.0].joint.basis();
+    ElasticJoint {
+        compliance: basis * own * basis.transpose(),
+        frame: geometry.frames[joint.0],
+    }
+}
+
+/// A joint in the axes that `to_local` turns into.
+fn seen_from(to_local: &Rotation3<f64>, joint: &ElasticJoint) -> ElasticJoint {
+    ElasticJoint {
+        frame: to_local * joint.frame,
+        ..joint.clone()
+    }
+}
+
+/// The beam of a segment as if it were of unit length.
+pub(crate) fn unit_beam(model: &Model, id: SegmentId) -> Option<SegmentBeam> {
+    let segment = &model.segments()[id.0];
+    let material = &segment.material;
+    match segment.change_of_section().ok()? {
+        None => Beam::new(material, &segment.section, 1.0)
+            .ok()
+            .map(SegmentBeam::Prismatic),
+        Some(taper) => TaperedBeam::new(material, &taper, 1.0)
+            .ok()
+            .map(SegmentBeam::Tapered),
+    }
+}
+
+/// Writes the arms of a cluster; returns the turn to its axes.
+fn place_cluster(
+    cluster: &Cluster,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<Rotation3<f64>, SolveError> {
+    let to_local = cluster_frame(cluster, geometry)?.inverse();
+    let base = geometry.positions[cluster.nodes[0].0];
+    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
+        *arm = geometry.positions[node.0] - base;
+    }
+    Ok(to_local)
+}
+
+/// Forms the deformations that a cluster's element starts from in each state: those that loads
+/// inside absorbed joints make, the free ends of loaded segments, and misfits.
+pub(crate) fn cluster_initial(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    acting: &[Acting],
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let to_local = place_cluster(cluster, geometry, workspace)?;
+    if !workspace.offsets.is_empty() {
+        add_misfits(
+            plan, element, cluster, model, geometry, &to_local, workspace,
+        );
+    }
+    for (set, acting) in acting.iter().enumerate() {
+        let start = set * plan.deformations + element.initial_start;
+        let initial = &mut workspace.initial[start..start + element.rows];
+        for (r, joint) in cluster.joints.iter().enumerate() {
+            let Some(joint) = joint else { continue };
+            let load = acting.on_node(cluster.nodes[r]);
+            if load != Vector6::zeros() {
+                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                let give = elastic.turned_compliance() * load;
+                add_deformation(initial, r, &give, &workspace.arms, &to_local);
+            }
+        }
+        for (r, (id, reversed)) in cluster.segments.iter().enumerate() {
+            let Some(load) = acting.on_segment(*id) else {
+                continue;
+            };
+            let (beam, own, span) = segment_beam(model, geometry, *id)?;
+            let mut free = -rotate_vector6(&beam.straight().free_end(load), &own);
+            if *reversed {
+                // With the second node held instead: δ seen from there, carried to the first.
+                free = -(rigid_motion(&-span) * free);
+            }
+            for (k, node) in cluster.nodes[1..].iter().enumerate().skip(r) {
+                let carried = shift(geometry, cluster.nodes[r + 1], *node) * free;
+                add_turned(&mut initial[6 * k..], &to_local, &carried, 1.0);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Adds the deformations that misfits make with all IDCs zero, in every state.
+fn add_misfits(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    to_local: &Rotation3<f64>,
+    workspace: &mut Workspace,
+) {
+    for (r, (node, joint)) in cluster.nodes.iter().zip(&cluster.joints).enumerate() {
+        let mut moved = offset(plan, geometry, workspace, *node);
+        if let Some(joint) = joint {
+            moved += misfit_inside(plan, model, geometry, *joint, *node);
+        }
+        for state in workspace.initial.chunks_exact_mut(plan.deformations) {
+            let start = &mut state[element.initial_start..element.initial_start + element.rows];
+            add_deformation(start, r, &moved, &workspace.arms, to_local);
+        }
+    }
+}
+
+/// What the misfit of an absorbed joint displaces the body's own node by, global axes.
+pub(crate) fn misfit_inside(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    joint: JointId,
+    node: NodeId,
+) -> Vector6<f64> {
+    let Some(entry) = model.misfit(joint) else {
+        return Vector6::zeros();
+    };
+    let role = &plan.topology.joints[joint.0];
+    let inside = role.directions.elastic.difference(role.springs);
+    let misfit = along(&spring_misfit(&role.directions, entry), inside);
+    let apart = standing(model, geometry, joint, &misfit);
+    if model.joints()[joint.0].between[1] == Some(node) {
+        apart
+    } else {
+        -apart
+    }
+}
+
+/// Forms the operator and the stiffness of a cluster's element.
+pub(crate) fn cluster_element(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let to_local = place_cluster(cluster, geometry, workspace)?;
+    operator(plan, element, &to_local, workspace);
+    stiffness(
+        plan, element, cluster, &to_local, model, geometry, workspace,
+    )
+}
+
+/// The stiffness of a cluster's element; the workspace has the arms.
+fn stiffness(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    to_local: &Rotation3<f64>,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let rows = element.rows;
+    let start = element.stiffness_start;
+    let stiffness = &mut workspace.stiffnesses[start..start + rows * rows];
+    match cluster.flexible {
+        Some(id) => {
+            let held = model.flexibles()[id.0].element.held_stiffness();
+            stiffness.copy_from_slice(held.as_slice());
+        }
+        None => run_stiffness(cluster, to_local, model, geometry, stiffness)?,
+    }
+    if cluster.joints.iter().all(Option::is_none) {
+        return Ok(());
+    }
+    absorb(plan, element, cluster, to_local, model, geometry, workspace)
+}
+
+/// D: displacements of the nodes after the first relative to it, in the cluster's axes.
+fn operator(
+    plan: &Plan,
+    element: &ElementPlan,
+    to_local: &Rotation3<f64>,
+    workspace: &mut Workspace,
+) {
+    let rows = element.rows;
+    let start = element.operator_start;
+    workspace.operators[start..start + rows * element.columns.len()].fill(0.0);
+    for (r, (node, places)) in element.nodes.iter().enumerate() {
+        let carrier = plan.topology.carrier_of[node.0];
+        for (k, place) in places.iter().enumerate() {
+            let u = read(plan.block(workspace, carrier), 6 * k);
+            let column = &mut workspace.operators[start + rows * place..][..rows];
+            add_deformation(column, r, &u, &workspace.arms, to_local);
+        }
+    }
+}
+
+/// Adds the deformations, in the cluster's axes, that a displacement of node `r` gives: its own,
+/// or for node 0 the opposite of what would carry the other nodes along.
+fn add_deformation(
+    deformations: &mut [f64],
+    r: usize,
+    u: &Vector6<f64>,
+    arms: &[Vector3<f64>],
+    to_local: &Rotation3<f64>,
+) {
+    if r > 0 {
+        add_turned(&mut deformations[6 * (r - 1)..], to_local, u, 1.0);
+        return;
+    }
+    for (part, arm) in deformations.chunks_exact_mut(6).zip(arms) {
+        add_turned(part, to_local, &(rigid_motion(arm) * u), -1.0);
+    }
+}
+
+/// Stiffness of a run of segments with its first node held.
+fn run_stiffness(
+    cluster: &Cluster,
+    to_local: &Rotation3<f64>,
+    model: &Model,
+    geometry: &Geometry,
+    stiffness: &mut [f64],
+) -> Result<(), SolveError> {
+    if let ([(id, _)], true) = (
+        cluster.segments.as_slice(),
+        cluster.joints.iter().all(Option::is_none),
+    ) {
+        let (beam, _, _) = segment_beam(model, geometry, *id)?;
+        stiffness.copy_from_slice(beam.cantilever_stiffness().as_slice());
+        return Ok(());
+    }
+    let mut segments = [StiffSegment {
+        stiffness: Matrix6::zeros(),
+        span: Vector3::zeros(),
+    }; LONGEST_CLUSTER];
+    for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
+        let (beam, own, span) = segment_beam(model, geometry, *id)?;
+        let (held, turned, span) = if *reversed {
+            (beam.reversed_stiffness(), own * half_turn(), -span)
+        } else {
+            (beam.cantilever_stiffness(), own, span)
+        };
+        segments[k] = StiffSegment {
+            stiffness: rotate_matrix6(&held, &(to_local * turned)),
+            span: to_local * span,
+        };
+    }
+    chain_stiffness(&segments[..cluster.segments.len()], stiffness);
+    Ok(())
+}
+
+/// `π` about z.
+fn half_turn() -> Rotation3<f64> {
+    Rotation3::from_matrix_unchecked(Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0)))
+}
+
+/// Absorbs the cluster's joints into its stiffness.
+fn absorb(
+    plan: &Plan,
+    element: &ElementPlan,
+    cluster: &Cluster,
+    to_local: &Rotation3<f64>,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), SolveError> {
+    let rows = element.rows;
+    let mut absorbed = 0;
+    for (r, joint) in cluster.joints.iter().enumerate() {
+        let Some(joint) = joint else { continue };
+        let elastic = absorbed_joint(plan, model, geometry, *joint);
+        let local = seen_from(to_local, &elastic);
+        workspace.factors[absorbed].node = r;
+        workspace.factors[absorbed].factor = local.factor();
+        absorbed += 1;
+    }
+    let arms = &mut workspace.arms[..rows / 6];
+    for arm in arms.iter_mut() {
+        *arm = to_local * *arm;
+    }
+    let stiffness = &mut workspace.stiffnesses[element.stiffness_start..][..rows * rows];
+    absorb_joints(
+        &workspace.factors[..absorbed],
+        arms,
+        stiffness,
+        &mut workspace.absorption,
+    )?;
+    Ok(())
+}
+
+fn add_turned(values: &mut [f64], rotation: &Rotation3<f64>, u: &Vector6<f64>, sign: f64) {
+    let linear = rotation * Vector3::new(u[0], u[1], u[2]);
+    let angular = rotation * Vector3::new(u[3], u[4], u[5]);
+    for k in 0..3 {
+        values[k] += sign * linear[k];
+        values[3 + k] += sign * angular[k];
+    }
+}

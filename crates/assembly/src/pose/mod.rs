@@ -1,0 +1,183 @@
+//! The numeric pass of one pose: carriers' blocks, elements, assembled stiffness (Eqs. 40–42).
+
+pub(crate) mod cluster;
+pub(crate) mod condense;
+pub(crate) mod loads;
+pub(crate) mod precision;
+pub(crate) mod recover;
+pub(crate) mod restraint;
+pub(crate) mod spring;
+
+use nalgebra::Vector6;
+
+use crate::kinematics::characteristic_length;
+use crate::model::{Geometry, Model, NodeId};
+use crate::plan::Plan;
+use crate::plan::blocks::{dot, multiply};
+use crate::plan::blocks::{read, shift, write};
+use crate::plan::elements::Source;
+use crate::plan::fault::Fault;
+use crate::plan::workspace::Workspace;
+use crate::pose::cluster::{cluster_element, cluster_initial};
+use crate::pose::condense::LOADS;
+use crate::pose::loads::load;
+use crate::pose::spring::{spring_element, spring_initial};
+use crate::state::acting::Acting;
+use crate::state::offsets::offsets;
+
+/// Brings blocks, elements, stiffness and loads of `workspace` to a configuration, with what acts
+/// in each state.
+pub(crate) fn evaluate(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    acting: &[Acting],
+    workspace: &mut Workspace,
+) -> Result<(), Fault> {
+    plan.check_sets(model, acting.len())?;
+    plan.make_room(workspace, acting.len());
+    workspace.doubtful = None;
+    workspace.tree.evaluate(&plan.topology, model, geometry)?;
+    for (coordinate, idc) in plan.idc_of.iter().enumerate() {
+        if let Some(idc) = idc {
+            workspace.identities[*idc] = workspace.tree.identities[coordinate];
+        }
+    }
+    close_loops(plan, model, geometry, workspace)?;
+    workspace.offsets = if acting.iter().any(|a| a.misfits) {
+        offsets(plan, model, geometry, &workspace.tree)?
+    } else {
+        Vec::new()
+    };
+    workspace.initial.fill(0.0);
+    for element in &plan.elements {
+        match element.source {
+            Source::Cluster(k) => {
+                let cluster = &plan.topology.clusters[k];
+                cluster_initial(plan, element, cluster, model, geometry, acting, workspace)?;
+                cluster_element(plan, element, cluster, model, geometry, workspace)?;
+            }
+            Source::Spring(joint) => {
+                spring_element(plan, element, joint, model, geometry, workspace);
+                if !workspace.offsets.is_empty() {
+                    spring_initial(plan, element, joint, model, geometry, workspace);
+                }
+            }
+        }
+    }
+    assemble(plan, workspace);
+    load(plan, geometry, acting, workspace);
+    Ok(())
+}
+
+/// Blocks of the components whose loops are closed by elimination.
+fn close_loops(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &mut Workspace,
+) -> Result<(), Fault> {
+    if plan.closed.is_empty() {
+        return Ok(());
+    }
+    let size = characteristic_length(geometry);
+    for closed in &plan.closed {
+        let component = &plan.topology.components[closed.component];
+        let first = component.coordinates.start;
+        let solved = workspace.tree.close(
+            component,
+            &plan.topology,
+            model,
+            geometry,
+            size,
+            closed.spared,
+        );
+        workspace.doubtful = workspace.doubtful.or(solved.doubtful);
+        let spared = solved
+            .independent
+            .iter()
+            .take_while(|c| **c < closed.spared)
+            .count();
+        let full = closed.spared > 0 && spared == closed.spared;
+        let expected = closed.spared > 0 && plan.output_is_independent();
+        if solved.independent.len() != closed.idcs.len() || full != expected {
+            return Err(Fault::Changed);
+        }
+        // The spared coordinates, first in the component, come last among the IDCs.
+        let offset = if full { spared } else { 0 };
+        let count = solved.independent.len();
+        let order = |position: usize| (position + offset) % count.max(1);
+        for (position, &idc) in closed.idcs.iter().enumerate() {
+            let coordinate = first + solved.independent[order(position)];
+            workspace.identities[idc] = workspace.tree.identities[coordinate];
+        }
+        let members = component
+            .root
+            .into_iter()
+            .chain(component.ties.iter().map(|t| t.child));
+        for carrier in members {
+            let Some(start) = plan.reduced_starts[carrier] else {
+                continue;
+            };
+            for position in 0..count {
+                let mut column = Vector6::zeros();
+                for (k, &coordinate) in plan.topology.carriers[carrier]
+                    .coordinates
+                    .iter()
+                    .enumerate()
+                {
+                    let weight = solved.map[(coordinate - first, order(position))];
+                    let block = workspace.tree.starts[carrier] + 6 * k;
+                    column += read(&workspace.tree.values, block) * weight;
+                }
+                write(&mut workspace.reduced, start + 6 * position, &column);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `K = Σ Dᵀ k D` (Eqs. 41–42) over the inner IDCs.
+fn assemble(plan: &Plan, workspace: &mut Workspace) {
+    let Workspace {
+        operators,
+        stiffnesses,
+        values,
+        scratch,
+        ..
+    } = workspace;
+    values.fill(0.0);
+    for element in &plan.elements {
+        let (rows, count) = (element.rows, element.inner);
+        let d = &operators[element.operator_start..element.operator_start + rows * count];
+        let k = &stiffnesses[element.stiffness_start..element.stiffness_start + rows * rows];
+        let kd = &mut scratch[..rows * count];
+        multiply(k, d, rows, kd);
+        let mut places = plan.places[element.places_start..].iter();
+        for (b, kd_b) in kd.chunks_exact(rows).enumerate() {
+            for (d_a, place) in d.chunks_exact(rows).take(b + 1).zip(&mut places) {
+                values[*place] += dot(d_a, kd_b);
+            }
+        }
+    }
+}
+
+/// Displacement of a node (outside an absorbed joint) in a column of the solutions.
+pub(crate) fn node_displacement(
+    plan: &Plan,
+    geometry: &Geometry,
+    workspace: &Workspace,
+    column: usize,
+    node: NodeId,
+) -> Vector6<f64> {
+    let carrier = plan.topology.carrier_of[node.0];
+    let block = plan.block(workspace, carrier);
+    let mut at_reference = Vector6::zeros();
+    for (k, &idc) in plan.columns[carrier].iter().enumerate() {
+        at_reference += read(block, 6 * k) * workspace.solutions[column * plan.unknowns + idc];
+    }
+    if column >= LOADS && !workspace.offsets.is_empty() {
+        at_reference += workspace.offsets[carrier];
+    }
+    shift(geometry, plan.topology.carriers[carrier].reference, node) * at_reference
+}

@@ -1,0 +1,418 @@
+//! Recovery of everything else: displacements of all nodes, end forces, joint wrenches.
+
+use hyperstat_elements::{BeamLoad, rotate_vector6};
+use hyperstat_joints::{Dof, DofSet};
+use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
+
+use super::cluster::{absorbed_joint, cluster_frame, misfit_inside, segment_beam};
+use super::condense::LOADS;
+use crate::answer::solution::{SegmentForces, State};
+use crate::directions::{rotation6, to_directions};
+use crate::error::SolveError;
+use crate::kinematics::characteristic_length;
+use crate::model::{Geometry, Model, NodeId};
+use crate::plan::Plan;
+use crate::plan::blocks::multiply;
+use crate::plan::blocks::shift;
+use crate::plan::elements::Source;
+use crate::plan::workspace::Workspace;
+use crate::pose::node_displacement;
+use crate::rank::dense::{Elimination, RANK_TOLERANCE};
+use crate::room;
+use crate::room::MOST_ELIMINATED;
+use crate::state::acting::Acting;
+use crate::state::floor::Floor;
+use crate::state::preload::loose_preload;
+
+/// What is recovered from the IDCs.
+pub(crate) struct Recovered {
+    pub state: State,
+    /// A pivot of the joints' equilibrium between zero and not zero.
+    pub doubtful: Option<f64>,
+}
+
+/// Recovers displacements and forces under a set of loads, from its column of the solutions; the
+/// displacement of the output is known. What is rounding beside what acts is zero.
+pub(crate) fn recover(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    workspace: &Workspace,
+    set: usize,
+    (acting, floor): (&Acting, &Floor),
+    output: Vector6<f64>,
+) -> Result<Recovered, SolveError> {
+    let column = LOADS + set;
+    let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
+        .map(|n| node_displacement(plan, geometry, workspace, column, NodeId(n)))
+        .collect();
+    let loads = node_loads(model, acting);
+    let all_forces = element_forces(plan, workspace, set);
+    // What the elements take at their nodes: the sum of all other wrenches on the node.
+    let mut demand = vec![Vector6::zeros(); model.nodes().len()];
+    let mut segments: Vec<Option<SegmentForces>> = vec![None; model.segments().len()];
+    for (element, forces) in plan.elements.iter().zip(&all_forces) {
+        let Source::Cluster(k) = element.source else {
+            continue;
+        };
+        let cluster = &plan.topology.clusters[k];
+        let frame = cluster_frame(cluster, geometry)?;
+        // Wrenches at the nodes after the first, in global axes; what goes through every
+        // segment's end, or for a flexible body their sum at the first node.
+        let mut through = Vector6::zeros();
+        for r in (1..cluster.nodes.len()).rev() {
+            let node = cluster.nodes[r];
+            let at_node = rotate_vector6(
+                &Vector6::from_column_slice(&forces[6 * (r - 1)..6 * r]),
+                &frame,
+            );
+            demand[node.0] += at_node;
+            if cluster.flexible.is_some() {
+                let first = cluster.nodes[0];
+                through += shift(geometry, first, node).transpose() * at_node;
+                continue;
+            }
+            through += at_node;
+            let before = cluster.nodes[r - 1];
+            let (id, reversed) = cluster.segments[r - 1];
+            let (_, own, span) = segment_beam(model, geometry, id)?;
+            let at_before = shift(geometry, before, node).transpose() * through;
+            let to_own = own.inverse();
+            let (far, near) = (
+                rotate_vector6(&through, &to_own),
+                -rotate_vector6(&at_before, &to_own),
+            );
+            let mut ends = if reversed { [far, near] } else { [near, far] };
+            let length = span.norm();
+            let load = acting.on_segment(id).copied();
+            if let Some(load) = &load {
+                ends[0] -= load.resultant(length);
+            }
+            segments[id.0] = Some(SegmentForces {
+                frame: own,
+                length,
+                ends,
+                load: load.unwrap_or_else(BeamLoad::none),
+            });
+            through = at_before;
+        }
+        demand[cluster.nodes[0].0] -= through;
+    }
+    for cluster in &plan.topology.clusters {
+        for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
+            if let Some(joint) = joint {
+                let wrench = demand[node.0] - loads[node.0];
+                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                displacements[node.0] -= elastic.turned_compliance() * wrench;
+                if acting.misfits {
+                    displacements[node.0] += misfit_inside(plan, model, geometry, *joint, *node);
+                }
+            }
+        }
+    }
+    for (wrench, load) in demand.iter_mut().zip(&loads) {
+        *wrench -= load;
+    }
+    let (mut joint_wrenches, doubtful) =
+        joint_wrenches(plan, model, geometry, &all_forces, &demand);
+    if acting.misfits {
+        for entry in model.misfits() {
+            if let Some(wrench) = &mut joint_wrenches[entry.joint.0] {
+                let directions = &plan.topology.joints[entry.joint.0].directions;
+                let basis = model.joints()[entry.joint.0].joint.basis();
+                *wrench += to_directions(&basis, &Rotation3::identity()).transpose()
+                    * loose_preload(directions, entry);
+            }
+        }
+    }
+    let mut state = State {
+        output,
+        displacements,
+        joint_wrenches,
+        segments: segments.into_iter().flatten().collect(),
+        floor: *floor,
+    };
+    state.clear_rounding();
+    Ok(Recovered { state, doubtful })
+}
+
+impl State {
+    /// Sets to zero what is rounding beside what acts.
+    fn clear_rounding(&mut self) {
+        let floor = self.floor;
+        let displacements = self.displacements.iter_mut();
+        displacements
+            .chain([&mut self.output])
+            .for_each(|u| floor.clear_displacement(u));
+        let ends = self.segments.iter_mut().flat_map(|s| &mut s.ends);
+        let wrenches = self.joint_wrenches.iter_mut().flatten();
+        wrenches.chain(ends).for_each(|w| floor.clear_wrench(w));
+    }
+}
+
+/// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
+fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
+    let n = plan.unknowns;
+    let solution = &workspace.solutions[(LOADS + set) * n..][..n];
+    let remainder = &workspace.remainders[set * n..][..n];
+    let mut all = Vec::with_capacity(plan.elements.len());
+    for element in &plan.elements {
+        let (rows, count) = (element.rows, element.columns.len());
+        let start = element.operator_start;
+        let d = &workspace.operators[start..start + rows * count];
+        let start = element.stiffness_start;
+        let k = &workspace.stiffnesses[start..start + rows * rows];
+        let start = set * plan.deformations + element.initial_start;
+        let initial = &workspace.initial[start..start + rows];
+        let mut deformations = [initial.to_vec(), vec![0.0; rows]].concat();
+        let (whole, small) = deformations.split_at_mut(rows);
+        for (&idc, column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+            for (row, entry) in column.iter().enumerate() {
+                whole[row] += solution[idc] * entry;
+                small[row] += remainder[idc] * entry;
+            }
+        }
+        let mut forces = vec![0.0; 2 * rows];
+        multiply(k, &deformations, rows, &mut forces);
+        all.push(
+            (0..rows)
+                .map(|row| forces[row] + forces[rows + row])
+                .collect(),
+        );
+    }
+    all
+}
+
+/// A joint as equilibrium sees it.
+struct JointForces {
+    /// Wrench on the second body, global axes, for a unit along each direction.
+    basis: Matrix6<f64>,
+    /// Directions whose force equilibrium must find.
+    unknown: DofSet,
+    /// Forces of the springs that keep coordinates of their own.
+    known: Vector6<f64>,
+}
+
+/// Sums of the loads on all nodes.
+fn node_loads(model: &Model, acting: &Acting) -> Vec<Vector6<f64>> {
+    let mut loads = vec![Vector6::zeros(); model.nodes().len()];
+    for (node, wrench) in &acting.nodes {
+        loads[node.0] += wrench;
+    }
+    loads
+}
+
+/// Wrenches of all joints from the equilibrium of their carriers, group by group; `None` where
+/// redundant rigid constraints leave one undetermined. `demand` is what joints must give each
+/// node.
+fn joint_wrenches(
+    plan: &Plan,
+    model: &Model,
+    geometry: &Geometry,
+    element_forces: &[Vec<f64>],
+    demand: &[Vector6<f64>],
+) -> (Vec<Option<Vector6<f64>>>, Option<f64>) {
+    let count = model.joints().len();
+    let mut springs = vec![Vector6::zeros(); count];
+    for (element, forces) in plan.elements.iter().zip(element_forces) {
+        if let Source::Spring(joint) = element.source {
+            let elastic = plan.topology.joints[joint.0].springs;
+            for (dof, force) in elastic.iter().zip(forces) {
+                springs[joint.0][dof.index()] = *force;
+            }
+        }
+    }
+    let joints: Vec<JointForces> = (0..count)
+        .map(|k| {
+            let local = to_directions(&model.joints()[k].joint.basis(), &geometry.frames[k]);
+            let role = &plan.topology.joints[k];
+            JointForces {
+                basis: local.transpose(),
+                unknown: role.moving.complement(),
+                known: springs[k],
+            }
+        })
+        .collect();
+
+    // Wrench that the joints of a carrier must give it, at its reference.
+    let carriers = &plan.topology.carriers;
+    let mut needed = vec![Vector6::zeros(); carriers.len()];
+    for (n, wrench) in demand.iter().enumerate() {
+        let carrier = plan.topology.carrier_of[n];
+        let arm = shift(geometry, carriers[carrier].reference, NodeId(n));
+        needed[carrier] += arm.transpose() * wrench;
+    }
+    let ends: Vec<Vec<(usize, f64, Matrix6<f64>)>> = model
+        .joints()
+        .iter()
+        .map(|joint| {
+            let sides = joint.between.iter().zip([-1.0, 1.0]);
+            sides
+                .filter_map(|(node, sign)| {
+                    let node = (*node)?;
+                    let carrier = plan.topology.carrier_of[node.0];
+                    let arm = shift(geometry, carriers[carrier].reference, node);
+                    Some((carrier, sign, arm.transpose()))
+                })
+                .collect()
+        })
+        .collect();
+    for (joint, ends) in joints.iter().zip(&ends) {
+        for (carrier, sign, arm) in ends {
+            needed[*carrier] -= arm * joint.basis * joint.known * *sign;
+        }
+    }
+
+    let size = characteristic_length(geometry);
+    let mut forces: Vec<Option<Vector6<f64>>> = joints.iter().map(|j| Some(j.known)).collect();
+    let mut doubtful = None;
+    // Only forces that equilibrium must find tie carriers together.
+    let unknown: Vec<usize> = (0..count)
+        .filter(|k| !joints[*k].unknown.is_empty())
+        .collect();
+    let end_carriers = |joint: usize| between(plan, model, joint);
+    for group in groups(carriers.len(), &unknown, end_carriers) {
+        let found = equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
+        doubtful = doubtful.or(found);
+    }
+    let wrenches = (0..count)
+        .map(|k| {
+            let wrench = joints[k].basis * forces[k]?;
+            Some(rotation6(&geometry.frames[k]).transpose() * wrench)
+        })
+        .collect();
+    (wrenches, doubtful)
+}
+
+/// Carriers and joints that are connected, the ground apart.
+struct Group {
+    carriers: Vec<usize>,
+    joints: Vec<usize>,
+}
+
+/// Refuses groups whose equilibrium would not be found, or not fit into memory.
+pub(crate) fn check_recovery(plan: &Plan, model: &Model) -> Result<(), SolveError> {
+    const EQUILIBRIUM: &str =
+        "the forces in its rigid joints, which rigid bodies tie together to one dense matrix,";
+    let held = |joint: usize| plan.topology.joints[joint].moving.complement().len();
+    let unknown = (0..model.joints().len()).filter(|k| held(*k) > 0);
+    let unknown: Vec<usize> = unknown.collect();
+    let ends = |joint: usize| between(plan, model, joint);
+    for group in groups(plan.topology.carriers.len(), &unknown, ends) {
+        let columns = room::sum(group.joints.iter().map(|joint| held(*joint)));
+        let longer = columns.max(6 * group.carriers.len());
+        room::check(EQUILIBRIUM, room::matrix(longer, columns), MOST_ELIMINATED)?;
+    }
+    Ok(())
+}
+
+/// The carriers that a joint lies between, the ground apart.
+fn between(plan: &Plan, model: &Model, joint: usize) -> [Option<usize>; 2] {
+    let nodes = model.joints()[joint].between;
+    nodes.map(|node| node.map(|node| plan.topology.carrier_of[node.0]))
+}
+
+/// Groups of carriers that `joints` connect, each between `ends`.
+fn groups(
+    carriers: usize,
+    joints: &[usize],
+    ends: impl Fn(usize) -> [Option<usize>; 2],
+) -> Vec<Group> {
+    let mut group_of: Vec<usize> = (0..carriers).collect();
+    fn find(group_of: &mut [usize], mut k: usize) -> usize {
+        while group_of[k] != k {
+            group_of[k] = group_of[group_of[k]];
+            k = group_of[k];
+        }
+        k
+    }
+    for &joint in joints {
+        if let [Some(a), Some(b)] = ends(joint) {
+            let (a, b) = (find(&mut group_of, a), find(&mut group_of, b));
+            group_of[b] = a;
+        }
+    }
+    let mut groups: Vec<Group> = Vec::new();
+    let mut place = vec![usize::MAX; carriers];
+    for &joint in joints {
+        let Some(carrier) = ends(joint).into_iter().flatten().next() else {
+            continue;
+        };
+        let root = find(&mut group_of, carrier);
+        if place[root] == usize::MAX {
+            place[root] = groups.len();
+            groups.push(Group {
+                carriers: Vec::new(),
+                joints: Vec::new(),
+            });
+        }
+        groups[place[root]].joints.push(joint);
+    }
+    for carrier in 0..carriers {
+        let root = find(&mut group_of, carrier);
+        if place[root] != usize::MAX {
+            groups[place[root]].carriers.push(carrier);
+        }
+    }
+    groups
+}
+
+/// Solves a group's equilibrium for the unknown joint forces, moments over `size`; returns a
+/// doubtful pivot.
+fn equilibrium(
+    group: &Group,
+    joints: &[JointForces],
+    ends: &[Vec<(usize, f64, Matrix6<f64>)>],
+    needed: &[Vector6<f64>],
+    size: f64,
+    forces: &mut [Option<Vector6<f64>>],
+) -> Option<f64> {
+    let unknowns: Vec<(usize, Dof)> = group
+        .joints
+        .iter()
+        .flat_map(|&j| joints[j].unknown.iter().map(move |dof| (j, dof)))
+        .collect();
+    if unknowns.is_empty() {
+        return None;
+    }
+    let rows = 6 * group.carriers.len();
+    let mut matrix = DMatrix::zeros(rows, unknowns.len());
+    let mut right_side = DVector::zeros(rows);
+    let over_size = |mut w: Vector6<f64>| {
+        for k in 3..6 {
+            w[k] /= size;
+        }
+        w
+    };
+    let mut scales = Vec::with_capacity(unknowns.len());
+    for (column, (joint, dof)) in unknowns.iter().enumerate() {
+        let unit = joints[*joint].basis.column(dof.index()).into_owned();
+        let scale = over_size(unit).norm();
+        scales.push(scale);
+        for (carrier, sign, arm) in &ends[*joint] {
+            if let Ok(row) = group.carriers.binary_search(carrier) {
+                let share = over_size(arm * unit) * (sign / scale);
+                let mut view = matrix.fixed_view_mut::<6, 1>(6 * row, column);
+                view += share;
+            }
+        }
+    }
+    for (row, carrier) in group.carriers.iter().enumerate() {
+        right_side
+            .fixed_rows_mut::<6>(6 * row)
+            .copy_from(&over_size(needed[*carrier]));
+    }
+    let first = Elimination::with_right_side(matrix.clone(), right_side.clone(), 0);
+    let rest = right_side - &matrix * &first.particular;
+    let correction = Elimination::with_right_side(matrix, rest, 0).particular;
+    let solution = first.particular + correction;
+    let undetermined = |k: usize| first.map.row(k).amax() > RANK_TOLERANCE;
+    for (k, (joint, dof)) in unknowns.iter().enumerate() {
+        if undetermined(k) {
+            forces[*joint] = None;
+        } else if let Some(force) = &mut forces[*joint] {
+            force[dof.index()] = solution[k] / scales[k];
+        }
+    }
+    first.doubtful
+}

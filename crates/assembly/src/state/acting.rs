@@ -1,0 +1,191 @@
+//! What acts in one state, brought to one configuration: wrenches on nodes and loads along
+//! segments.
+//!
+//! A load along a segment becomes a wrench at the segment's first node, its resultant, and a
+//! deformation that the segment starts from, less the free end's displacement δ: the wrench on its
+//! second node is k (u₂ − M u₁ − δ), that on its first follows from equilibrium.
+
+use hyperstat_elements::{
+    BeamLoad, LineMass, Taper, TemperatureChange, element_frame, rotate_vector6,
+};
+use nalgebra::{Rotation3, Vector3, Vector6};
+
+use super::preload::preloads;
+use crate::error::SolveError;
+use crate::loads::LoadSet;
+use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
+
+/// What acts in one state.
+#[derive(Debug, Clone)]
+pub(crate) struct Acting {
+    /// Wrenches on nodes, global axes, the resultants of segments among them.
+    pub nodes: Vec<(NodeId, Vector6<f64>)>,
+    /// The joints whose preloads are some of these wrenches, and the number of the first of them.
+    preloaded: (usize, Vec<JointId>),
+    /// Loads along segments that have any, element frames, in the segments' order.
+    segments: Vec<(SegmentId, BeamLoad)>,
+    /// Whether the misfits of the model's joints act. The states that are solved together have
+    /// them all or none.
+    pub misfits: bool,
+}
+
+impl Acting {
+    /// The states of a model: its own loads, then its cases, each with what acts in all of them.
+    pub fn of_model(model: &Model, geometry: &Geometry) -> Result<Vec<Self>, SolveError> {
+        let always = Self::always(model, geometry)?;
+        let cases = model.cases().iter().map(|case| &case.loads);
+        std::iter::once(model.load_set())
+            .chain(cases)
+            .map(|set| Ok(Self::new(model, geometry, set)?.with(&always)))
+            .collect()
+    }
+
+    /// A set of loads alone.
+    pub fn new(model: &Model, geometry: &Geometry, set: &LoadSet) -> Result<Self, SolveError> {
+        let mut acting = Self {
+            nodes: Vec::with_capacity(set.nodes.len()),
+            preloaded: (0, Vec::new()),
+            segments: Vec::new(),
+            misfits: false,
+        };
+        for load in &set.nodes {
+            let rotation = load.axes.rotation(model, geometry)?;
+            let wrench = rotate_vector6(&load.wrench, &rotation);
+            acting.nodes.push((load.node, wrench));
+        }
+        let mut along = Vec::with_capacity(set.lines.len());
+        for load in &set.lines {
+            let frame = segment_frame(model, geometry, load.segment)?;
+            let turn = frame.inverse() * load.axes.rotation(model, geometry)?;
+            let [first, second] = load.ends.map(|end| rotate_vector6(&end, &turn));
+            along.push((load.segment, BeamLoad::linear(first, second)));
+        }
+        acting.add_along(model, geometry, along)?;
+        Ok(acting)
+    }
+
+    /// What acts in every state: misfits and preloads, weight and temperatures.
+    fn always(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
+        let (joints, nodes) = preloads(model, geometry).into_iter().unzip();
+        let mut acting = Self {
+            nodes,
+            preloaded: (0, joints),
+            segments: Vec::new(),
+            misfits: !model.misfits().is_empty(),
+        };
+        let gravity = model.gravity();
+        let heavy = *gravity != Vector3::zeros();
+        if heavy {
+            for mass in model.masses() {
+                let force = gravity * mass.mass.mass();
+                let wrench = Vector6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0);
+                acting.nodes.push((mass.node, wrench));
+            }
+        }
+        let mut along = Vec::new();
+        for (k, segment) in model.segments().iter().enumerate() {
+            let id = SegmentId(k);
+            let temperature = model.bodies()[segment.body.0].temperature;
+            if temperature != 0.0 {
+                let expansion = segment.material.expansion().unwrap_or(0.0);
+                let change = TemperatureChange {
+                    uniform: temperature,
+                    ..TemperatureChange::default()
+                };
+                along.push((id, BeamLoad::temperature(expansion, &change)));
+            }
+            if heavy {
+                let frame = segment_frame(model, geometry, id)?;
+                let density = segment.material.density();
+                let density = density.ok_or_else(|| SolveError::NoDensity {
+                    body: model.bodies()[segment.body.0].name.clone(),
+                })?;
+                let taper = match segment.change_of_section()? {
+                    Some(taper) => taper,
+                    None => Taper::constant(segment.section.clone()),
+                };
+                let mass = LineMass::new(density, taper)?;
+                along.push((id, mass.weight(&(frame.inverse() * gravity))));
+            }
+        }
+        acting.add_along(model, geometry, along)?;
+        Ok(acting)
+    }
+
+    /// Adds loads along segments, element frames, and their resultants at first nodes.
+    fn add_along(
+        &mut self,
+        model: &Model,
+        geometry: &Geometry,
+        mut along: Vec<(SegmentId, BeamLoad)>,
+    ) -> Result<(), SolveError> {
+        along.sort_by_key(|(segment, _)| *segment);
+        for (segment, load) in &along {
+            let [a, b] = model.segments()[segment.0].ends;
+            let length = (geometry.positions[b.0] - geometry.positions[a.0]).norm();
+            let frame = segment_frame(model, geometry, *segment)?;
+            let resultant = load.resultant(length);
+            if resultant != Vector6::zeros() {
+                self.nodes.push((a, rotate_vector6(&resultant, &frame)));
+            }
+        }
+        self.join(along);
+        Ok(())
+    }
+
+    /// Takes in loads along segments in the segments' order, those of a segment added.
+    fn join(&mut self, along: Vec<(SegmentId, BeamLoad)>) {
+        for (segment, load) in along {
+            match self.segments.last_mut() {
+                Some((last, sum)) if *last == segment => *sum = *sum + load,
+                _ => self.segments.push((segment, load)),
+            }
+        }
+    }
+
+    /// Both together; `other` is what acts always, and has the preloads.
+    fn with(mut self, other: &Self) -> Self {
+        self.preloaded = (self.nodes.len(), other.preloaded.1.clone());
+        self.nodes.extend(&other.nodes);
+        self.misfits |= other.misfits;
+        let mut own = std::mem::take(&mut self.segments);
+        own.extend(&other.segments);
+        own.sort_by_key(|(segment, _)| *segment);
+        self.join(own);
+        self
+    }
+
+    /// The joint whose preload a wrench of [`Acting::nodes`] is, by its number.
+    pub fn preloaded(&self, wrench: usize) -> Option<JointId> {
+        let (first, joints) = &self.preloaded;
+        joints.get(wrench.checked_sub(*first)?).copied()
+    }
+
+    /// Loads along segments that have any, element frames.
+    pub fn segments(&self) -> &[(SegmentId, BeamLoad)] {
+        &self.segments
+    }
+
+    /// Load along a segment, element frame.
+    pub fn on_segment(&self, segment: SegmentId) -> Option<&BeamLoad> {
+        let place = self.segments.binary_search_by_key(&segment, |s| s.0).ok()?;
+        Some(&self.segments[place].1)
+    }
+
+    /// Sum of the wrenches on a node, global axes.
+    pub fn on_node(&self, node: NodeId) -> Vector6<f64> {
+        let on_node = self.nodes.iter().filter(|(n, _)| *n == node);
+        on_node.map(|(_, wrench)| wrench).sum()
+    }
+}
+
+/// Frame of a segment.
+fn segment_frame(
+    model: &Model,
+    geometry: &Geometry,
+    segment: SegmentId,
+) -> Result<Rotation3<f64>, SolveError> {
+    let [a, b] = model.segments()[segment.0].ends;
+    let span = geometry.positions[b.0] - geometry.positions[a.0];
+    Ok(element_frame(&span, geometry.y_axes[segment.0].as_ref())?)
+}
