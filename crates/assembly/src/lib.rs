@@ -11,15 +11,11 @@
 //! full solve, which also refines, recovers and diagnoses.
 
 mod answer;
-mod directions;
 mod error;
 mod kinematics;
 mod lanes;
-mod loads;
 mod modal;
 mod model;
-mod orientation;
-mod parts;
 mod plan;
 mod pose;
 mod rank;
@@ -28,21 +24,27 @@ mod room;
 mod solve;
 mod state;
 pub use answer::curve::segment_displacement;
+pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
 pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations};
-pub use error::{ModelError, SolveError};
+pub use error::SolveError;
 pub use kinematics::motion::Motion;
 pub use kinematics::motion::describe_motions;
 pub use kinematics::redundancy::{Redundancy, redundant_constraints};
 pub use kinematics::{Kinematics, analyse};
 pub use lanes::{LANES, Lanes};
 pub use modal::{
-    BeamMass, FrequencySensitivity, ModalOptions, ModalPlan, ModalSensitivities, Mode, Modes, modes,
+    BeamMass, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes, modes,
 };
-pub use model::{
-    Axes, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry, JointId,
-    JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, Model, Node, NodeId,
-    NodeMass, Segment, SegmentId, Tapering, ValuePlace,
+pub use model::error::ModelError;
+pub use model::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
+pub use model::masses::ModalOptions;
+pub use model::model::Model;
+pub use model::model::doubts::Doubt;
+pub use model::model::values::ValuePlace;
+pub use model::parts::{
+    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
+    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
 };
 pub use plan::Plan;
 pub use plan::workspace::Workspace;
@@ -50,5 +52,5 @@ pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, 
 pub use response::influence::Influence;
 pub use response::parameters::Parameter;
 pub use response::sensitivity::Sensitivity;
-pub use solve::{PoseResult, solve};
+pub use solve::solve;
 pub use state::floor::Floor;

@@ -2,16 +2,19 @@
 
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
+use crate::answer::pose_result::PoseResult;
 use crate::answer::solution::{CaseSolution, Output, Solution, State, Warning};
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
-use crate::loads::LoadSet;
-use crate::model::{Geometry, Model};
+use crate::model::loads::LoadSet;
+use crate::model::model::Model;
+use crate::model::parts::Geometry;
+use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::blocks::read;
 use crate::plan::fault::Fault;
+use crate::plan::workspace::LOADS;
 use crate::plan::workspace::Workspace;
-use crate::pose::condense::{LOADS, UNITS};
+use crate::pose::condense::UNITS;
 use crate::pose::recover::{check_recovery, recover};
 use crate::pose::restraint::{Restraint, scaled};
 use crate::pose::restraint::{SUSPICIOUS_PIVOT, is_nearly_free, scale_of};
@@ -33,27 +36,6 @@ const UNEVEN_PIVOT: f64 = 1e-4;
 
 /// Corrections of the output, once its stiffness is known.
 const CORRECTIONS: usize = 3;
-
-/// What a sweep finds at a pose.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct PoseResult {
-    /// Output stiffness K_o; `None` where the output is held rigidly in some direction.
-    pub stiffness: Option<Matrix6<f64>>,
-    /// Displacement of the output under the loads; `None` where the output moves freely.
-    pub displacement: Option<Vector6<f64>>,
-    /// The same in each of the model's cases, in their order; none where the output moves freely.
-    pub cases: Vec<Vector6<f64>>,
-}
-
-impl PoseResult {
-    fn is_finite(&self) -> bool {
-        let displacements = self.displacement.iter().chain(&self.cases);
-        let numbers = self.stiffness.iter().flatten();
-        let mut numbers = numbers.chain(displacements.flatten());
-        numbers.all(|number| number.is_finite())
-    }
-}
 
 /// What a full solve finds.
 struct Solved {

@@ -4,8 +4,9 @@ use hyperstat_elements::{BeamLoad, rotate_vector6};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
-use crate::model::{Geometry, Model, SegmentId};
-use crate::pose::cluster::segment_beam;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, SegmentId};
+use crate::model::segment_beam::segment_beam;
 
 /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes: its elastic
 /// curve between the displacements of its ends, under the load between them (`None`: no load).

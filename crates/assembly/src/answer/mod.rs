@@ -2,5 +2,6 @@
 
 pub(crate) mod curve;
 pub mod measures;
+pub(crate) mod pose_result;
 pub(crate) mod solution;
 pub(crate) mod worst;

@@ -6,8 +6,9 @@ use hyperstat_elements::{SectionStrain, Taper};
 use nalgebra::Vector6;
 
 use super::solution::{SegmentForces, Solution, State};
-use crate::model::{BodyId, Model, SegmentId};
-use crate::pose::cluster::segment_beam;
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, SegmentId};
+use crate::model::segment_beam::segment_beam;
 
 /// The point of a body with the largest von Mises stress, of normal and torsional stress (Eq. 47);
 /// the shear forces' own stress is not in it.

@@ -3,14 +3,16 @@
 //! Every body has a twist at its first node; the ground has none. A small mechanism is eliminated
 //! with complete pivoting, a large one by sparse rows.
 
-use hyperstat_joints::{Dof, DofSet, rigid_motion};
+use hyperstat_joints::{Dof, rigid_motion};
 use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector6};
 
 use super::motion::Motion;
-use crate::directions::{Directions, to_directions};
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
-use crate::model::{BodyId, Connection, Geometry, JointId, Model};
+use crate::model::directions::condition_rows;
+use crate::model::directions::{Directions, to_directions};
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, Connection, Geometry, JointId};
+use crate::model::size::characteristic_length;
 use crate::rank::dense::Elimination;
 use crate::rank::echelon::echelon;
 use crate::rank::sparse::{SparseElimination, SparseVector};
@@ -19,24 +21,6 @@ use crate::rank::sparse::{SparseElimination, SparseVector};
 const SMALL: usize = 40;
 /// Most motions that are brought into echelon form in a large mechanism.
 const FEW: usize = 8;
-
-/// Unit rows of a joint's conditions on the relative twist at the joint, in global axes with
-/// translations over `size`.
-pub(crate) fn condition_rows(
-    to_directions: &Matrix6<f64>,
-    set: DofSet,
-    size: f64,
-) -> impl Iterator<Item = RowVector6<f64>> {
-    let local = *to_directions;
-    set.iter().map(move |dof| {
-        let mut row = local.row(dof.index()).into_owned();
-        for c in 0..3 {
-            row[c] *= size;
-        }
-        let norm = row.norm();
-        row / norm
-    })
-}
 
 /// Conditions on the scaled twists of all bodies, sparse by rows.
 pub(crate) struct Jacobian {

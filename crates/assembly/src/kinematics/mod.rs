@@ -9,14 +9,16 @@ pub(crate) mod motion;
 pub(crate) mod redundancy;
 
 use hyperstat_joints::Dof;
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 
-use crate::directions::{Directions, to_directions};
 use crate::error::SolveError;
 use crate::kinematics::jacobian::Jacobian;
 use crate::kinematics::motion::Motion;
 use crate::kinematics::motion::{describe, node_twist};
-use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::model::directions::{Directions, to_directions};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId, NodeId};
+use crate::model::size::characteristic_length;
 use crate::rank::dense::RANK_TOLERANCE;
 
 /// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.
@@ -66,21 +68,6 @@ pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Result<Kinematic
         doubtful: held.doubtful().or(released.doubtful()),
         nearly_free,
     })
-}
-
-/// Diagonal of the box around all nodes (m); 1 where they coincide.
-pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
-    let first = geometry
-        .positions
-        .first()
-        .map_or(Vector3::zeros(), |p| p.coords);
-    let (mut low, mut high) = (first, first);
-    for p in &geometry.positions {
-        low = low.inf(&p.coords);
-        high = high.sup(&p.coords);
-    }
-    let diagonal = (high - low).norm();
-    if diagonal > 0.0 { diagonal } else { 1.0 }
 }
 
 impl Motion {

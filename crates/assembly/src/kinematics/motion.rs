@@ -3,8 +3,9 @@
 use hyperstat_joints::rigid_motion;
 use nalgebra::{Vector3, Vector6};
 
-use crate::kinematics::characteristic_length;
-use crate::model::{BodyId, BodyKind, Geometry, Model};
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, BodyKind, Geometry};
+use crate::model::size::characteristic_length;
 
 /// A motion of rigid bodies: the twist of every body that moves.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,7 +3,8 @@
 use hyperstat_joints::Dof;
 
 use super::jacobian::Jacobian;
-use crate::model::{JointId, Model};
+use crate::model::model::Model;
+use crate::model::parts::JointId;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::rank::echelon::echelon;
 
@@ -87,7 +88,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::analyse;
-    use crate::model::{Connection, JointStiffness};
+    use crate::model::parts::{Connection, JointStiffness};
 
     /// A parallelogram in the x-y plane: three rigid bars and the ground, four hinges about z.
     fn parallelogram() -> Model {

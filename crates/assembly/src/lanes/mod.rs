@@ -20,16 +20,17 @@ mod tests;
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use crate::lanes::program::Program;
-use crate::model::{Geometry, Model};
+use crate::model::model::Model;
+use crate::model::parts::Geometry;
+use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;
-use crate::solve::PoseResult;
 
 /// Poses that are handed to [`Plan::sweep_lanes`] together.
 pub const LANES: usize = 8;

@@ -7,10 +7,11 @@ use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::pass::factor::{Matrix, eliminate};
+use crate::answer::pose_result::PoseResult;
 use crate::lanes::LANES;
-use crate::model::{Connection, Geometry, JointStiffness, Model};
+use crate::model::model::Model;
+use crate::model::parts::{Connection, Geometry, JointStiffness};
 use crate::plan::Plan;
-use crate::solve::PoseResult;
 
 /// Two legs of flat bars, hinged to a platform, on elastic feet.
 fn portal() -> Model {

@@ -5,28 +5,20 @@ use hyperstat_elements::rotate_matrix12;
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::SolveError;
-use crate::modal::ModalOptions;
-use crate::model::{BodyId, Geometry, Model, NodeId, SegmentId};
+use crate::model::masses::BeamMass;
+use crate::model::masses::ModalOptions;
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, Geometry, NodeId, SegmentId};
+use crate::model::segment_beam::segment_beam;
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, multiply};
 use crate::plan::blocks::{read, shift};
 use crate::plan::elements::Source;
 use crate::plan::sparse::Pattern;
 use crate::plan::workspace::Workspace;
-use crate::pose::cluster::segment_beam;
 use crate::response::parameters::line_mass;
 use crate::room;
 use crate::room::MOST_NUMBERS;
-
-/// How the masses of beams are put on the nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BeamMass {
-    /// Spread along the beam and moved by its shape.
-    #[default]
-    Consistent,
-    /// Half of every element's mass at each of its ends, in translation only.
-    Lumped,
-}
 
 /// Which coordinates masses go to, worked out once a topology: all of them, the output's too.
 #[derive(Debug)]

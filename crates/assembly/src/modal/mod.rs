@@ -11,16 +11,17 @@ mod sensitivity;
 mod shape;
 mod system;
 
-use hyperstat_elements::{MassShape, RotaryInertia};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
 use crate::modal::lanczos::lowest;
-pub use crate::modal::mass::BeamMass;
 use crate::modal::mass::{MassPlan, Masses};
 pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
 use crate::modal::system::{Mode as Found, System};
-use crate::model::{BodyId, Geometry, Model, NodeId, Segment};
+pub use crate::model::masses::BeamMass;
+use crate::model::masses::ModalOptions;
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, Geometry, NodeId, Segment};
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
@@ -33,32 +34,6 @@ use crate::room::MOST_NUMBERS;
 const COORDINATES: &str = "the coordinates of its elements";
 /// Elements of a model at the most.
 const MOST_ELEMENTS: usize = 200_000;
-
-/// What modes are asked for, and what has which mass.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ModalOptions {
-    /// Number of modes, lowest first; fewer are found where there are no more.
-    pub count: usize,
-    /// Consistent or lumped masses of beams.
-    pub mass: BeamMass,
-    /// Shapes that consistent masses are made with.
-    pub shape: MassShape,
-    /// Whether turning sections of beams have inertia in bending, in consistent masses.
-    pub rotary_inertia: RotaryInertia,
-}
-
-impl ModalOptions {
-    /// The lowest `count` modes with consistent masses of cubic shapes, without rotary inertia of
-    /// bending: Bernoulli's beam, and what most frame programs do.
-    pub fn lowest(count: usize) -> Self {
-        Self {
-            count,
-            mass: BeamMass::Consistent,
-            shape: MassShape::Cubic,
-            rotary_inertia: RotaryInertia::Left,
-        }
-    }
-}
 
 /// A natural mode.
 #[derive(Debug, Clone)]

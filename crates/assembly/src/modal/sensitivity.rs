@@ -19,9 +19,9 @@ use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 use super::system::each_deformation;
 use crate::error::SolveError;
 use crate::modal::{BeamMass, Found, ModalPlan, Outcome, hertz};
-use crate::model::{Geometry, NodeId, NodeMass, SegmentId};
+use crate::model::parts::{Geometry, NodeId, NodeMass, SegmentId};
+use crate::model::segment_beam::segment_beam;
 use crate::plan::elements::Source;
-use crate::pose::cluster::segment_beam;
 use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 
 /// Eigenvalues ω² that differ by no more than this part are equal. Vectors are good to some 1e-11

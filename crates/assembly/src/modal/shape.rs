@@ -5,8 +5,9 @@ use nalgebra::Vector6;
 
 use crate::error::SolveError;
 use crate::modal::Mode;
-use crate::model::{Model, SegmentId};
-use crate::pose::cluster::SegmentBeam;
+use crate::model::model::Model;
+use crate::model::parts::SegmentId;
+use crate::model::segment_beam::SegmentBeam;
 
 impl Mode {
     /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes

@@ -10,9 +10,10 @@ use nalgebra::{DMatrix, Matrix6};
 use super::blocks::{read, shift, write};
 use super::topology::Topology;
 use super::trees::Component;
-use crate::directions::to_directions;
-use crate::kinematics::jacobian::condition_rows;
-use crate::model::{Geometry, Model, NodeId};
+use crate::model::directions::condition_rows;
+use crate::model::directions::to_directions;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, NodeId};
 use crate::rank::dense::Elimination;
 
 /// Blocks over the tree coordinates, before loops are closed.

@@ -2,7 +2,8 @@
 
 use super::sparse::Pattern;
 use super::topology::Topology;
-use crate::model::{JointId, Model, NodeId};
+use crate::model::model::Model;
+use crate::model::parts::{JointId, NodeId};
 
 /// What an element is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,9 +4,10 @@ use hyperstat_joints::DofSet;
 use nalgebra::Matrix6;
 
 use super::workspace::Workspace;
-use crate::directions::Directions;
 use crate::error::SolveError;
-use crate::model::{BodyKind, Geometry, Model, NodeId};
+use crate::model::directions::Directions;
+use crate::model::model::Model;
+use crate::model::parts::{BodyKind, Geometry, NodeId};
 use crate::plan::Plan;
 
 /// Bodies, joints and output of a model: what a plan is made for.

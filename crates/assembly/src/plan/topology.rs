@@ -9,7 +9,8 @@ use super::clusters::{Cluster, clusters};
 use super::roles::{JointRole, roles};
 use super::trees::{Carrier, Component, carriers, components};
 use crate::error::SolveError;
-use crate::model::{Geometry, Model, NodeId};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, NodeId};
 
 /// Topology of a model.
 #[derive(Debug, Clone)]

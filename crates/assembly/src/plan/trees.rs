@@ -8,7 +8,8 @@ use hyperstat_joints::DofSet;
 
 use super::roles::JointRole;
 use crate::error::SolveError;
-use crate::model::{BodyKind, JointId, Model, NodeId};
+use crate::model::model::Model;
+use crate::model::parts::{BodyKind, JointId, NodeId};
 use crate::room;
 use crate::room::MOST_NUMBERS;
 

@@ -6,7 +6,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::coordinates::TreeBlocks;
 use super::sparse::Factor;
-use crate::model::NodeId;
+use crate::model::parts::NodeId;
 
 /// Buffers of one thread; made by [`Plan::workspace`].
 #[derive(Debug)]
@@ -59,3 +59,6 @@ impl Workspace {
         self.energies.len()
     }
 }
+
+/// Column of the first set of loads, after those of the output's motions or forces.
+pub(crate) const LOADS: usize = 6;

@@ -15,14 +15,14 @@ use crate::error::SolveError;
 use crate::plan::Plan;
 use crate::plan::blocks::read;
 use crate::plan::blocks::{dot, multiply};
+use crate::plan::workspace::LOADS;
 use crate::plan::workspace::Workspace;
 
 /// Refinement steps at the most.
 const MOST_REFINEMENTS: usize = 6;
 /// A last correction above this share of the solution is no solution.
 const TRUSTED: f64 = 1e-6;
-/// Column of the first set of loads, after those of the output's motions or forces.
-pub(crate) const LOADS: usize = 6;
+
 /// The columns of the output's unit motions or unit forces.
 pub(crate) const UNITS: Range<usize> = 0..LOADS;
 

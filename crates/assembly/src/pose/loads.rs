@@ -2,10 +2,10 @@
 
 use nalgebra::Vector6;
 
-use super::condense::LOADS;
-use crate::model::{Geometry, NodeId};
+use crate::model::parts::{Geometry, NodeId};
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
+use crate::plan::workspace::LOADS;
 use crate::plan::workspace::Workspace;
 use crate::state::acting::Acting;
 

@@ -10,16 +10,17 @@ pub(crate) mod spring;
 
 use nalgebra::Vector6;
 
-use crate::kinematics::characteristic_length;
-use crate::model::{Geometry, Model, NodeId};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, NodeId};
+use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, multiply};
 use crate::plan::blocks::{read, shift, write};
 use crate::plan::elements::Source;
 use crate::plan::fault::Fault;
+use crate::plan::workspace::LOADS;
 use crate::plan::workspace::Workspace;
 use crate::pose::cluster::{cluster_element, cluster_initial};
-use crate::pose::condense::LOADS;
 use crate::pose::loads::load;
 use crate::pose::spring::{spring_element, spring_initial};
 use crate::state::acting::Acting;

@@ -11,15 +11,17 @@
 use nalgebra::{Matrix6, Vector6};
 
 use super::cluster::cluster_frame;
-use super::condense::{LOADS, UNITS};
+use super::condense::UNITS;
 use crate::answer::solution::{Output, State};
-use crate::directions::to_directions;
 use crate::error::SolveError;
-use crate::model::{Geometry, Model};
+use crate::model::directions::to_directions;
+use crate::model::model::Model;
+use crate::model::parts::Geometry;
 use crate::plan::Plan;
 use crate::plan::blocks::multiply;
 use crate::plan::blocks::{read, shift};
 use crate::plan::elements::{ElementPlan, Source};
+use crate::plan::workspace::LOADS;
 use crate::plan::workspace::Workspace;
 
 /// Last bits by which a sum of a few products is off, with room to spare: measured on random

@@ -2,8 +2,9 @@
 
 use nalgebra::Vector6;
 
-use crate::directions::to_directions;
-use crate::model::{Geometry, JointId, Model};
+use crate::model::directions::to_directions;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId};
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
 use crate::plan::elements::ElementPlan;

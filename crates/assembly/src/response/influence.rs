@@ -1,17 +1,19 @@
 //! The states of unit loads on the output, and the work that a state's forces do on another's
 //! deformations: what budgets and sensitivities are made of.
 
+use hyperstat_elements::ElementError;
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DVector, Matrix6, Rotation3, Vector6};
 
 use crate::answer::solution::{SegmentForces, Solution};
-use crate::directions::{Directions, to_directions};
 use crate::error::SolveError;
-use crate::loads::LoadSet;
-use crate::model::{JointId, Model, SegmentId};
+use crate::model::directions::{Directions, to_directions};
+use crate::model::loads::LoadSet;
+use crate::model::model::Model;
+use crate::model::parts::{JointId, SegmentId};
+use crate::model::segment_beam::{SegmentBeam, segment_beam};
 use crate::plan::Plan;
-use crate::pose::cluster::{SegmentBeam, segment_beam};
 use crate::state::preload::along;
 
 /// The states of a model under a unit of each component of a wrench on its output (N, N·m, global
@@ -66,7 +68,7 @@ impl<'m> Influence<'m> {
         let output = model.output().ok_or(SolveError::NoOutput)?;
         let beams = (0..model.segments().len())
             .map(|k| segment_beam(model, model.geometry(), SegmentId(k)))
-            .collect::<Result<Vec<_>, SolveError>>()?;
+            .collect::<Result<Vec<_>, ElementError>>()?;
         let (beams, frames) = (beams.into_iter())
             .map(|(beam, frame, _)| (beam, frame))
             .unzip();
@@ -140,7 +142,7 @@ impl<'m> Influence<'m> {
         let joints = (0..model.joints().len())
             .map(|k| self.joint_state(JointId(k), displacements, wrenches))
             .collect();
-        let displacement = |node: crate::model::NodeId| displacements[node.0];
+        let displacement = |node: crate::model::parts::NodeId| displacements[node.0];
         let flexibles = (model.flexibles().iter().enumerate())
             .map(|(k, flexible)| {
                 let geometry = model.geometry();

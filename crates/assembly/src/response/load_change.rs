@@ -10,9 +10,9 @@ use nalgebra::Vector6;
 use super::influence::Influence;
 use super::parameters::{Parameter, Varied};
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
 use crate::kinematics::motion::Motion;
-use crate::model::{NodeId, SegmentId};
+use crate::model::parts::{NodeId, SegmentId};
+use crate::model::size::characteristic_length;
 use crate::pose::restraint::working;
 
 /// Derivative by a parameter of what acts in every state.

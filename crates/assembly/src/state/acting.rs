@@ -12,8 +12,9 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::preload::preloads;
 use crate::error::SolveError;
-use crate::loads::LoadSet;
-use crate::model::{Geometry, JointId, Model, NodeId, SegmentId};
+use crate::model::loads::LoadSet;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId, NodeId, SegmentId};
 
 /// What acts in one state.
 #[derive(Debug, Clone)]

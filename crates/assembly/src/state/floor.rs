@@ -10,10 +10,11 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::acting::Acting;
 use super::preload::spring_misfit;
-use crate::directions::Directions;
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
-use crate::model::{Geometry, Model};
+use crate::model::directions::Directions;
+use crate::model::model::Model;
+use crate::model::parts::Geometry;
+use crate::model::size::characteristic_length;
 
 /// Numbers below this share of what acts are rounding: some tens of a double's last bit.
 pub(crate) const ROUNDING: f64 = 1e-14;

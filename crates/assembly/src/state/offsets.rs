@@ -10,11 +10,12 @@ use hyperstat_joints::JointError;
 use nalgebra::{DVector, Vector6};
 
 use super::preload::{along, standing};
-use crate::directions::to_directions;
 use crate::error::SolveError;
-use crate::kinematics::characteristic_length;
-use crate::kinematics::jacobian::condition_rows;
-use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::model::directions::condition_rows;
+use crate::model::directions::to_directions;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId, NodeId};
+use crate::model::size::characteristic_length;
 use crate::plan::blocks::{read, shift};
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::fault::Fault;

@@ -3,8 +3,9 @@
 use hyperstat_joints::DofSet;
 use nalgebra::Vector6;
 
-use crate::directions::{Directions, rotation6, to_directions};
-use crate::model::{Geometry, JointId, Misfit, Model, NodeId};
+use crate::model::directions::{Directions, rotation6, to_directions};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId, Misfit, NodeId};
 
 /// The part of `values` along some directions.
 pub(crate) fn along(values: &Vector6<f64>, directions: DofSet) -> Vector6<f64> {

@@ -9,8 +9,9 @@
 use hyperstat_elements::PlaneFlexibility;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::model::{Geometry, Model, NodeId, SegmentId};
-use crate::pose::cluster::{SegmentBeam, unit_beam};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, NodeId, SegmentId};
+use crate::model::segment_beam::{SegmentBeam, unit_beam};
 
 use super::inputs::{Inputs, Point};
 

@@ -3,7 +3,8 @@
 use nalgebra::{DVector, Vector6};
 
 use crate::kinematics::motion::node_twist;
-use crate::model::{Geometry, Model, NodeId};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, NodeId};
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
 use crate::pose::restraint::{Restraint, largest_minor, scaled};
@@ -53,7 +54,8 @@ pub(crate) fn idle_coordinates(
             let at = |node: Option<NodeId>| node.map_or(Vector6::zeros(), twist);
             let relative = at(joint.between[0]) - at(joint.between[1]);
             let frame = &geometry.frames[tie.joint.0];
-            let along = crate::directions::to_directions(&joint.joint.basis(), frame) * relative;
+            let along =
+                crate::model::directions::to_directions(&joint.joint.basis(), frame) * relative;
             let moving = topology.joints[tie.joint.0].moving;
             for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
                 let unit = if dof.index() < 3 { restraint.size } else { 1.0 };

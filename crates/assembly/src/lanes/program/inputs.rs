@@ -3,8 +3,9 @@
 use hyperstat_elements::element_frame;
 use nalgebra::{Rotation3, Vector3};
 
-use crate::kinematics::characteristic_length;
-use crate::model::{FlexibleId, Geometry, JointId, Model, NodeId, SegmentId};
+use crate::model::model::Model;
+use crate::model::parts::{FlexibleId, Geometry, JointId, NodeId, SegmentId};
+use crate::model::size::characteristic_length;
 
 /// Place of a point among the inputs.
 pub(crate) type Point = usize;

@@ -22,8 +22,9 @@ pub(crate) mod series;
 
 use nalgebra::Vector6;
 
-use crate::kinematics::characteristic_length;
-use crate::model::{Geometry, JointId, Model};
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId};
+use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
 

@@ -2,8 +2,9 @@
 
 use hyperstat_joints::Dof;
 
-use crate::directions::Directions;
-use crate::model::{Geometry, JointId, Model, NodeId};
+use crate::model::directions::Directions;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, JointId, NodeId};
 use crate::plan::clusters::Cluster;
 use crate::plan::topology::Topology;
 

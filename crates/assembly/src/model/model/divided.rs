@@ -2,9 +2,11 @@
 
 use nalgebra::Vector3;
 
-use crate::error::SolveError;
-use crate::model::{Geometry, Model, Node, NodeId, Segment, SegmentId, Tapering, fresh_revision};
-use crate::pose::cluster::segment_beam;
+use super::checks::fresh_revision;
+use crate::model::model::Model;
+use crate::model::parts::{Geometry, Node, NodeId, Segment, SegmentId, Tapering};
+use crate::model::segment_beam::segment_beam;
+use hyperstat_elements::ElementError;
 
 impl Model {
     /// The same model without loads, every segment of n elements made n segments. Nodes keep
@@ -13,7 +15,7 @@ impl Model {
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub(crate) fn divided(&self) -> Result<Self, SolveError> {
+    pub(crate) fn divided(&self) -> Result<Self, ElementError> {
         let mut whole = self.clone();
         whole.revision = fresh_revision();
         whole.clear_loads();
@@ -69,7 +71,7 @@ impl Model {
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub(crate) fn divided_geometry(&self, geometry: &Geometry) -> Result<Geometry, SolveError> {
+    pub(crate) fn divided_geometry(&self, geometry: &Geometry) -> Result<Geometry, ElementError> {
         let mut positions = geometry.positions.clone();
         let mut y_axes = Vec::new();
         for (k, segment) in self.segments.iter().enumerate() {

@@ -2,9 +2,10 @@
 
 use nalgebra::{Rotation3, Vector6};
 
-use crate::orientation::body_frame;
-use crate::parts::{BodyId, Geometry, NodeId, SegmentId};
-use crate::{Model, SolveError};
+use super::error::NoBodyFrame;
+use super::model::Model;
+use super::orientation::body_frame;
+use super::parts::{BodyId, Geometry, NodeId, SegmentId};
 
 /// Axes that a load is given in.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,14 +85,13 @@ impl Axes {
         &self,
         model: &Model,
         geometry: &Geometry,
-    ) -> Result<Rotation3<f64>, SolveError> {
+    ) -> Result<Rotation3<f64>, NoBodyFrame> {
         match self {
             Self::Global => Ok(Rotation3::identity()),
             Self::Body { body, home } => {
-                let now =
-                    body_frame(model, geometry, *body).ok_or_else(|| SolveError::NoBodyFrame {
-                        body: model.bodies()[body.0].name.clone(),
-                    })?;
+                let now = body_frame(model, geometry, *body).ok_or_else(|| NoBodyFrame {
+                    body: model.bodies()[body.0].name.clone(),
+                })?;
                 Ok(now * home.inverse())
             }
         }

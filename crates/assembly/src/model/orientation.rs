@@ -4,7 +4,8 @@
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 
-use crate::model::{BodyId, BodyKind, Geometry, Model, NodeId, SegmentId};
+use super::model::Model;
+use super::parts::{BodyId, BodyKind, Geometry, NodeId, SegmentId};
 
 /// Two directions of a body whose angle has a smaller sine do not make a frame; a direction shorter
 /// than this part of the longest is none.

@@ -3,7 +3,8 @@
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{DMatrix, Matrix6, Rotation3, Vector6};
 
-use crate::model::{Connection, JointStiffness};
+use super::parts::{Connection, JointStiffness};
+use nalgebra::RowVector6;
 
 /// The directions of a joint, sorted by what they do, with the elastic ones' stiffness.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,4 +176,22 @@ pub(crate) fn rotation6(rotation: &Rotation3<f64>) -> Matrix6<f64> {
     out.fixed_view_mut::<3, 3>(3, 3)
         .copy_from(rotation.matrix());
     out
+}
+
+/// Unit rows of a joint's conditions on the relative twist at the joint, in global axes with
+/// translations over `size`.
+pub(crate) fn condition_rows(
+    to_directions: &Matrix6<f64>,
+    set: DofSet,
+    size: f64,
+) -> impl Iterator<Item = RowVector6<f64>> {
+    let local = *to_directions;
+    set.iter().map(move |dof| {
+        let mut row = local.row(dof.index()).into_owned();
+        for c in 0..3 {
+            row[c] *= size;
+        }
+        let norm = row.norm();
+        row / norm
+    })
 }

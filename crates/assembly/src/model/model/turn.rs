@@ -1,7 +1,8 @@
 //! The masses of nodes in other configurations.
 
-use crate::model::{Geometry, Model, NodeMass};
-use crate::orientation::turn;
+use crate::model::model::Model;
+use crate::model::orientation::turn;
+use crate::model::parts::{Geometry, NodeMass};
 
 impl Model {
     /// The masses of the nodes in another configuration: their inertia turns with their bodies.

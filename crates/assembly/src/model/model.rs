@@ -1,26 +1,25 @@
 //! The model: bodies, nodes, joints, loads and the output, and how they are put together.
 
-mod checks;
-mod divided;
-mod doubts;
-mod misfits;
-mod turn;
-mod values;
+pub(crate) mod checks;
+pub(crate) mod divided;
+pub(crate) mod doubts;
+pub(crate) mod misfits;
+pub(crate) mod turn;
+pub(crate) mod values;
 
 use std::collections::{HashMap, HashSet};
 
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
-use crate::error::ModelError;
-pub use crate::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
-pub(crate) use crate::model::checks::fresh_revision;
-use crate::model::checks::{check_semidefinite, check_stiffness};
-pub use crate::model::doubts::Doubt;
-pub use crate::model::values::ValuePlace;
-pub use crate::parts::{
-    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
+use super::error::ModelError;
+use super::loads::{Axes, Load, LoadCase, LoadSet};
+pub(crate) use super::model::checks::fresh_revision;
+use super::model::checks::{check_semidefinite, check_stiffness};
+use super::model::values::ValuePlace;
+use super::parts::{
+    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, Member, Misfit,
+    Node, NodeId, NodeMass, Segment, SegmentId,
 };
 
 /// A mechanism in one configuration.

@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::Matrix6;
 
-use crate::error::ModelError;
-use crate::kinematics::characteristic_length;
-use crate::model::{
-    Axes, BodyId, Geometry, JointId, JointStiffness, LoadSet, Model, NodeId, SegmentId,
-};
+use crate::model::error::ModelError;
+use crate::model::loads::{Axes, LoadSet};
+use crate::model::model::Model;
+use crate::model::parts::{BodyId, Geometry, JointId, JointStiffness, NodeId, SegmentId};
+use crate::model::size::characteristic_length;
 
 /// Two nodes of a joint that are no farther apart, over the mechanism's size, are one point:
 /// coordinates are typed to six digits or more, and redundant loops of such coordinates leave a few
@@ -95,15 +95,15 @@ impl Model {
         Ok(())
     }
 
-    pub(super) fn check_body(&self, body: BodyId) -> Result<(), ModelError> {
+    pub(crate) fn check_body(&self, body: BodyId) -> Result<(), ModelError> {
         own("body", body.0, self.bodies.len())
     }
 
-    pub(super) fn check_node(&self, node: NodeId) -> Result<(), ModelError> {
+    pub(crate) fn check_node(&self, node: NodeId) -> Result<(), ModelError> {
         own("node", node.0, self.nodes.len())
     }
 
-    pub(super) fn check_joint(&self, joint: JointId) -> Result<(), ModelError> {
+    pub(crate) fn check_joint(&self, joint: JointId) -> Result<(), ModelError> {
         own("joint", joint.0, self.joints.len())
     }
 
@@ -156,7 +156,7 @@ fn own(what: &'static str, index: usize, count: usize) -> Result<(), ModelError>
 }
 
 /// A stiffness by directions or a matrix.
-pub(super) fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
+pub(crate) fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
     match stiffness {
         JointStiffness::Directions(values) => {
             if values
@@ -173,7 +173,7 @@ pub(super) fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static
 }
 
 /// A stiffness or compliance matrix: finite, symmetric, positive semidefinite (to 1e-9).
-pub(super) fn check_semidefinite(matrix: &Matrix6<f64>) -> Result<(), &'static str> {
+pub(crate) fn check_semidefinite(matrix: &Matrix6<f64>) -> Result<(), &'static str> {
     if !matrix.iter().all(|v| v.is_finite()) {
         return Err("the stiffness matrix holds a number that is not finite");
     }

@@ -1,0 +1,20 @@
+//! A mechanism's size.
+
+use nalgebra::Vector3;
+
+use super::parts::Geometry;
+
+/// Diagonal of the box around all nodes (m); 1 where they coincide.
+pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
+    let first = geometry
+        .positions
+        .first()
+        .map_or(Vector3::zeros(), |p| p.coords);
+    let (mut low, mut high) = (first, first);
+    for p in &geometry.positions {
+        low = low.inf(&p.coords);
+        high = high.sup(&p.coords);
+    }
+    let diagonal = (high - low).norm();
+    if diagonal > 0.0 { diagonal } else { 1.0 }
+}
