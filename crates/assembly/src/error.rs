@@ -1,11 +1,7 @@
 //! What can be wrong with a model.
 
+use hyperstat_model::{BodyId, ModelError, NoBodyFrame};
 use thiserror::Error;
-
-use crate::model::error::NoBodyFrame;
-
-use crate::model::error::ModelError;
-use crate::model::parts::BodyId;
 
 /// A model that cannot be solved as it stands.
 #[derive(Debug, Clone, PartialEq, Error)]

@@ -15,7 +15,6 @@ mod error;
 mod kinematics;
 mod lanes;
 mod modal;
-mod model;
 mod plan;
 mod pose;
 mod rank;
@@ -23,29 +22,23 @@ mod response;
 mod room;
 mod solve;
 mod state;
+
 pub use answer::curve::segment_displacement;
+pub use answer::measures;
 pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
 pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations};
 pub use error::SolveError;
-pub use kinematics::motion::Motion;
-pub use kinematics::motion::describe_motions;
+pub use hyperstat_model::{
+    Axes, BeamMass, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry,
+    JointId, JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, ModalOptions,
+    Model, ModelError, Node, NodeId, NodeMass, Segment, SegmentId, Tapering, ValuePlace,
+};
+pub use kinematics::motion::{Motion, describe_motions};
 pub use kinematics::redundancy::{Redundancy, redundant_constraints};
 pub use kinematics::{Kinematics, analyse};
 pub use lanes::{LANES, Lanes};
-pub use modal::{
-    BeamMass, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes, modes,
-};
-pub use model::error::ModelError;
-pub use model::loads::{Axes, LineLoad, Load, LoadCase, LoadSet};
-pub use model::masses::ModalOptions;
-pub use model::model::Model;
-pub use model::model::doubts::Doubt;
-pub use model::model::values::ValuePlace;
-pub use model::parts::{
-    Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
-};
+pub use modal::{FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes, modes};
 pub use plan::Plan;
 pub use plan::workspace::Workspace;
 pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};

@@ -1,23 +1,18 @@
 //! The two ways in, one full solve and one pose of a sweep, and what is said of the output.
 
+use hyperstat_model::{Geometry, LoadSet, Model, characteristic_length};
 use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
 
 use crate::answer::pose_result::PoseResult;
 use crate::answer::solution::{CaseSolution, Output, Solution, State, Warning};
 use crate::error::SolveError;
-use crate::model::loads::LoadSet;
-use crate::model::model::Model;
-use crate::model::parts::Geometry;
-use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::blocks::read;
 use crate::plan::fault::Fault;
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::condense::UNITS;
 use crate::pose::recover::{check_recovery, recover};
-use crate::pose::restraint::{Restraint, scaled};
-use crate::pose::restraint::{SUSPICIOUS_PIVOT, is_nearly_free, scale_of};
+use crate::pose::restraint::{Restraint, SUSPICIOUS_PIVOT, is_nearly_free, scale_of, scaled};
 use crate::pose::{evaluate, node_displacement};
 use crate::rank::dense::Elimination;
 use crate::rank::echelon::echelon;

@@ -1,7 +1,7 @@
 //! The loop closure of a model.
 
-use hyperstat_assembly::{Geometry, JointId, Model};
 use hyperstat_joints::Dof;
+use hyperstat_model::{Geometry, JointId, Model};
 use nalgebra::{DMatrix, Point3, Vector3};
 
 use crate::equations::{Goal, System};

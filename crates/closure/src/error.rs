@@ -12,7 +12,7 @@ pub enum ClosureError {
     NoOutput,
     /// A model whose parts do not belong together, or a geometry that is not of it.
     #[error(transparent)]
-    Model(#[from] hyperstat_assembly::ModelError),
+    Model(#[from] hyperstat_model::ModelError),
     /// A joint that is not one of the model.
     #[error("joint {joint} is not one of this model, which has {count}")]
     ForeignJoint {

@@ -5,8 +5,8 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use hyperstat_assembly::Model;
 use hyperstat_joints::Dof;
+use hyperstat_model::Model;
 use nalgebra::{DVector, Isometry3, UnitQuaternion, Vector3};
 
 use crate::error::ClosureError;

@@ -1,7 +1,7 @@
 //! The finite motions of a joint, from its kind's free directions and basis.
 
-use hyperstat_assembly::{Connection, Geometry, Model, NodeId};
 use hyperstat_joints::{Dof, DofSet};
+use hyperstat_model::{Connection, Geometry, Model, NodeId};
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3};
 
 use crate::error::ClosureError;

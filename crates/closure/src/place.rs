@@ -1,7 +1,7 @@
 //! A configuration as a geometry of the model: all parts move with their bodies, and what slides
 //! gives way.
 
-use hyperstat_assembly::{BodyKind, Geometry, Model, NodeId};
+use hyperstat_model::{BodyKind, Geometry, Model, NodeId};
 use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
 
 use crate::error::ClosureError;

@@ -1,7 +1,7 @@
 //! What a mechanism is asked to do.
 
-use hyperstat_assembly::JointId;
 use hyperstat_joints::Dof;
+use hyperstat_model::JointId;
 
 /// A place for the output, or values for the drives.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use hyperstat_assembly::{Geometry, ModalOptions, Model};
+use hyperstat_model::{Geometry, ModalOptions, Model};
 
 use crate::commanded::Commanded;
 use crate::design::{Design, Designs, Value, Varied};

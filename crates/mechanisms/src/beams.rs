@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use hyperstat_assembly::{BodyId, Member, Model, ModelError, Tapering};
 use hyperstat_elements::{Beam, ElementError, Material, Section, TaperedBeam, element_frame};
+use hyperstat_model::{BodyId, Member, Model, ModelError, Tapering};
 use nalgebra::Vector3;
 
 use crate::bodies::{Tables, Through, elements, listed, pairs, through};

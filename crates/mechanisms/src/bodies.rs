@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use hyperstat_assembly::{BodyId, Model, ModelError};
 use hyperstat_elements::Material;
+use hyperstat_model::{BodyId, Model, ModelError};
 use nalgebra::Point3;
 
 use crate::error::LoadError;

@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_model::{Geometry, Model};
 
 use crate::error::LoadError;
 use crate::fragment::Fragment;

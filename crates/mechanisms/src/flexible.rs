@@ -1,7 +1,7 @@
 //! Flexible bodies: elastic bodies whose stiffness a finite-element program computed.
 
-use hyperstat_assembly::{BodyId, Model, ModelError};
 use hyperstat_elements::ElementError;
+use hyperstat_model::{BodyId, Model, ModelError};
 use nalgebra::DMatrix;
 
 use crate::bodies::{Tables, pairs, through};

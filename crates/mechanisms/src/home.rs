@@ -1,7 +1,7 @@
 //! How a model lies against its home, in which axes and inertias of a job are stated.
 
-use hyperstat_assembly::{BodyId, Model};
 use hyperstat_joints::Dof;
+use hyperstat_model::{BodyId, Model};
 use nalgebra::{Matrix6, Rotation3};
 
 /// How a model lies: what turns with a body is stated in the home orientation.

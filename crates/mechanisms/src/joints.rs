@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-use hyperstat_assembly::{Connection, JointId, JointStiffness, Model, ModelError, NodeId};
 use hyperstat_joints::{Dof, DofSet, Joint, frame_from_axes, frame_from_axis};
+use hyperstat_model::{Connection, JointId, JointStiffness, Model, ModelError, NodeId};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::bodies::{GROUND, check_name};

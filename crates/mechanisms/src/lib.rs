@@ -5,7 +5,7 @@
 //! # Where to start
 //!
 //! [`load`] reads a file into an [`Input`]: one [`Mechanism`], whose `model` goes to
-//! `hyperstat_assembly`, or a [`Batch`] of [`Job`]s. SI units; vectors in global axes; a pose is
+//! `hyperstat_model`, or a [`Batch`] of [`Job`]s. SI units; vectors in global axes; a pose is
 //! x y z \[m\] and a rotation vector rx ry rz \[rad\] from the home orientation.
 
 mod batch;

@@ -1,10 +1,10 @@
 //! What acts on a mechanism, in its file or in a job: loads, cases, gravity and masses; in a job
 //! misfits and preloads of joints, too.
 
-use hyperstat_assembly::{
+use hyperstat_elements::RigidMass;
+use hyperstat_model::{
     Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId,
 };
-use hyperstat_elements::RigidMass;
 use nalgebra::{Matrix3, Vector3, Vector6};
 
 use crate::error::LoadError;
@@ -59,9 +59,9 @@ pub(crate) fn read<'a>(
     model: &mut Model,
     home: &Home,
 ) -> Result<Option<Vec<Place>>, LoadError> {
-    let refused = |at: Fragment<'_>, error: hyperstat_assembly::ModelError| {
+    let refused = |at: Fragment<'_>, error: hyperstat_model::ModelError| {
         let mut refused = at.error(error.to_string());
-        if matches!(error, hyperstat_assembly::ModelError::NoDensity { .. }) {
+        if matches!(error, hyperstat_model::ModelError::NoDensity { .. }) {
             refused = refused.with_help("give its material a `density`, in kg/m³");
         }
         refused

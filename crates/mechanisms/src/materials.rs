@@ -1,7 +1,7 @@
 //! Materials and sections, as tables of a mechanism file or in place in a prebuilt one.
 
-use hyperstat_assembly::Tapering;
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape, Taper};
+use hyperstat_model::Tapering;
 
 use crate::error::LoadError;
 use crate::fields::Fields;

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::path::PathBuf;
 
-use hyperstat_assembly::{BodyId, JointId, Model};
+use hyperstat_model::{BodyId, JointId, Model};
 use nalgebra::Point3;
 
 use crate::bodies::{self, Tables, check_name};

@@ -1,7 +1,7 @@
 //! The natural frequencies that a job asks for.
 
-use hyperstat_assembly::{BeamMass, ModalOptions};
 use hyperstat_elements::{MassShape, RotaryInertia};
+use hyperstat_model::{BeamMass, ModalOptions};
 
 use crate::error::LoadError;
 use crate::fields::Fields;

@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_closure::{Configuration, LoopClosure, Target};
+use hyperstat_model::{Geometry, Model};
 
 use crate::prebuilt::PoseError;
 use crate::targets::{Asked, Targets};

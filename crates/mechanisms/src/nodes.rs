@@ -1,6 +1,6 @@
 //! Bodies and nodes of a model, by the names that a file gives them.
 
-use hyperstat_assembly::{BodyId, Model, NodeId};
+use hyperstat_model::{BodyId, Model, NodeId};
 
 use crate::bodies::GROUND;
 use crate::error::LoadError;

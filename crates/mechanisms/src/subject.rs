@@ -1,6 +1,6 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_assembly::{Geometry, Model, NodeId};
+use hyperstat_model::{Geometry, Model, NodeId};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::error::LoadError;

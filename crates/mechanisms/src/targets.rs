@@ -2,9 +2,9 @@
 
 use std::str::FromStr;
 
-use hyperstat_assembly::{JointId, Model};
 use hyperstat_closure::{Drive, LoopClosure};
 use hyperstat_joints::Dof;
+use hyperstat_model::{JointId, Model};
 
 use crate::error::LoadError;
 use crate::fields::Fields;

@@ -7,8 +7,8 @@ use std::collections::{HashMap, HashSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_assembly::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 use hyperstat_joints::Dof;
+use hyperstat_model::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 
 use crate::fragment::Fragment;
 use crate::overlay::{Known, Overlay};

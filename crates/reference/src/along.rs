@@ -4,8 +4,8 @@
 //! in a beam on two supports, and the deformations that it makes stand on the right side of the
 //! rows, `A u − C λ = d`. `hyperstat-elements` has cantilevers and polynomials in their place.
 
-use hyperstat_assembly::Segment;
 use hyperstat_elements::Section;
+use hyperstat_model::Segment;
 use nalgebra::{Vector3, Vector6};
 
 use crate::beam::{Element, join};

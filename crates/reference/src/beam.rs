@@ -2,7 +2,7 @@
 //!
 //! Formed here anew, not taken from `hyperstat-elements`, so that an error there shows.
 
-use hyperstat_assembly::Segment;
+use hyperstat_model::Segment;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 
 use crate::row::Row;
@@ -211,8 +211,8 @@ pub(crate) fn join(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64
 
 #[cfg(test)]
 mod tests {
-    use hyperstat_assembly::Model;
     use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+    use hyperstat_model::Model;
     use nalgebra::{DVector, Point3};
 
     use super::*;

@@ -11,7 +11,7 @@ pub enum ReferenceError {
     NoOutput,
     /// A model whose parts do not belong together.
     #[error(transparent)]
-    Model(#[from] hyperstat_assembly::ModelError),
+    Model(#[from] hyperstat_model::ModelError),
     /// Loads that the traditional method is not given.
     #[error(
         "the traditional method takes forces and moments on points in global axes only: no \

@@ -3,7 +3,7 @@
 //! The stiffness given for a flexible body is rounded; what it means is its rows and columns of all
 //! nodes but the first, with those of the first following from equilibrium.
 
-use hyperstat_assembly::{Flexible, Model};
+use hyperstat_model::{Flexible, Model};
 use nalgebra::{Cholesky, DMatrix, Rotation3, Vector3, Vector6};
 
 use crate::beam::join;

@@ -1,7 +1,7 @@
 //! Natural frequencies in the null space of all conditions, dense: every node has coordinates and
 //! mass of its own, and what conditions leave is found by orthogonalization.
 
-use hyperstat_assembly::{Model, Segment};
+use hyperstat_model::{Model, Segment};
 use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
 
 use crate::beam::{Element, ElementStiffness};

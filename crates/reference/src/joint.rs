@@ -13,8 +13,8 @@
 //! linear in the nodes' rotations, is checked once, at the configuration that is solved, and needs no
 //! search for independent rotations.
 
-use hyperstat_assembly::{Connection, JointStiffness, Misfit};
 use hyperstat_joints::Dof;
+use hyperstat_model::{Connection, JointStiffness, Misfit};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use crate::row::Row;
@@ -244,8 +244,8 @@ fn modes(matrix: &Matrix6<f64>) -> Vec<Mode> {
 
 #[cfg(test)]
 mod tests {
-    use hyperstat_assembly::{Model, NodeId};
     use hyperstat_joints::{DofSet, Universal};
+    use hyperstat_model::{Model, NodeId};
     use nalgebra::{Point3, Vector3};
 
     use super::*;

@@ -5,8 +5,8 @@
 
 use std::collections::HashMap;
 
-use hyperstat_assembly::{BodyKind, Model};
 use hyperstat_joints::Dof;
+use hyperstat_model::{BodyKind, Model};
 use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::independence::{Independence, RANK_TOLERANCE};

@@ -1,6 +1,6 @@
 //! The independent solver.
 
-use hyperstat_assembly::Model;
+use hyperstat_model::Model;
 use nalgebra::{DVector, Matrix6, Vector6};
 
 use crate::error::ReferenceError;

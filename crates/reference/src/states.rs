@@ -1,7 +1,7 @@
 //! The states of a model: its own loads and each of its cases, with the weight and the
 //! temperatures that act in all of them.
 
-use hyperstat_assembly::{Axes, LoadSet, Model, SegmentId};
+use hyperstat_model::{Axes, LoadSet, Model, SegmentId};
 use nalgebra::{DVector, Rotation3, Vector3, Vector6};
 
 use crate::along::Along;

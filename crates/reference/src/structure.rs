@@ -1,6 +1,6 @@
 //! A model as nodes, elements and rows: every body's every node with six coordinates of its own.
 
-use hyperstat_assembly::{BodyKind, Geometry, JointId, Model, NodeId};
+use hyperstat_model::{BodyKind, Geometry, JointId, Model, NodeId};
 use nalgebra::{DVector, Point3, Vector3, Vector6};
 
 use crate::beam::{Element, join, segment_frame};

@@ -2,8 +2,8 @@
 //!
 //! Formed here anew: `hyperstat-elements` interpolates the section and integrates in other ways.
 
-use hyperstat_assembly::{Segment, Tapering};
 use hyperstat_elements::{Section, SectionShape};
+use hyperstat_model::{Segment, Tapering};
 
 /// Step of the quadrature in its own variable.
 const STEP: f64 = 1.0 / 32.0;

@@ -2,8 +2,8 @@
 //! Lagrange multipliers (Deblaise, Hernot, Maurine, ICRA 2006), in two forms: the springs in the
 //! stiffness matrix, or their wrenches as multipliers too.
 
-use hyperstat_assembly::Model;
 use hyperstat_joints::Dof;
+use hyperstat_model::Model;
 use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::error::ReferenceError;

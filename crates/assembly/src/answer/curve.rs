@@ -1,12 +1,10 @@
 //! Displacements between the nodes of a segment.
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
+use hyperstat_model::{Geometry, Model, SegmentId, segment_beam};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, SegmentId};
-use crate::model::segment_beam::segment_beam;
 
 /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes: its elastic
 /// curve between the displacements of its ends, under the load between them (`None`: no load).

@@ -3,13 +3,12 @@
 use std::fmt;
 
 use hyperstat_elements::BeamLoad;
+use hyperstat_model::{JointId, Model, SegmentId};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
 use super::curve::inner_displacements;
 use crate::error::SolveError;
 use crate::kinematics::motion::Motion;
-use crate::model::model::Model;
-use crate::model::parts::{JointId, SegmentId};
 use crate::state::floor::Floor;
 
 /// Everything about one configuration under the model's loads.

@@ -3,12 +3,10 @@
 
 use hyperstat_elements::stress::{normal_stress, stress_along, stress_parts};
 use hyperstat_elements::{SectionStrain, Taper};
+use hyperstat_model::{BodyId, Model, SegmentId, segment_beam};
 use nalgebra::Vector6;
 
 use super::solution::{SegmentForces, Solution, State};
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, SegmentId};
-use crate::model::segment_beam::segment_beam;
 
 /// The point of a body with the largest von Mises stress, of normal and torsional stress (Eq. 47);
 /// the shear forces' own stress is not in it.

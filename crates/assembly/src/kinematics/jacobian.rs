@@ -4,15 +4,14 @@
 //! with complete pivoting, a large one by sparse rows.
 
 use hyperstat_joints::{Dof, rigid_motion};
+use hyperstat_model::{
+    BodyId, Connection, Directions, Geometry, JointId, Model, characteristic_length,
+    condition_rows, to_directions,
+};
 use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector6};
 
 use super::motion::Motion;
 use crate::error::SolveError;
-use crate::model::directions::condition_rows;
-use crate::model::directions::{Directions, to_directions};
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, Connection, Geometry, JointId};
-use crate::model::size::characteristic_length;
 use crate::rank::dense::Elimination;
 use crate::rank::echelon::echelon;
 use crate::rank::sparse::{SparseElimination, SparseVector};

@@ -9,16 +9,14 @@ pub(crate) mod motion;
 pub(crate) mod redundancy;
 
 use hyperstat_joints::Dof;
+use hyperstat_model::{
+    Directions, Geometry, JointId, Model, NodeId, characteristic_length, to_directions,
+};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
 use crate::kinematics::jacobian::Jacobian;
-use crate::kinematics::motion::Motion;
-use crate::kinematics::motion::{describe, node_twist};
-use crate::model::directions::{Directions, to_directions};
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, NodeId};
-use crate::model::size::characteristic_length;
+use crate::kinematics::motion::{Motion, describe, node_twist};
 use crate::rank::dense::RANK_TOLERANCE;
 
 /// Counts and motions of a mechanism whose bodies are all rigid, at one configuration.

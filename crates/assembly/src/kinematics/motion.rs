@@ -1,11 +1,8 @@
 //! Motions of a mechanism of rigid bodies, and their words.
 
 use hyperstat_joints::rigid_motion;
+use hyperstat_model::{BodyId, BodyKind, Geometry, Model, characteristic_length};
 use nalgebra::{Vector3, Vector6};
-
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, BodyKind, Geometry};
-use crate::model::size::characteristic_length;
 
 /// A motion of rigid bodies: the twist of every body that moves.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,9 @@
 //! Redundant constraints: which directions of which joints say the same thing more than once.
 
 use hyperstat_joints::Dof;
+use hyperstat_model::{JointId, Model};
 
 use super::jacobian::Jacobian;
-use crate::model::model::Model;
-use crate::model::parts::JointId;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::rank::echelon::echelon;
 
@@ -88,7 +87,7 @@ mod tests {
 
     use super::*;
     use crate::kinematics::analyse;
-    use crate::model::parts::{Connection, JointStiffness};
+    use hyperstat_model::{Connection, JointStiffness};
 
     /// A parallelogram in the x-y plane: three rigid bars and the ground, four hinges about z.
     fn parallelogram() -> Model {

@@ -17,6 +17,7 @@ mod program;
 mod random_tests;
 #[cfg(test)]
 mod tests;
+use hyperstat_model::{Geometry, Model, characteristic_length};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -25,9 +26,6 @@ use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use crate::lanes::program::Program;
-use crate::model::model::Model;
-use crate::model::parts::Geometry;
-use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;

@@ -6,13 +6,12 @@ use hyperstat_joints::{
     Cylindrical, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
     frame_from_axes,
 };
+use hyperstat_model::{Connection, Geometry, JointStiffness, Member, Model, Tapering};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
 use crate::answer::pose_result::PoseResult;
 use crate::lanes::{LANES, Lanes};
-use crate::model::model::Model;
-use crate::model::parts::{Connection, Geometry, JointStiffness, Member, Tapering};
 use crate::plan::Plan;
 
 /// Mechanisms.
@@ -164,10 +163,10 @@ fn mechanism(random: &mut Random) -> Option<Model> {
         join(&mut model, random, [&before, "ground"], at.0)?;
     }
     let nodes = model.nodes().len();
-    model.set_output(crate::model::parts::NodeId(0));
+    model.set_output(hyperstat_model::NodeId(0));
     for _ in 0..1 + random.below(2) {
         let (force, moment) = (random.vector(100.0), random.vector(10.0));
-        let node = crate::model::parts::NodeId(random.below(nodes));
+        let node = hyperstat_model::NodeId(random.below(nodes));
         let wrench = Vector6::from_fn(|k, _| if k < 3 { force[k] } else { moment[k - 3] });
         model.add_load(node, wrench).ok()?;
     }
@@ -252,7 +251,7 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
             for (lane, pose) in chosen.iter().enumerate() {
                 poses += 1;
                 let engine = lanes.engine.as_ref().expect("lanes");
-                let size = crate::model::size::characteristic_length(pose);
+                let size = hyperstat_model::characteristic_length(pose);
                 if engine.result(lane, size).is_none() {
                     handed_on += 1;
                     continue;

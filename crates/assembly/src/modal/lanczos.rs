@@ -9,8 +9,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::system::{Mode, System};
 use crate::error::SolveError;
-use crate::plan::blocks::dot;
-use crate::plan::blocks::subtract;
+use crate::plan::blocks::{dot, subtract};
 
 /// Vectors of a block.
 pub(super) const BLOCK: usize = 4;

@@ -2,17 +2,14 @@
 //! nodes, with the same mappings H as the stiffness.
 
 use hyperstat_elements::rotate_matrix12;
+use hyperstat_model::{
+    BeamMass, BodyId, Geometry, ModalOptions, Model, NodeId, SegmentId, segment_beam,
+};
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::SolveError;
-use crate::model::masses::BeamMass;
-use crate::model::masses::ModalOptions;
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, Geometry, NodeId, SegmentId};
-use crate::model::segment_beam::segment_beam;
 use crate::plan::Plan;
-use crate::plan::blocks::{dot, multiply};
-use crate::plan::blocks::{read, shift};
+use crate::plan::blocks::{dot, multiply, read, shift};
 use crate::plan::elements::Source;
 use crate::plan::sparse::Pattern;
 use crate::plan::workspace::Workspace;

@@ -18,10 +18,6 @@ use crate::modal::lanczos::lowest;
 use crate::modal::mass::{MassPlan, Masses};
 pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
 use crate::modal::system::{Mode as Found, System};
-pub use crate::model::masses::BeamMass;
-use crate::model::masses::ModalOptions;
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, Geometry, NodeId, Segment};
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
@@ -29,6 +25,9 @@ use crate::pose::evaluate;
 use crate::pose::restraint::Restraint;
 use crate::room;
 use crate::room::MOST_NUMBERS;
+use hyperstat_model::ModalOptions;
+use hyperstat_model::Model;
+use hyperstat_model::{BodyId, Geometry, NodeId, Segment};
 
 /// What the inner nodes of too many elements ask for.
 const COORDINATES: &str = "the coordinates of its elements";

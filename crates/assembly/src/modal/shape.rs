@@ -1,13 +1,11 @@
 //! A mode between the nodes.
 
 use hyperstat_elements::{element_frame, rotate_vector6};
+use hyperstat_model::{Model, SegmentBeam, SegmentId};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
 use crate::modal::Mode;
-use crate::model::model::Model;
-use crate::model::parts::SegmentId;
-use crate::model::segment_beam::SegmentBeam;
 
 impl Mode {
     /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes

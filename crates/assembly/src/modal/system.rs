@@ -1,18 +1,14 @@
 //! Stiffness and mass over the independent displacement coordinates of one configuration.
 
+use hyperstat_model::{Geometry, Model, characteristic_length};
 use nalgebra::DVector;
 
 use super::lanczos::BLOCK;
 use super::mass::{MassPlan, Masses};
 use crate::error::SolveError;
-use crate::kinematics::motion::Motion;
-use crate::kinematics::motion::node_twist;
-use crate::model::model::Model;
-use crate::model::parts::Geometry;
-use crate::model::size::characteristic_length;
+use crate::kinematics::motion::{Motion, node_twist};
 use crate::plan::Plan;
-use crate::plan::blocks::subtract;
-use crate::plan::blocks::{dot, multiply};
+use crate::plan::blocks::{dot, multiply, subtract};
 use crate::plan::elements::ElementPlan;
 use crate::plan::sparse::Factor;
 use crate::plan::workspace::Workspace;

@@ -3,7 +3,7 @@
 use hyperstat_joints::rigid_motion;
 use nalgebra::{Matrix6, Vector6};
 
-use crate::model::parts::{Geometry, NodeId};
+use hyperstat_model::{Geometry, NodeId};
 
 /// `vector -= share * other`.
 pub(crate) fn subtract(vector: &mut [f64], share: f64, other: &[f64]) {

@@ -1,8 +1,8 @@
 //! Runs of segments that form one subassembly element.
 
+use hyperstat_model::{FlexibleId, JointId, Model, NodeId, SegmentId};
+
 use super::roles::JointRole;
-use crate::model::model::Model;
-use crate::model::parts::{FlexibleId, JointId, NodeId, SegmentId};
 
 /// Most segments that absorbed joints join into one run.
 pub(crate) const LONGEST_CLUSTER: usize = 8;

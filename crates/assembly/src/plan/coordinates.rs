@@ -5,15 +5,12 @@
 //! the topology, which global component each coordinate is may change from pose to pose.
 
 use hyperstat_joints::{Dof, JointError};
+use hyperstat_model::{Geometry, Model, NodeId, condition_rows, to_directions};
 use nalgebra::{DMatrix, Matrix6};
 
 use super::blocks::{read, shift, write};
 use super::topology::Topology;
 use super::trees::Component;
-use crate::model::directions::condition_rows;
-use crate::model::directions::to_directions;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId};
 use crate::rank::dense::Elimination;
 
 /// Blocks over the tree coordinates, before loops are closed.

@@ -1,9 +1,9 @@
 //! Elements and their places in the matrix.
 
+use hyperstat_model::{JointId, Model, NodeId};
+
 use super::sparse::Pattern;
 use super::topology::Topology;
-use crate::model::model::Model;
-use crate::model::parts::{JointId, NodeId};
 
 /// What an element is made from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

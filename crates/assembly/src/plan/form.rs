@@ -1,13 +1,11 @@
 //! What a plan takes from a model once, and what later models must have in common with that one.
 
 use hyperstat_joints::DofSet;
+use hyperstat_model::{BodyKind, Directions, Geometry, Model, NodeId};
 use nalgebra::Matrix6;
 
 use super::workspace::Workspace;
 use crate::error::SolveError;
-use crate::model::directions::Directions;
-use crate::model::model::Model;
-use crate::model::parts::{BodyKind, Geometry, NodeId};
 use crate::plan::Plan;
 
 /// Bodies, joints and output of a model: what a plan is made for.

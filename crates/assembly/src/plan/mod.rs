@@ -18,23 +18,19 @@ use std::sync::Arc;
 
 use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::{Dof, DofSet};
-
-use crate::model::directions::Directions;
+use hyperstat_model::{
+    BodyId, Directions, Geometry, JointId, Model, NodeId, characteristic_length, fresh_revision,
+};
 use nalgebra::{Matrix6, Vector3};
 
 use crate::error::SolveError;
 use crate::kinematics::jacobian::Jacobian;
-use crate::model::model::Model;
-use crate::model::model::checks::fresh_revision;
-use crate::model::parts::{BodyId, Geometry, JointId, NodeId};
-use crate::model::size::characteristic_length;
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::elements::{ElementPlan, elements, places};
 use crate::plan::form::Form;
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::rank::dense::Elimination;
 use crate::room;
 use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};

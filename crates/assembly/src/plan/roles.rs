@@ -1,13 +1,10 @@
 //! What every joint is to the model: absorbed, a tie, a spring, a condition.
 
 use hyperstat_joints::DofSet;
+use hyperstat_model::{Directions, Geometry, Model, NodeId, SegmentId, segment_beam};
 use nalgebra::{Matrix6, Vector6};
 
 use super::clusters::LONGEST_CLUSTER;
-use crate::model::directions::Directions;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId, SegmentId};
-use crate::model::segment_beam::segment_beam;
 
 /// A joint softer than this share of the beam's own stiffness keeps coordinates of its own: across the
 /// beam's axes a matrix of doubles holds its stiffness to 1e-16 over this share, whatever formed

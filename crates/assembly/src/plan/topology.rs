@@ -5,12 +5,12 @@
 //! rigid body. Joints tie carriers into trees; a joint that would close a loop gives conditions
 //! instead (the book, "Overall model").
 
+use hyperstat_model::{Geometry, Model, NodeId};
+
 use super::clusters::{Cluster, clusters};
 use super::roles::{JointRole, roles};
 use super::trees::{Carrier, Component, carriers, components};
 use crate::error::SolveError;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId};
 
 /// Topology of a model.
 #[derive(Debug, Clone)]

@@ -5,11 +5,10 @@ use std::collections::{BinaryHeap, HashSet};
 use std::ops::Range;
 
 use hyperstat_joints::DofSet;
+use hyperstat_model::{BodyKind, JointId, Model, NodeId};
 
 use super::roles::JointRole;
 use crate::error::SolveError;
-use crate::model::model::Model;
-use crate::model::parts::{BodyKind, JointId, NodeId};
 use crate::room;
 use crate::room::MOST_NUMBERS;
 

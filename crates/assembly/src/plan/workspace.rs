@@ -6,7 +6,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::coordinates::TreeBlocks;
 use super::sparse::Factor;
-use crate::model::parts::NodeId;
+use hyperstat_model::NodeId;
 
 /// Buffers of one thread; made by [`Plan::workspace`].
 #[derive(Debug)]

@@ -2,14 +2,12 @@
 //! at its nodes absorbed (paper §2.1).
 
 use hyperstat_elements::subassembly::{ElasticJoint, StiffSegment, absorb_joints, chain_stiffness};
-use hyperstat_elements::{StraightBeam, element_frame, rotate_matrix6, rotate_vector6};
+use hyperstat_elements::{element_frame, rotate_matrix6, rotate_vector6};
 use hyperstat_joints::rigid_motion;
+use hyperstat_model::{Geometry, JointId, Model, NodeId, segment_beam};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
 use crate::error::SolveError;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, NodeId};
-use crate::model::segment_beam::segment_beam;
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
 use crate::plan::clusters::{Cluster, LONGEST_CLUSTER};

@@ -13,10 +13,8 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::error::SolveError;
 use crate::plan::Plan;
-use crate::plan::blocks::read;
-use crate::plan::blocks::{dot, multiply};
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::blocks::{dot, multiply, read};
+use crate::plan::workspace::{LOADS, Workspace};
 
 /// Refinement steps at the most.
 const MOST_REFINEMENTS: usize = 6;

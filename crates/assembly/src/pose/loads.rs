@@ -1,12 +1,11 @@
 //! Loads on coordinates.
 
+use hyperstat_model::{Geometry, NodeId};
 use nalgebra::Vector6;
 
-use crate::model::parts::{Geometry, NodeId};
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::state::acting::Acting;
 
 /// Loads on the IDCs: what acts in each state (`Σ Hᵀ F` over all nodes) in a column of its own, unit

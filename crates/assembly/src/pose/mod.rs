@@ -8,18 +8,14 @@ pub(crate) mod recover;
 pub(crate) mod restraint;
 pub(crate) mod spring;
 
+use hyperstat_model::{Geometry, Model, NodeId, characteristic_length};
 use nalgebra::Vector6;
 
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId};
-use crate::model::size::characteristic_length;
 use crate::plan::Plan;
-use crate::plan::blocks::{dot, multiply};
-use crate::plan::blocks::{read, shift, write};
+use crate::plan::blocks::{dot, multiply, read, shift, write};
 use crate::plan::elements::Source;
 use crate::plan::fault::Fault;
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::cluster::{cluster_element, cluster_initial};
 use crate::pose::loads::load;
 use crate::pose::spring::{spring_element, spring_initial};

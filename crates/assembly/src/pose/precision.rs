@@ -8,21 +8,17 @@
 //! up in them: δd of the displacements of the nodes that D takes off each other, δf of `|k| |d|`
 //! (the book, "Refinement").
 
+use hyperstat_model::{Geometry, Model, to_directions};
 use nalgebra::{Matrix6, Vector6};
 
 use super::cluster::cluster_frame;
 use super::condense::UNITS;
 use crate::answer::solution::{Output, State};
 use crate::error::SolveError;
-use crate::model::directions::to_directions;
-use crate::model::model::Model;
-use crate::model::parts::Geometry;
 use crate::plan::Plan;
-use crate::plan::blocks::multiply;
-use crate::plan::blocks::{read, shift};
+use crate::plan::blocks::{multiply, read, shift};
 use crate::plan::elements::{ElementPlan, Source};
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 
 /// Last bits by which a sum of a few products is off, with room to spare: measured on random
 /// mechanisms against 32 digits (`tests`, `precision.rs`).

@@ -2,22 +2,18 @@
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
+use hyperstat_model::{
+    Geometry, Model, NodeId, characteristic_length, rotation6, segment_beam, to_directions,
+};
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
 use super::cluster::{absorbed_joint, cluster_frame, misfit_inside};
 use crate::answer::solution::{SegmentForces, State};
 use crate::error::SolveError;
-use crate::model::directions::{rotation6, to_directions};
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId};
-use crate::model::segment_beam::segment_beam;
-use crate::model::size::characteristic_length;
 use crate::plan::Plan;
-use crate::plan::blocks::multiply;
-use crate::plan::blocks::shift;
+use crate::plan::blocks::{multiply, shift};
 use crate::plan::elements::Source;
-use crate::plan::workspace::LOADS;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::node_displacement;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::room;

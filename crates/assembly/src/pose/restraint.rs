@@ -2,22 +2,18 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use nalgebra::{DMatrix, DVector, Vector6};
+use hyperstat_model::{BodyId, Geometry, Model, NodeId, characteristic_length};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::error::SolveError;
-use crate::kinematics::motion::Motion;
-use crate::kinematics::motion::node_twist;
+use crate::kinematics::motion::{Motion, node_twist};
 use crate::kinematics::{Kinematics, analyse_at};
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, Geometry, NodeId};
-use crate::model::size::characteristic_length;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::rank::echelon::echelon;
 use crate::rank::sparse::SparseElimination;
 use crate::state::acting::Acting;
-use nalgebra::Matrix6;
 
 /// Loads work on a motion where their work is above this share of Σ |wrench| |motion| over the
 /// bodies that move.

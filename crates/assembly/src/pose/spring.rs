@@ -1,10 +1,8 @@
 //! Springs: elastic directions that no subassembly absorbs.
 
+use hyperstat_model::{Geometry, JointId, Model, to_directions};
 use nalgebra::Vector6;
 
-use crate::model::directions::to_directions;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId};
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
 use crate::plan::elements::ElementPlan;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 use super::influence::{Influence, State};
 use crate::answer::measures::compliance_along;
 use crate::answer::solution::Solution;
-use crate::model::parts::{BodyId, JointId};
+use hyperstat_model::{BodyId, JointId};
 
 /// Order by size, the largest first. What is equal to nine digits, as equal parts of a symmetric
 /// mechanism are but for rounding, is equal here, so that a stable sort keeps the order of the file.

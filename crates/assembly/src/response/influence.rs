@@ -1,18 +1,15 @@
 //! The states of unit loads on the output, and the work that a state's forces do on another's
 //! deformations: what budgets and sensitivities are made of.
 
-use hyperstat_elements::ElementError;
-use hyperstat_elements::{BeamLoad, rotate_vector6};
+use hyperstat_elements::{BeamLoad, ElementError, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
+use hyperstat_model::{
+    Directions, JointId, LoadSet, Model, SegmentBeam, SegmentId, segment_beam, to_directions,
+};
 use nalgebra::{DVector, Matrix6, Rotation3, Vector6};
 
 use crate::answer::solution::{SegmentForces, Solution};
 use crate::error::SolveError;
-use crate::model::directions::{Directions, to_directions};
-use crate::model::loads::LoadSet;
-use crate::model::model::Model;
-use crate::model::parts::{JointId, SegmentId};
-use crate::model::segment_beam::{SegmentBeam, segment_beam};
 use crate::plan::Plan;
 use crate::state::preload::along;
 
@@ -142,7 +139,7 @@ impl<'m> Influence<'m> {
         let joints = (0..model.joints().len())
             .map(|k| self.joint_state(JointId(k), displacements, wrenches))
             .collect();
-        let displacement = |node: crate::model::parts::NodeId| displacements[node.0];
+        let displacement = |node: hyperstat_model::NodeId| displacements[node.0];
         let flexibles = (model.flexibles().iter().enumerate())
             .map(|(k, flexible)| {
                 let geometry = model.geometry();

@@ -5,14 +5,13 @@
 //! displacement δ of the free end, `Rᵀ u₁ + f₂ᵀ δ`, with u₁ and f₂ those of the unit wrench.
 
 use hyperstat_elements::rotate_vector6;
+use hyperstat_model::{NodeId, SegmentId, characteristic_length};
 use nalgebra::Vector6;
 
 use super::influence::Influence;
 use super::parameters::{Parameter, Varied};
 use crate::error::SolveError;
 use crate::kinematics::motion::Motion;
-use crate::model::parts::{NodeId, SegmentId};
-use crate::model::size::characteristic_length;
 use crate::pose::restraint::working;
 
 /// Derivative by a parameter of what acts in every state.

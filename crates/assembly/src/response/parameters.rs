@@ -2,13 +2,12 @@
 
 use hyperstat_elements::{BeamLoad, LineMass, Material, Section, Taper, TemperatureChange};
 use hyperstat_joints::Dof;
+use hyperstat_model::{
+    BodyId, Directions, JointId, JointStiffness, Model, Segment, SegmentId, Tapering, ValuePlace,
+};
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::SolveError;
-use crate::model::directions::Directions;
-use crate::model::model::Model;
-use crate::model::model::values::ValuePlace;
-use crate::model::parts::{BodyId, JointId, JointStiffness, Segment, SegmentId, Tapering};
 
 /// A parameter. Equal sections, materials and elastic joints count as one: it changes all of them,
 /// unless their values have different names ([`Model::name_value`]).

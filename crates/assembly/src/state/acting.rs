@@ -8,13 +8,11 @@
 use hyperstat_elements::{
     BeamLoad, LineMass, Taper, TemperatureChange, element_frame, rotate_vector6,
 };
+use hyperstat_model::{Geometry, JointId, LoadSet, Model, NodeId, SegmentId};
 use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::preload::preloads;
 use crate::error::SolveError;
-use crate::model::loads::LoadSet;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, NodeId, SegmentId};
 
 /// What acts in one state.
 #[derive(Debug, Clone)]

@@ -6,15 +6,12 @@
 //! loads, preloads, misfits and heat could make of them: the solver tells results from rounding
 //! by it, and all comparisons with another solver have their floor from it.
 
+use hyperstat_model::{Directions, Geometry, Model, characteristic_length};
 use nalgebra::{Matrix6, Vector6};
 
 use super::acting::Acting;
 use super::preload::spring_misfit;
 use crate::error::SolveError;
-use crate::model::directions::Directions;
-use crate::model::model::Model;
-use crate::model::parts::Geometry;
-use crate::model::size::characteristic_length;
 
 /// Numbers below this share of what acts are rounding: some tens of a double's last bit.
 pub(crate) const ROUNDING: f64 = 1e-14;

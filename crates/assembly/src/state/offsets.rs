@@ -7,15 +7,13 @@
 //! (the book, "Loads and states").
 
 use hyperstat_joints::JointError;
+use hyperstat_model::{
+    Geometry, JointId, Model, NodeId, characteristic_length, condition_rows, to_directions,
+};
 use nalgebra::{DVector, Vector6};
 
 use super::preload::{along, standing};
 use crate::error::SolveError;
-use crate::model::directions::condition_rows;
-use crate::model::directions::to_directions;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, NodeId};
-use crate::model::size::characteristic_length;
 use crate::plan::blocks::{read, shift};
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::fault::Fault;

@@ -1,11 +1,10 @@
 //! Preloads of joints, and what misfits do to springs.
 
 use hyperstat_joints::DofSet;
+use hyperstat_model::{
+    Directions, Geometry, JointId, Misfit, Model, NodeId, rotation6, to_directions,
+};
 use nalgebra::Vector6;
-
-use crate::model::directions::{Directions, rotation6, to_directions};
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, Misfit, NodeId};
 
 /// The part of `values` along some directions.
 pub(crate) fn along(values: &Vector6<f64>, directions: DofSet) -> Vector6<f64> {

@@ -458,7 +458,7 @@ fn what_cannot_be_is_refused() {
         lines: Vec::new(),
     };
     model.set_loads(set).expect("loads");
-    assert!(matches!(solve(&model), Err(SolveError::NoBodyFrame { body }) if body == "beam"));
+    assert!(matches!(solve(&model), Err(SolveError::NoBodyFrame(error)) if error.body == "beam"));
     let case = |name: &str| LoadCase {
         name: name.into(),
         loads: LoadSet::default(),

@@ -3,12 +3,12 @@
 
 use crate::support;
 
-use hyperstat_assembly::{JointId, Model};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
     frame_from_axes,
 };
+use hyperstat_model::{JointId, Model};
 use nalgebra::{Matrix3, Matrix6, Point3, Rotation3, Vector3};
 use support::{Builder, drive, driven, geometry, position, turned};
 

@@ -2,9 +2,9 @@
 
 use crate::support;
 
-use hyperstat_assembly::{Geometry, JointId, Model};
 use hyperstat_closure::{ClosureError, Configuration, LoopClosure, Target};
 use hyperstat_joints::{Cylindrical, Dof, Prismatic, Revolute, Spherical, Universal};
+use hyperstat_model::{Geometry, JointId, Model};
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 use support::{Builder, drive, turned};

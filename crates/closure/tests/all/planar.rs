@@ -4,9 +4,9 @@ use crate::support;
 
 use std::f64::consts::{PI, TAU};
 
-use hyperstat_assembly::{JointId, Model, NodeId};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
 use hyperstat_joints::{Dof, Fixed, Prismatic, Revolute};
+use hyperstat_model::{JointId, Model, NodeId};
 use support::{Builder, drive, driven, geometry, placed, position};
 
 const Z: [f64; 3] = [0.0, 0.0, 1.0];

@@ -3,8 +3,8 @@
 
 use std::{fmt, slice};
 
-use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
 use hyperstat_joints::{Dof, DofSet, Joint};
+use hyperstat_model::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::{Link, PoseError, check_numbering};

@@ -1,8 +1,8 @@
 //! What can be wrong with a prebuilt mechanism's parameters or with a pose asked of it.
 
-use hyperstat_assembly::ModelError;
 use hyperstat_closure::ClosureError;
 use hyperstat_joints::JointError;
+use hyperstat_model::ModelError;
 use thiserror::Error;
 
 /// A pose for which there is no configuration.

@@ -1,7 +1,7 @@
 //! The Exechon tripod (2-UPR + SPR): parameters, model and poses.
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical, Universal};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3, center};
 
 use super::construction::{

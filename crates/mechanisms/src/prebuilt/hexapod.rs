@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{self, Configuration, Name, PLATFORM, Parts};

@@ -92,8 +92,8 @@ mod zero_torsion;
 
 use std::fmt::Debug;
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_elements::{Material, Section};
+use hyperstat_model::{Geometry, Model};
 
 pub use delta::{Delta, Elbow, RodEnds};
 pub use error::{ParameterError, PoseError};

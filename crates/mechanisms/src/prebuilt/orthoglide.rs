@@ -1,7 +1,7 @@
 //! The Orthoglide (3-PRPaR): parameters, model and poses.
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::{Prismatic, Revolute};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{

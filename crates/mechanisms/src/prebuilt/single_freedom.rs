@@ -1,8 +1,8 @@
 //! The single-freedom structure (paper §3, case study 1).
 
-use hyperstat_assembly::{Connection, Geometry, JointStiffness, Model, NodeId};
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, DofSet, Fixed};
+use hyperstat_model::{Connection, Geometry, JointStiffness, Model, NodeId};
 use nalgebra::{Point3, Rotation3};
 
 use super::{

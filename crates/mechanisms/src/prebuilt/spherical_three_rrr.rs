@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::Revolute;
+use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{

@@ -1,6 +1,6 @@
 //! The 3-RPS: parameters, model and poses.
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::Point3;
 
 use super::construction::{self, Configuration, Name, PLATFORM, Parts};

@@ -1,7 +1,7 @@
 //! The Tricept (3-UPS + UP): parameters, model and poses.
 
-use hyperstat_assembly::{Geometry, Model};
 use hyperstat_joints::{Fixed, Joint, Prismatic, Universal};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};

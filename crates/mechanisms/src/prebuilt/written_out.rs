@@ -6,9 +6,9 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::path::Path;
 
-use hyperstat_assembly::{BodyKind, JointStiffness, Model, NodeId};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{DofSet, frame_from_axis};
+use hyperstat_model::{BodyKind, JointStiffness, Model, NodeId};
 use nalgebra::{Point3, Vector3};
 use ron::extensions::Extensions;
 use serde::Deserialize;

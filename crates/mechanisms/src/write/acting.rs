@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Axes, LineLoad, LoadSet, Model, SolveError};
+use hyperstat_model::{Axes, LineLoad, LoadSet, Model, NoBodyFrame};
 use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::numbers::{fields, number, vector};
@@ -10,7 +10,7 @@ use super::place;
 
 /// Writes what acts on a model, every field of which there is something. Loads that turn with a
 /// body are written as they are in this configuration.
-pub(super) fn acting(model: &Model, text: &mut String) -> Result<(), SolveError> {
+pub(super) fn acting(model: &Model, text: &mut String) -> Result<(), NoBodyFrame> {
     let loads = set(model, model.load_set())?;
     // Writing to a String cannot fail.
     if !loads.is_empty() {
@@ -63,7 +63,7 @@ fn list(entries: &[String], indent: usize) -> String {
 }
 
 /// The loads of a set.
-fn set(model: &Model, set: &LoadSet) -> Result<Vec<String>, SolveError> {
+fn set(model: &Model, set: &LoadSet) -> Result<Vec<String>, NoBodyFrame> {
     let mut written = Vec::new();
     for load in &set.nodes {
         let [force, moment] = parts(&load.wrench, &turn(model, &load.axes)?);
@@ -83,7 +83,7 @@ fn set(model: &Model, set: &LoadSet) -> Result<Vec<String>, SolveError> {
 }
 
 /// Rotation of a load's axes from the global ones.
-fn turn(model: &Model, axes: &Axes) -> Result<Rotation3<f64>, SolveError> {
+fn turn(model: &Model, axes: &Axes) -> Result<Rotation3<f64>, NoBodyFrame> {
     axes.rotation(model, model.geometry())
 }
 

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Body, BodyKind, Model, SegmentId};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+use hyperstat_model::{Body, BodyKind, Model, SegmentId};
 
 use super::error::WriteError;
 use super::numbers::{fields, number, vector};

@@ -25,7 +25,7 @@ pub enum WriteError {
     },
     /// A load in axes that turn with a body of which nothing says how it lies.
     #[error(transparent)]
-    Axes(#[from] hyperstat_assembly::SolveError),
+    Axes(#[from] hyperstat_model::NoBodyFrame),
     /// A joint between two points of different names.
     #[error("joint `{joint}` joins point `{first}` to point `{second}`")]
     TwoPoints {

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Connection, JointId, JointStiffness, Model, NodeId};
 use hyperstat_joints::{Dof, DofSet};
+use hyperstat_model::{Connection, JointId, JointStiffness, Model, NodeId};
 use nalgebra::{Rotation3, Vector6};
 
 use super::error::WriteError;

@@ -9,7 +9,7 @@ mod numbers;
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{JointId, Model, NodeId};
+use hyperstat_model::{JointId, Model, NodeId};
 use nalgebra::Point3;
 
 use crate::registry::Registry;

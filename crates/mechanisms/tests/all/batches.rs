@@ -274,7 +274,7 @@ fn a_delta_takes_no_stiffness_about_its_axes() {
         read(&text).jobs[0].model().unwrap()
     };
     let [zero, none] = ["(x: 1e8, v: 0)", "(x: 1e8)"].map(job);
-    let stiffness = |model: &hyperstat_assembly::Model| {
+    let stiffness = |model: &hyperstat_model::Model| {
         let joints = model.joints().iter();
         joints
             .map(|joint| joint.stiffness.clone())

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_assembly::{BodyId, BodyKind, JointId, JointStiffness, Model};
 use hyperstat_joints::{Dof, DofSet};
 use hyperstat_mechanisms::{Mechanism, Registry, load_mechanism, mechanism_from_str};
+use hyperstat_model::{BodyId, BodyKind, JointId, JointStiffness, Model};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
 fn reference(name: &str) -> PathBuf {

@@ -3,9 +3,9 @@
 use crate::common;
 
 use common::{JointSpec, assert_close, circle, node, point, steel, stiffness_error};
-use hyperstat_assembly::Model;
 use hyperstat_elements::{Material, Section, SectionShape};
 use hyperstat_joints::{Fixed, Revolute};
+use hyperstat_model::Model;
 use hyperstat_reference::{ReferenceError, solve};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 

@@ -3,8 +3,8 @@
 use crate::common;
 
 use common::{JointSpec, assert_close, circle, node, point, steel, stiffness_error};
-use hyperstat_assembly::Model;
 use hyperstat_joints::{Cylindrical, DofSet, Fixed, Joint, Revolute, Screw, Spherical};
+use hyperstat_model::Model;
 use hyperstat_reference::{
     ReferenceError, TraditionalForm, TraditionalOptions, solve, traditional,
 };
@@ -323,7 +323,7 @@ fn a_body_in_mid_air() {
 #[test]
 fn models_that_are_not_one_whole_are_refused() {
     let mut model = rod_between_balls();
-    model.set_output(hyperstat_assembly::NodeId(99));
+    model.set_output(hyperstat_model::NodeId(99));
     let error = solve(&model).unwrap_err();
     assert!(matches!(error, ReferenceError::Model(_)), "{error}");
     let options = TraditionalOptions {
@@ -350,12 +350,12 @@ fn models_that_are_not_one_whole_are_refused() {
     let mut model = rod_between_balls();
     let [first, second] = ["left", "rod"].map(|body| node(&model, body, "B"));
     for k in 0..2000 {
-        let weld = hyperstat_assembly::Connection {
+        let weld = hyperstat_model::Connection {
             name: format!("more {k}"),
             between: [Some(first), Some(second)],
             joint: Box::new(Fixed),
             locked: DofSet::EMPTY,
-            stiffness: hyperstat_assembly::JointStiffness::default(),
+            stiffness: hyperstat_model::JointStiffness::default(),
         };
         model.add_joint(weld, Rotation3::identity()).unwrap();
     }

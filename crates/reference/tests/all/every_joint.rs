@@ -6,12 +6,12 @@
 use crate::common;
 
 use common::{JointSpec, assert_close, node, steel, stiffness_error};
-use hyperstat_assembly::Model;
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::{
     Cylindrical, Fixed, Planar, Prismatic, Revolute, Screw, Spherical, Universal, frame_from_axes,
     frame_from_axis,
 };
+use hyperstat_model::Model;
 use hyperstat_reference::solve;
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 

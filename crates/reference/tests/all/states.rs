@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use hyperstat_assembly::{Axes, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId};
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{Fixed, Spherical};
+use hyperstat_model::{Axes, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId};
 use hyperstat_reference::{ReferenceError, ReferenceSolution, solve};
 use nalgebra::{Rotation3, Vector3, Vector6};
 
@@ -31,11 +31,11 @@ fn beam(sections: [&Section; 2], elements: usize, held: &[&'static str]) -> Mode
     let mut model = Model::new("beam");
     let points = [("A", point(0.0, 0.0, 0.0)), ("B", point(LENGTH, 0.0, 0.0))];
     let [section, taper] = sections;
-    let member = hyperstat_assembly::Member {
+    let member = hyperstat_model::Member {
         ends: [0, 1],
         material: steel(),
         section: section.clone(),
-        taper: (section != taper).then(|| hyperstat_assembly::Tapering::whole(taper.clone())),
+        taper: (section != taper).then(|| hyperstat_model::Tapering::whole(taper.clone())),
         y_axis: None,
         elements,
     };

@@ -4,8 +4,8 @@
 use crate::common;
 
 use common::{JointSpec, circle, node, point, steel, stiffness_error};
-use hyperstat_assembly::Model;
 use hyperstat_joints::{Fixed, Revolute, Screw, Spherical};
+use hyperstat_model::Model;
 use hyperstat_reference::{
     ReferenceError, TraditionalForm, TraditionalOptions, solve, traditional,
 };

@@ -11,8 +11,7 @@ use pulp::Simd;
 use super::blocks::arm;
 use super::factor::Matrix;
 use super::lane::{Lane, Vec3, add, cross, six, three};
-use crate::lanes::program::fronts::Hang;
-use crate::lanes::program::fronts::HangPlaces;
+use crate::lanes::program::fronts::{Hang, HangPlaces};
 
 /// An element is much stiffer than others below this share of its stiffness.
 pub(crate) const DOMINATED: f64 = 0.3;

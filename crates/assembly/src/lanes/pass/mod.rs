@@ -22,8 +22,7 @@ use super::pass::lane::{Lane, Vec3, add, cross, scaled};
 use super::pass::transmit::add_chain;
 use super::program::Program;
 use super::program::element::{Kind, Screw};
-use super::program::fronts::Moves;
-use super::program::fronts::{Front, Part};
+use super::program::fronts::{Front, Moves, Part};
 
 /// Lower triangle of a 6×6 matrix.
 const TRIANGLE: usize = 21;

@@ -7,11 +7,8 @@
 //! carried on over any number of links and joints.
 
 use hyperstat_elements::PlaneFlexibility;
+use hyperstat_model::{Geometry, Model, NodeId, SegmentBeam, SegmentId, unit_beam};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId, SegmentId};
-use crate::model::segment_beam::{SegmentBeam, unit_beam};
 
 use super::inputs::{Inputs, Point};
 

@@ -6,7 +6,7 @@ use super::element::{Element, NodeMotion};
 use super::fronts::{Fronts, Hang, Part};
 use super::inputs::Inputs;
 use crate::lanes::pass::hang::{DOMINATED, MOST_FREE};
-use crate::model::parts::NodeId;
+use hyperstat_model::NodeId;
 
 /// Lets components hang on the neighbour that their stiffest element (by `weights`) joins them to,
 /// in the fronts that eliminate them. `references`: reference points of the components by their

@@ -1,18 +1,16 @@
 //! Coordinates that tell idle motions.
 
+use hyperstat_model::{Geometry, Model, NodeId};
 use nalgebra::{DVector, Vector6};
 
+use super::element::Element;
+use super::parts::Placed;
 use crate::kinematics::motion::node_twist;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, NodeId};
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
 use crate::pose::restraint::{Restraint, largest_minor, scaled};
 use crate::room;
 use crate::room::MOST_NUMBERS;
-
-use super::element::Element;
-use super::parts::Placed;
 
 /// Entries of idle motions below this are none.
 const STILL: f64 = 1e-9;
@@ -54,8 +52,7 @@ pub(crate) fn idle_coordinates(
             let at = |node: Option<NodeId>| node.map_or(Vector6::zeros(), twist);
             let relative = at(joint.between[0]) - at(joint.between[1]);
             let frame = &geometry.frames[tie.joint.0];
-            let along =
-                crate::model::directions::to_directions(&joint.joint.basis(), frame) * relative;
+            let along = hyperstat_model::to_directions(&joint.joint.basis(), frame) * relative;
             let moving = topology.joints[tie.joint.0].moving;
             for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
                 let unit = if dof.index() < 3 { restraint.size } else { 1.0 };

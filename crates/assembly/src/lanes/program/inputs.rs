@@ -1,11 +1,10 @@
 //! What the lanes read of a geometry, three numbers at a time.
 
 use hyperstat_elements::element_frame;
+use hyperstat_model::{
+    FlexibleId, Geometry, JointId, Model, NodeId, SegmentId, characteristic_length,
+};
 use nalgebra::{Rotation3, Vector3};
-
-use crate::model::model::Model;
-use crate::model::parts::{FlexibleId, Geometry, JointId, NodeId, SegmentId};
-use crate::model::size::characteristic_length;
 
 /// Place of a point among the inputs.
 pub(crate) type Point = usize;

@@ -20,22 +20,18 @@ pub(crate) mod parts;
 pub(crate) mod scatter;
 pub(crate) mod series;
 
+use hyperstat_model::{Geometry, JointId, Model, characteristic_length};
 use nalgebra::Vector6;
 
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId};
-use crate::model::size::characteristic_length;
-use crate::plan::Plan;
-use crate::plan::topology::Topology;
-
 use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
-use super::program::fronts::Scatter;
-use super::program::fronts::{Fronts, Group};
+use super::program::fronts::{Fronts, Group, Scatter};
 use super::program::hang::{hang, late_roots};
 use super::program::idle::idle_coordinates;
 use super::program::inputs::Inputs;
 use super::program::parts::{Parts, Placed, screws};
 use super::program::series::Series;
+use crate::plan::Plan;
+use crate::plan::topology::Topology;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;

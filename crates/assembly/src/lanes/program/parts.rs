@@ -1,16 +1,13 @@
 //! The links and joints of a mechanism, each by itself, before chains are made of them.
 
 use hyperstat_joints::Dof;
-
-use crate::model::directions::Directions;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, JointId, NodeId};
-use crate::plan::clusters::Cluster;
-use crate::plan::topology::Topology;
+use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 
 use super::chain::{Chain, Link, Release};
 use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Spring};
 use super::inputs::{Inputs, Point};
+use crate::plan::clusters::Cluster;
+use crate::plan::topology::Topology;
 
 /// Where a carrier stands.
 pub(crate) struct Placed {

@@ -1,8 +1,8 @@
 //! What the tests share: models put together in few words.
 
-use hyperstat_assembly::{Connection, Geometry, JointId, JointStiffness, Model, NodeId};
 use hyperstat_closure::{ClosureError, Configuration, Drive, LoopClosure, Target};
 use hyperstat_joints::{Dof, DofSet, Joint, frame_from_axis};
+use hyperstat_model::{Connection, Geometry, JointId, JointStiffness, Model, NodeId};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// A model of rigid bodies that grows joint by joint.

@@ -1,6 +1,6 @@
 //! The delta as a [`Prebuilt`].
 
-use hyperstat_assembly::{Geometry, Model};
+use hyperstat_model::{Geometry, Model};
 use nalgebra::Point3;
 
 use super::Delta;

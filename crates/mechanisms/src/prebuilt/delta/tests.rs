@@ -1,8 +1,8 @@
 //! Tests of the delta: against the written-out mechanisms, loops and symmetry over random sizes
 //! and poses, and every pose and parameter that is refused.
 
-use hyperstat_assembly::{Geometry, JointStiffness, Model};
 use hyperstat_joints::Dof;
+use hyperstat_model::{Geometry, JointStiffness, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 

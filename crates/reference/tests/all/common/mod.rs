@@ -1,8 +1,8 @@
 //! Hand-built models for the tests of this crate.
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, NodeId};
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{DofSet, Joint};
+use hyperstat_model::{Connection, JointStiffness, Model, NodeId};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector6};
 
 /// E = 210 GPa, ν = 0.3.

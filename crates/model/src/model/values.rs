@@ -2,8 +2,8 @@
 
 use hyperstat_joints::Dof;
 
-use crate::model::model::Model;
-use crate::model::parts::{JointId, JointStiffness, SegmentId};
+use crate::model::Model;
+use crate::parts::{JointId, JointStiffness, SegmentId};
 
 /// Where a value of a model stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -4,8 +4,8 @@
 use hyperstat_joints::{Dof, DofSet};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 
-use super::model::Model;
-use super::parts::{BodyId, BodyKind, Geometry, NodeId, SegmentId};
+use crate::model::Model;
+use crate::parts::{BodyId, BodyKind, Geometry, NodeId, SegmentId};
 
 /// Two directions of a body whose angle has a smaller sine do not make a frame; a direction shorter
 /// than this part of the longest is none.
@@ -26,11 +26,7 @@ impl Model {
 }
 
 /// The same in any configuration.
-pub(crate) fn body_frame(
-    model: &Model,
-    geometry: &Geometry,
-    body: BodyId,
-) -> Option<Rotation3<f64>> {
+pub fn body_frame(model: &Model, geometry: &Geometry, body: BodyId) -> Option<Rotation3<f64>> {
     let entry = &model.bodies()[body.0];
     match (entry.kind, entry.flexible) {
         (BodyKind::Flexible, Some(id)) => Some(geometry.rotations[id.0]),
@@ -40,7 +36,7 @@ pub(crate) fn body_frame(
 
 /// The rotation of a body from the model's configuration to another; the smallest one where all
 /// that is known of it lies along one line.
-pub(crate) fn turn(model: &Model, geometry: &Geometry, body: BodyId) -> Rotation3<f64> {
+pub fn turn(model: &Model, geometry: &Geometry, body: BodyId) -> Rotation3<f64> {
     let frames = [model.geometry(), geometry].map(|g| body_frame(model, g, body));
     if let [Some(then), Some(now)] = frames {
         return now * then.inverse();

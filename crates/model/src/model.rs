@@ -12,12 +12,12 @@ use std::collections::{HashMap, HashSet};
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
-use super::error::ModelError;
-use super::loads::{Axes, Load, LoadCase, LoadSet};
 pub(crate) use super::model::checks::fresh_revision;
-use super::model::checks::{check_semidefinite, check_stiffness};
-use super::model::values::ValuePlace;
-use super::parts::{
+use crate::error::ModelError;
+use crate::loads::{Axes, Load, LoadCase, LoadSet};
+use crate::model::checks::{check_semidefinite, check_stiffness};
+use crate::model::values::ValuePlace;
+use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, Member, Misfit,
     Node, NodeId, NodeMass, Segment, SegmentId,
 };

@@ -4,10 +4,10 @@ use hyperstat_joints::DofSet;
 use nalgebra::Vector6;
 
 use super::checks::fresh_revision;
-use crate::model::directions::Directions;
-use crate::model::error::ModelError;
-use crate::model::model::Model;
-use crate::model::parts::{JointId, Misfit};
+use crate::directions::Directions;
+use crate::error::ModelError;
+use crate::model::Model;
+use crate::parts::{JointId, Misfit};
 
 impl Model {
     /// Makes the second body of a joint stand off from the first by `misfit` when no force acts:

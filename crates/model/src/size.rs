@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::parts::Geometry;
+use crate::parts::Geometry;
 
 /// Diagonal of the box around all nodes (m); 1 where they coincide.
-pub(crate) fn characteristic_length(geometry: &Geometry) -> f64 {
+pub fn characteristic_length(geometry: &Geometry) -> f64 {
     let first = geometry
         .positions
         .first()

@@ -1,12 +1,12 @@
 //! The masses of nodes in other configurations.
 
-use crate::model::model::Model;
-use crate::model::orientation::turn;
-use crate::model::parts::{Geometry, NodeMass};
+use crate::model::Model;
+use crate::orientation::turn;
+use crate::parts::{Geometry, NodeMass};
 
 impl Model {
     /// The masses of the nodes in another configuration: their inertia turns with their bodies.
-    pub(crate) fn masses_at(&self, geometry: &Geometry) -> Vec<NodeMass> {
+    pub fn masses_at(&self, geometry: &Geometry) -> Vec<NodeMass> {
         let masses = self.masses.iter();
         masses
             .map(|mass| {

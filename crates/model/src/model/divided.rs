@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 
 use super::checks::fresh_revision;
-use crate::model::model::Model;
-use crate::model::parts::{Geometry, Node, NodeId, Segment, SegmentId, Tapering};
-use crate::model::segment_beam::segment_beam;
+use crate::model::Model;
+use crate::parts::{Geometry, Node, NodeId, Segment, SegmentId, Tapering};
+use crate::segment_beam::segment_beam;
 use hyperstat_elements::ElementError;
 
 impl Model {
@@ -15,7 +15,7 @@ impl Model {
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub(crate) fn divided(&self) -> Result<Self, ElementError> {
+    pub fn divided(&self) -> Result<Self, ElementError> {
         let mut whole = self.clone();
         whole.revision = fresh_revision();
         whole.clear_loads();
@@ -71,7 +71,7 @@ impl Model {
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub(crate) fn divided_geometry(&self, geometry: &Geometry) -> Result<Geometry, ElementError> {
+    pub fn divided_geometry(&self, geometry: &Geometry) -> Result<Geometry, ElementError> {
         let mut positions = geometry.positions.clone();
         let mut y_axes = Vec::new();
         for (k, segment) in self.segments.iter().enumerate() {

@@ -6,14 +6,16 @@ use hyperstat_elements::{
 };
 use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
 
-use super::model::Model;
-use super::parts::{Geometry, SegmentId};
+use crate::model::Model;
+use crate::parts::{Geometry, SegmentId};
 
 /// The beam of a segment.
 #[allow(clippy::large_enum_variant)] // In a box, each pose would allocate.
 #[derive(Debug)]
-pub(crate) enum SegmentBeam {
+pub enum SegmentBeam {
+    /// Of one section.
     Prismatic(Beam),
+    /// Of a section that changes along it.
     Tapered(TaperedBeam),
 }
 
@@ -74,7 +76,7 @@ impl SegmentBeam {
 }
 
 /// Beam of a segment, its frame and span in a configuration.
-pub(crate) fn segment_beam(
+pub fn segment_beam(
     model: &Model,
     geometry: &Geometry,
     id: SegmentId,
@@ -90,7 +92,7 @@ pub(crate) fn segment_beam(
 }
 
 /// The beam of a segment as if it were of unit length.
-pub(crate) fn unit_beam(model: &Model, id: SegmentId) -> Option<SegmentBeam> {
+pub fn unit_beam(model: &Model, id: SegmentId) -> Option<SegmentBeam> {
     let segment = &model.segments()[id.0];
     let material = &segment.material;
     match segment.change_of_section().ok()? {

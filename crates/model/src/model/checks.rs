@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use nalgebra::Matrix6;
 
-use crate::model::error::ModelError;
-use crate::model::loads::{Axes, LoadSet};
-use crate::model::model::Model;
-use crate::model::parts::{BodyId, Geometry, JointId, JointStiffness, NodeId, SegmentId};
-use crate::model::size::characteristic_length;
+use crate::error::ModelError;
+use crate::loads::{Axes, LoadSet};
+use crate::model::Model;
+use crate::parts::{BodyId, Geometry, JointId, JointStiffness, NodeId, SegmentId};
+use crate::size::characteristic_length;
 
 /// Two nodes of a joint that are no farther apart, over the mechanism's size, are one point:
 /// coordinates are typed to six digits or more, and redundant loops of such coordinates leave a few
@@ -16,7 +16,7 @@ use crate::model::size::characteristic_length;
 const ONE_POINT: f64 = 1e-5;
 
 /// A number that no other model or plan has.
-pub(crate) fn fresh_revision() -> u64 {
+pub fn fresh_revision() -> u64 {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     NEXT.fetch_add(1, Ordering::Relaxed)
 }
@@ -37,27 +37,23 @@ impl Model {
     }
 
     /// A number of this model's bodies, joints and output: the same in clones, until they change.
-    pub(crate) fn revision(&self) -> u64 {
+    pub fn revision(&self) -> u64 {
         self.revision
     }
 
     /// The same with a number of what acts on it.
-    pub(crate) fn revisions(&self) -> [u64; 2] {
+    pub fn revisions(&self) -> [u64; 2] {
         [self.revision, self.acting]
     }
 
     /// How far apart (m) two nodes of a joint may lie.
-    pub(crate) fn one_point(&self) -> f64 {
+    pub fn one_point(&self) -> f64 {
         ONE_POINT * characteristic_length(&self.geometry)
     }
 
     /// Refuses a geometry that is not one of this model, or in which the two nodes of a joint lie
     /// farther apart than `one_point` (m).
-    pub(crate) fn check_geometry(
-        &self,
-        geometry: &Geometry,
-        one_point: f64,
-    ) -> Result<(), ModelError> {
+    pub fn check_geometry(&self, geometry: &Geometry, one_point: f64) -> Result<(), ModelError> {
         self.check_size(geometry)?;
         self.check_joints(geometry, one_point)
     }
@@ -107,12 +103,13 @@ impl Model {
         own("joint", joint.0, self.joints.len())
     }
 
-    pub(crate) fn check_segment(&self, segment: SegmentId) -> Result<(), ModelError> {
+    /// Refuses a segment that is not one of this model.
+    pub fn check_segment(&self, segment: SegmentId) -> Result<(), ModelError> {
         own("segment", segment.0, self.segments.len())
     }
 
     /// Refuses loads that are not finite, or on what is not of this model.
-    pub(crate) fn check_loads(&self, loads: &LoadSet) -> Result<(), ModelError> {
+    pub fn check_loads(&self, loads: &LoadSet) -> Result<(), ModelError> {
         let wrenches = loads.nodes.iter().map(|load| &load.wrench);
         let lines = loads.lines.iter().flat_map(|load| &load.ends);
         if !wrenches.chain(lines).flatten().all(|c| c.is_finite()) {
@@ -136,7 +133,7 @@ impl Model {
 
 impl Geometry {
     /// Numbers of nodes, segments, joints and flexible bodies.
-    pub(crate) fn counts(&self) -> [usize; 4] {
+    pub fn counts(&self) -> [usize; 4] {
         [
             self.positions.len(),
             self.y_axes.len(),
@@ -156,7 +153,7 @@ fn own(what: &'static str, index: usize, count: usize) -> Result<(), ModelError>
 }
 
 /// A stiffness by directions or a matrix.
-pub(crate) fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
+pub fn check_stiffness(stiffness: &JointStiffness) -> Result<(), &'static str> {
     match stiffness {
         JointStiffness::Directions(values) => {
             if values

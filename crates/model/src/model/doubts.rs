@@ -5,9 +5,9 @@ use std::fmt;
 use hyperstat_elements::Section;
 use nalgebra::Vector6;
 
-use crate::model::loads::LoadSet;
-use crate::model::model::Model;
-use crate::model::parts::BodyKind;
+use crate::loads::LoadSet;
+use crate::model::Model;
+use crate::parts::BodyKind;
 
 /// A constant of a section, or a moment of inertia, that is above its bound by less than this part
 /// of it is a rounded one: they are typed to two or three digits.

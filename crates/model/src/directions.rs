@@ -1,14 +1,13 @@
 //! What each direction of a joint does in the model: rigid, elastic or free.
 
 use hyperstat_joints::{Dof, DofSet};
-use nalgebra::{DMatrix, Matrix6, Rotation3, Vector6};
+use nalgebra::{DMatrix, Matrix6, Rotation3, RowVector6, Vector6};
 
-use super::parts::{Connection, JointStiffness};
-use nalgebra::RowVector6;
+use crate::parts::{Connection, JointStiffness};
 
 /// The directions of a joint, sorted by what they do, with the elastic ones' stiffness.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Directions {
+pub struct Directions {
     /// Held without give.
     pub rigid: DofSet,
     /// Held by a spring.
@@ -159,7 +158,7 @@ fn inverse_on(matrix: &Matrix6<f64>, set: DofSet) -> Option<Matrix6<f64>> {
 }
 
 /// Maps a relative twist in global axes to the joint's directions: `q = basis⁻¹ Tᵀ (u_i − u_j)`.
-pub(crate) fn to_directions(basis: &Matrix6<f64>, frame: &Rotation3<f64>) -> Matrix6<f64> {
+pub fn to_directions(basis: &Matrix6<f64>, frame: &Rotation3<f64>) -> Matrix6<f64> {
     let inverse = if *basis == Matrix6::identity() {
         *basis
     } else {
@@ -169,7 +168,7 @@ pub(crate) fn to_directions(basis: &Matrix6<f64>, frame: &Rotation3<f64>) -> Mat
 }
 
 /// `diag(R, R)`.
-pub(crate) fn rotation6(rotation: &Rotation3<f64>) -> Matrix6<f64> {
+pub fn rotation6(rotation: &Rotation3<f64>) -> Matrix6<f64> {
     let mut out = Matrix6::zeros();
     out.fixed_view_mut::<3, 3>(0, 0)
         .copy_from(rotation.matrix());
@@ -180,7 +179,7 @@ pub(crate) fn rotation6(rotation: &Rotation3<f64>) -> Matrix6<f64> {
 
 /// Unit rows of a joint's conditions on the relative twist at the joint, in global axes with
 /// translations over `size`.
-pub(crate) fn condition_rows(
+pub fn condition_rows(
     to_directions: &Matrix6<f64>,
     set: DofSet,
     size: f64,

@@ -2,10 +2,10 @@
 
 use nalgebra::{Rotation3, Vector6};
 
-use super::error::NoBodyFrame;
-use super::model::Model;
-use super::orientation::body_frame;
-use super::parts::{BodyId, Geometry, NodeId, SegmentId};
+use crate::error::NoBodyFrame;
+use crate::model::Model;
+use crate::orientation::body_frame;
+use crate::parts::{BodyId, Geometry, NodeId, SegmentId};
 
 /// Axes that a load is given in.
 #[derive(Debug, Clone, Copy, PartialEq)]
