@@ -6,7 +6,7 @@
 //!
 //! [`LoopClosure::new`] takes a model at home → [`LoopClosure::reach`] follows a [`Target`] from a
 //! [`Configuration`] to the next → [`LoopClosure::write`] makes a geometry of it, with which
-//! `hyperstat_model` solves the model in that pose.
+//! `hyperstat_assembly` solves the model in that pose.
 
 mod closure;
 mod equations;

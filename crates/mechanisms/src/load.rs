@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::batch::Batch;
 use crate::error::LoadError;
-use crate::fragment::Fragment;
-use crate::mechanism::Mechanism;
+use crate::file::mechanism::Mechanism;
+use crate::file::registry::Registry;
+use crate::job::batch::Batch;
 use crate::parameters;
-use crate::registry::Registry;
-use crate::source::{Place, Source};
+use crate::text::files::{is_batch, mechanism_in};
+use crate::text::fragment::Fragment;
+use crate::text::source::Source;
 
 /// What a file holds.
 #[derive(Debug)]
@@ -85,25 +86,6 @@ impl Input {
     }
 }
 
-/// Where the mechanism stands in the file whose path stands at `path` in another file.
-pub(crate) fn mechanism_at(path: Fragment<'_>) -> Result<Place, LoadError> {
-    let source = read_named(path)?;
-    mechanism_in(&source).map(Fragment::place)
-}
-
-/// Reads the file whose path stands at `path` in another file, relative to that file.
-pub(crate) fn read_named(path: Fragment<'_>) -> Result<Arc<Source>, LoadError> {
-    let file = path.source().relative(&path.string()?);
-    path.source()
-        .read_named(&file)
-        .map_err(|error| match error {
-            LoadError::Read { path: file, source } => path
-                .error(format!("cannot read {}: {source}", file.display()))
-                .with_help("a path is relative to the folder of the file that names it"),
-            other => other,
-        })
-}
-
 fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
     let value = Fragment::of_file(source)?;
     if is_batch(value) {
@@ -124,20 +106,6 @@ fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism
     Mechanism::read(mechanism_in(source)?, registry)
 }
 
-/// The value of a file, unless it is a batch.
-fn mechanism_in(source: &Arc<Source>) -> Result<Fragment<'_>, LoadError> {
-    let value = Fragment::of_file(source)?;
-    if is_batch(value) {
-        return Err(value
-            .error("expected a mechanism, found a batch of jobs")
-            .with_help("name one of the mechanism files that the batch uses"));
-    }
-    if has_field(value, "bodies") {
-        source.understood();
-    }
-    Ok(value)
-}
-
 fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {
     let value = Fragment::of_file(source)?;
     if !is_batch(value) {
@@ -146,13 +114,4 @@ fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadEr
             .with_help("a batch is `(jobs: [(name: …, mechanism: File(\"file.ron\"))])`"));
     }
     Batch::read(value, registry)
-}
-
-fn is_batch(value: Fragment<'_>) -> bool {
-    has_field(value, "jobs")
-}
-
-fn has_field(value: Fragment<'_>, field: &str) -> bool {
-    let fields = value.named("").unwrap_or_default();
-    fields.iter().any(|(name, _)| name.text() == field)
 }

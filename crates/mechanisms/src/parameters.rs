@@ -16,12 +16,12 @@ use hyperstat_elements::{Material, Section};
 use hyperstat_joints::Dof;
 
 use crate::error::LoadError;
-use crate::fields::Fields;
-use crate::fragment::Fragment;
+use crate::file::{joints, materials, through};
 use crate::prebuilt::{
     Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
 };
-use crate::{bodies, joints, materials};
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
 
 /// A kind of prebuilt mechanism in a batch file.
 #[derive(Debug)]
@@ -179,7 +179,7 @@ fn drive_stiffness(fields: &Fields<'_>) -> Result<Option<f64>, LoadError> {
 }
 
 fn elements(fields: &Fields<'_>) -> Result<usize, LoadError> {
-    fields.get("elements").map_or(Ok(1), bodies::elements)
+    fields.get("elements").map_or(Ok(1), through::elements)
 }
 
 fn section(fragment: Fragment<'_>) -> Result<Section, LoadError> {

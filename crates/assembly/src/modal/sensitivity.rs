@@ -14,12 +14,12 @@ use std::ops::Range;
 use hyperstat_elements::{
     BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, rotate_vector6,
 };
-use hyperstat_model::{Geometry, NodeId, NodeMass, SegmentId, segment_beam};
+use hyperstat_model::{BeamMass, Geometry, NodeId, NodeMass, SegmentId, segment_beam};
 use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 
 use super::system::each_deformation;
 use crate::error::SolveError;
-use crate::modal::{BeamMass, Found, ModalPlan, Outcome, hertz};
+use crate::modal::{Found, ModalPlan, Outcome, hertz};
 use crate::plan::elements::Source;
 use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 

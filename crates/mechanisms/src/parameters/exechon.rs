@@ -1,9 +1,9 @@
 //! The Exechon in a batch file.
 
-use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Exechon;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Exechon",

@@ -1,10 +1,10 @@
 //! The hexapod in a batch file, and the cubic one.
 
 use super::legs::{foot_joint, telescopic_leg};
-use super::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::Hexapod;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Hexapod",

@@ -1,11 +1,11 @@
 //! Parts that several of the prebuilt mechanisms of a batch file have: telescopic legs, rails,
 //! the joints of legs and rods.
 
-use super::{link, optional, pair, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
-use crate::fragment::Fragment;
+use crate::parameters::{link, optional, pair, refused};
 use crate::prebuilt::{CarriageSide, FootJoint, Rails, TelescopicLeg};
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
 
 /// The field `leg`.
 pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadError> {

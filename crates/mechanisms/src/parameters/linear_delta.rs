@@ -1,10 +1,10 @@
 //! The linear delta in a batch file.
 
 use super::legs::{foot_joint, rails};
-use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::LinearDelta;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "LinearDelta",

@@ -1,9 +1,9 @@
 //! The Orthoglide in a batch file.
 
-use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Orthoglide;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Orthoglide",

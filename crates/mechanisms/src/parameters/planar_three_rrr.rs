@@ -1,9 +1,11 @@
 //! The planar 3-RRR in a batch file.
 
-use super::{Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{
+    Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused,
+};
 use crate::prebuilt::PlanarThreeRrr;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "PlanarThreeRrr",

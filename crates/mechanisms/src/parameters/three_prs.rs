@@ -1,10 +1,10 @@
 //! The 3-PRS in a batch file.
 
 use super::legs::rails;
-use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::ThreePrs;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "ThreePrs",

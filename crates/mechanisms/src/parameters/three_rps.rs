@@ -1,10 +1,10 @@
 //! The 3-RPS in a batch file.
 
 use super::legs::telescopic_leg;
-use super::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::ThreeRps;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "ThreeRps",

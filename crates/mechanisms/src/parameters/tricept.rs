@@ -1,10 +1,10 @@
 //! The Tricept in a batch file.
 
 use super::legs::telescopic_leg;
-use super::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Tricept;
+use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Tricept",

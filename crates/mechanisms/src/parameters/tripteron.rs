@@ -1,10 +1,12 @@
 //! The Tripteron in a batch file.
 
-use super::{Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, pair, refused};
 use crate::error::LoadError;
-use crate::fields::Fields;
-use crate::fragment::Fragment;
+use crate::parameters::{
+    Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, pair, refused,
+};
 use crate::prebuilt::Tripteron;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
 
 pub(super) const KIND: Kind = Kind {
     name: "Tripteron",

@@ -7,7 +7,7 @@ use hyperstat_joints::{Dof, DofSet, Joint};
 use hyperstat_model::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::{Link, PoseError, check_numbering};
+use crate::prebuilt::{Link, PoseError, check_numbering};
 
 /// Name of a body, point or joint: a word and, where it belongs to a limb, the limb's number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

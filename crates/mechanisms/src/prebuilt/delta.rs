@@ -9,7 +9,7 @@ mod topology;
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape};
 use serde::Deserialize;
 
-use super::{Link, ParameterError, parameter};
+use crate::prebuilt::{Link, ParameterError, parameter};
 
 /// The over-constrained delta; the [module](super) draws it. A pose is the position x, y, z (m)
 /// of the platform's centre P.

@@ -5,12 +5,14 @@ use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3, center};
 
 use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+    BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
 use super::tilt::Tilt;
-use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use crate::prebuilt::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, construction, coordinates, parameter,
+};
 
 /// How near, relative to the base's size, a place may come to one where a direction is not
 /// defined.

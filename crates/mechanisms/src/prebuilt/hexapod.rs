@@ -5,10 +5,12 @@ use std::f64::consts::FRAC_PI_3;
 use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, Configuration, Name, PLATFORM, Parts};
+use super::construction::{Configuration, Name, PLATFORM, Parts};
 use super::limbs::turned_outward;
 use super::telescope::{Foot, FootJoint, Leg, TelescopicLeg};
-use super::{ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use crate::prebuilt::{
+    ParameterError, PoseCoordinate, PoseError, Prebuilt, construction, coordinates, parameter,
+};
 
 /// The hexapod: a platform on six telescopic legs, 6-UPS or 6-SPS.
 ///

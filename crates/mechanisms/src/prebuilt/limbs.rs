@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use super::PoseError;
+use crate::prebuilt::PoseError;
 
 /// Number of limbs.
 pub(super) const LIMBS: usize = 3;

@@ -5,14 +5,15 @@ use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+    BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::rail::Rails;
 use super::telescope::{Foot, FootJoint};
-use super::{
-    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates, parameter,
+use crate::prebuilt::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, construction, coordinates,
+    parameter,
 };
 
 /// The linear delta: a platform that keeps its orientation on three pairs of parallel rods, each

@@ -95,22 +95,22 @@ use std::fmt::Debug;
 use hyperstat_elements::{Material, Section};
 use hyperstat_model::{Geometry, Model};
 
-pub use delta::{Delta, Elbow, RodEnds};
-pub use error::{ParameterError, PoseError};
-pub use exechon::Exechon;
-pub use hexapod::Hexapod;
-pub use linear_delta::LinearDelta;
-pub use orthoglide::Orthoglide;
-pub use planar_three_rrr::PlanarThreeRrr;
-pub use rail::{CarriageSide, Rails};
-pub use single_freedom::SingleFreedom;
-pub use spherical_three_rrr::SphericalThreeRrr;
-pub use telescope::{FootJoint, TelescopicLeg};
-pub use three_prs::ThreePrs;
-pub use three_rps::ThreeRps;
-pub use tricept::Tricept;
-pub use tripteron::Tripteron;
-pub use two_links::ElbowSide;
+pub use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
+pub use crate::prebuilt::error::{ParameterError, PoseError};
+pub use crate::prebuilt::exechon::Exechon;
+pub use crate::prebuilt::hexapod::Hexapod;
+pub use crate::prebuilt::linear_delta::LinearDelta;
+pub use crate::prebuilt::orthoglide::Orthoglide;
+pub use crate::prebuilt::planar_three_rrr::PlanarThreeRrr;
+pub use crate::prebuilt::rail::{CarriageSide, Rails};
+pub use crate::prebuilt::single_freedom::SingleFreedom;
+pub use crate::prebuilt::spherical_three_rrr::SphericalThreeRrr;
+pub use crate::prebuilt::telescope::{FootJoint, TelescopicLeg};
+pub use crate::prebuilt::three_prs::ThreePrs;
+pub use crate::prebuilt::three_rps::ThreeRps;
+pub use crate::prebuilt::tricept::Tricept;
+pub use crate::prebuilt::tripteron::Tripteron;
+pub use crate::prebuilt::two_links::ElbowSide;
 
 /// A mechanism that builds its own model for a pose of its output.
 pub trait Prebuilt: Debug + Send + Sync {

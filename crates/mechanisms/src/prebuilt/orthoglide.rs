@@ -5,13 +5,14 @@ use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+    BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
 use super::error::shown;
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
-use super::{
-    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates, parameter,
+use crate::prebuilt::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, construction, coordinates,
+    parameter,
 };
 
 /// How far, relative to the rods' length, a pose may miss the edge of a limb's reach and still

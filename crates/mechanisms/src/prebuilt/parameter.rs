@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
 use hyperstat_joints::Dof;
 
-use super::ParameterError;
+use crate::prebuilt::ParameterError;
 
 /// A length (m) that must not vanish.
 pub(super) fn positive_length(field: &'static str, value: f64) -> Result<(), ParameterError> {

@@ -4,12 +4,13 @@ use hyperstat_joints::Revolute;
 use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts};
+use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts};
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb, turned_outward};
 use super::two_links::{TwoLinks, joints_of};
-use super::{
-    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter,
+use crate::prebuilt::{
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, construction,
+    coordinates, parameter,
 };
 
 /// The planar 3-RRR: a platform that moves in the plane z = 0 on three limbs of two links each.

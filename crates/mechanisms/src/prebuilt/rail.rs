@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::error::shown;
 use super::limbs::{LIMBS, outward};
-use super::{ParameterError, PoseError, parameter};
+use crate::prebuilt::{ParameterError, PoseError, parameter};
 
 /// How far, relative to the rods' length, a pose may miss the edge of their reach and still
 /// count as on it (the rods normal to the rail). Loops then close to this, not to rounding.

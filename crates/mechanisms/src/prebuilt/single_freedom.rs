@@ -5,7 +5,7 @@ use hyperstat_joints::{Dof, DofSet, Fixed};
 use hyperstat_model::{Connection, Geometry, JointStiffness, Model, NodeId};
 use nalgebra::{Point3, Rotation3};
 
-use super::{
+use crate::prebuilt::{
     ParameterError, PoseCoordinate, PoseError, Prebuilt, check_numbering, coordinates, parameter,
 };
 

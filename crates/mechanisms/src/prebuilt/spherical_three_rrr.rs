@@ -6,15 +6,13 @@ use hyperstat_joints::Revolute;
 use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts,
-};
+use super::construction::{BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts};
 use super::error::shown;
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb};
-use super::{
-    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates,
-    parameter,
+use crate::prebuilt::{
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, construction,
+    coordinates, parameter,
 };
 
 /// How far (rad) a pose may miss the edge of a limb's reach and still count as on it.

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::construction::{BeamPart, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID};
 use super::error::shown;
 use super::frames::frame;
-use super::{Link, ParameterError, PoseError, parameter};
+use crate::prebuilt::{Link, ParameterError, PoseError, parameter};
 
 /// How far, relative to its length, a leg may miss its shortest and longest length and still
 /// count as having it.

@@ -5,13 +5,15 @@ use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
-    self, BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
+    BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb, tangent};
 use super::rail::Rails;
 use super::zero_torsion::Platform;
-use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use crate::prebuilt::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, construction, coordinates, parameter,
+};
 
 /// The 3-PRS: a platform on three rods of fixed length that swing about hinges on driven
 /// carriages.

@@ -3,11 +3,13 @@
 use hyperstat_model::{Geometry, Model};
 use nalgebra::Point3;
 
-use super::construction::{self, Configuration, Name, PLATFORM, Parts};
+use super::construction::{Configuration, Name, PLATFORM, Parts};
 use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::telescope::{Foot, Leg, TelescopicLeg};
 use super::zero_torsion::Platform;
-use super::{ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use crate::prebuilt::{
+    ParameterError, PoseCoordinate, PoseError, Prebuilt, construction, coordinates, parameter,
+};
 
 /// The 3-RPS: a platform on three telescopic legs that swing about hinges on the base.
 ///

@@ -4,13 +4,15 @@ use hyperstat_joints::{Fixed, Joint, Prismatic, Universal};
 use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
+use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
 use super::error::shown;
 use super::frames::frame;
 use super::limbs::{LIMBS, outward, per_limb, tangent};
 use super::telescope::{Foot, Leg, TelescopicLeg, second_axis};
 use super::tilt::Tilt;
-use super::{Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, coordinates, parameter};
+use crate::prebuilt::{
+    Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, construction, coordinates, parameter,
+};
 
 /// The Tricept (3-UPS + UP): a platform on three telescopic legs, its orientation held by a
 /// passive telescopic leg in the middle.

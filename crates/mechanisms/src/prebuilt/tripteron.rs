@@ -4,13 +4,13 @@ use hyperstat_joints::{Prismatic, Revolute};
 use hyperstat_model::{Geometry, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::construction::{self, BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
+use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
 use super::frames::frame;
 use super::limbs::{LIMBS, per_limb};
 use super::two_links::{TwoLinks, joints_of};
-use super::{
-    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, coordinates,
-    parameter,
+use crate::prebuilt::{
+    ElbowSide, Link, ParameterError, PoseCoordinate, PoseError, Prebuilt, ROTATION, construction,
+    coordinates, parameter,
 };
 
 /// The Tripteron (3-PRRR): a platform that keeps its orientation, each of its coordinates moved

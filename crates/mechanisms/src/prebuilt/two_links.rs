@@ -3,9 +3,9 @@
 use nalgebra::Point3;
 use serde::Deserialize;
 
-use super::PoseError;
 use super::construction::{Name, NamedPoint};
 use super::error::shown;
+use crate::prebuilt::PoseError;
 
 /// How far, relative to the links' length, a pose may miss the edge of their reach and still
 /// count as on it (both links in one line). Loops then close to this, not to rounding.

@@ -6,7 +6,7 @@ use hyperstat_model::{Axes, LineLoad, LoadSet, Model, NoBodyFrame};
 use nalgebra::{Rotation3, Vector3, Vector6};
 
 use super::numbers::{fields, number, vector};
-use super::place;
+use crate::write::place;
 
 /// Writes what acts on a model, every field of which there is something. Loads that turn with a
 /// body are written as they are in this configuration.

@@ -12,10 +12,10 @@ use std::fmt::Write as _;
 use hyperstat_model::{JointId, Model, NodeId};
 use nalgebra::Point3;
 
-use crate::registry::Registry;
-use bodies::Parts;
-pub use error::WriteError;
-use numbers::vector;
+use crate::file::registry::Registry;
+use crate::write::bodies::Parts;
+pub use crate::write::error::WriteError;
+use crate::write::numbers::vector;
 
 /// Nodes of one point's name may lie this far apart, over the mechanism's size.
 const SAME_PLACE: f64 = 1e-12;

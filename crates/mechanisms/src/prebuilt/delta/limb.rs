@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::topology::{JointRole, Part, Point};
-use super::{Delta, Elbow, RodEnds};
 use crate::prebuilt::PoseError;
+use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 use crate::prebuilt::error::shown;
 use crate::prebuilt::frames::frame;
 use crate::prebuilt::limbs::{outward, tangent};

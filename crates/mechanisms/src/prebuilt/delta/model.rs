@@ -3,9 +3,9 @@
 use hyperstat_model::{Geometry, Model};
 use nalgebra::Point3;
 
-use super::Delta;
 use super::limb::Limb;
 use super::topology::Posed;
+use crate::prebuilt::delta::Delta;
 use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt, ROTATION, construction, coordinates};
 
 impl Prebuilt for Delta {

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use super::limb::Limb;
 use super::topology::{JointRole, Part, Point};
-use super::{Delta, Elbow, RodEnds};
+use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 use crate::prebuilt::written_out::WrittenOut;
 use crate::prebuilt::{PoseError, Prebuilt};
 

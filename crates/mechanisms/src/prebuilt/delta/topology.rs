@@ -4,10 +4,10 @@ use hyperstat_joints::{Joint, Revolute, Spherical};
 use nalgebra::Point3;
 
 use super::limb::Limb;
-use super::{Delta, RodEnds};
 use crate::prebuilt::construction::{
     BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
+use crate::prebuilt::delta::{Delta, RodEnds};
 use crate::prebuilt::limbs::LIMBS;
 
 /// A point of a limb.

@@ -1,0 +1,281 @@
+//! Bodies made of beams: one beam, or a frame of several.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use hyperstat_elements::{Beam, ElementError, Material, Section, TaperedBeam, element_frame};
+use hyperstat_model::{BodyId, Member, Model, ModelError, Tapering};
+use nalgebra::Vector3;
+
+use super::materials::Profile;
+use super::through::{Tables, Through, elements, listed, pairs, through};
+use super::value_names::Given;
+use crate::error::LoadError;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+
+/// Reads `Beam(through: […], section: …, material: …)`.
+pub(crate) fn beam(
+    name: &str,
+    fields: &Fields<'_>,
+    tables: &Tables,
+    model: &mut Model,
+    given: &mut Vec<Given>,
+) -> Result<BodyId, LoadError> {
+    let list = fields.required("through")?;
+    let points = through(fields, list, tables)?;
+    let places: Vec<usize> = (0..points.len()).collect();
+    let run = Run {
+        what: format!("beam `{name}`"),
+        list,
+        points: &points,
+        places: &places,
+    };
+    let members = run.members(&|field| fields.get(field), fields, tables, given)?;
+    model
+        .add_elastic(name, &pairs(&points), &members)
+        .map_err(|error| list.error(error.to_string()))
+}
+
+/// Reads `Frame(members: […], section: …, material: …)`.
+pub(crate) fn frame(
+    name: &str,
+    fields: &Fields<'_>,
+    tables: &Tables,
+    model: &mut Model,
+    given: &mut Vec<Given>,
+) -> Result<BodyId, LoadError> {
+    let list = fields.required("members")?;
+    let mut points = Vec::<Through>::new();
+    let mut place_of = HashMap::new();
+    let mut members = Vec::new();
+    let mut taken = HashSet::new();
+    let expected = "a list of members, each a list of points or `(through: […], …)`";
+    for (k, member) in list.list(expected)?.into_iter().enumerate() {
+        let what = format!("member {} of frame `{name}`", k + 1);
+        let (own, through) = if member.text().starts_with('(') {
+            let known = ["through", "section", "material", "y_axis", "elements"];
+            let own = Fields::read(member, &what, &known)?;
+            let through = own.required("through")?;
+            (own, through)
+        } else if member.text().starts_with('[') {
+            (Fields::none(member, &what), member)
+        } else {
+            return Err(member.expected("a member, a list of points or `(through: […], …)`"));
+        };
+        let mut places = Vec::new();
+        for point in listed(through, tables)? {
+            let next = points.len();
+            let place = *place_of.entry(point.name.clone()).or_insert(next);
+            places.push(place);
+            if place == next {
+                points.push(point.clone());
+            }
+            if let [.., a, b] = places[..]
+                && a != b
+                && !taken.insert((a.min(b), a.max(b)))
+            {
+                let (a, b) = (&points[a].name, &points[b].name);
+                return Err(point
+                    .at
+                    .error(format!("{what} is the second between `{a}` and `{b}`"))
+                    .with_help("leave one of the two out, or give one beam the section of both"));
+            }
+        }
+        let run = Run {
+            what,
+            list: through,
+            points: &points,
+            places: &places,
+        };
+        let field = |field: &str| own.get(field).or_else(|| fields.get(field));
+        members.extend(run.members(&field, fields, tables, given)?);
+    }
+    if members.is_empty() {
+        return Err(list
+            .error(format!("frame `{name}` has no members"))
+            .with_help("add a member, such as `[\"A\", \"B\"]`"));
+    }
+    model
+        .add_elastic(name, &pairs(&points), &members)
+        .map_err(|error| match &error {
+            ModelError::Loose { point, .. } => {
+                let loose = points.iter().find(|other| other.name == *point);
+                loose
+                    .map_or(list, |loose| loose.at)
+                    .error(format!(
+                        "no member of frame `{name}` connects point `{point}` with point `{}`",
+                        points[0].name
+                    ))
+                    .with_help("add a member between the two parts, or make each a body of its own")
+            }
+            _ => list.error(error.to_string()),
+        })
+}
+
+/// A section's name, the section, and its change along a segment.
+type Sections = (Arc<str>, Section, Option<Tapering>);
+
+/// A chain of segments through some points of a body.
+struct Run<'r, 'a> {
+    /// What it is, in words.
+    what: String,
+    /// The list of points in the file.
+    list: Fragment<'a>,
+    points: &'r [Through<'a>],
+    /// Places of the points it runs through, in `points`.
+    places: &'r [usize],
+}
+
+impl<'a> Run<'_, 'a> {
+    /// Its segments; `get` finds a field's value, `owner` has the fields that must be there. Adds to
+    /// `given` what each is given by.
+    fn members(
+        &self,
+        get: &dyn Fn(&str) -> Option<Fragment<'a>>,
+        owner: &Fields<'a>,
+        tables: &Tables,
+        given: &mut Vec<Given>,
+    ) -> Result<Vec<Member>, LoadError> {
+        if self.places.len() < 2 {
+            return Err(self
+                .list
+                .error(format!("{} runs through fewer than two points", self.what))
+                .with_help("a beam has two ends; use `Rigid` for a body of one point"));
+        }
+        let required = |name: &str| match get(name) {
+            Some(given) => Ok(given),
+            None => owner.required(name),
+        };
+        let sections = self.sections(required("section")?, tables)?;
+        let of_material = required("material")?;
+        let material = tables.materials.find(of_material)?;
+        let material_name: Arc<str> = of_material.string()?.into();
+        let y_axis = get("y_axis");
+        let direction = y_axis.map(Fragment::direction).transpose()?;
+        let elements = get("elements").map_or(Ok(1), elements)?;
+        let mut members = Vec::new();
+        for (ends, (name, section, taper)) in self.places.windows(2).zip(sections) {
+            let member = Member {
+                ends: [ends[0], ends[1]],
+                material: material.clone(),
+                section,
+                taper,
+                y_axis: direction,
+                elements,
+            };
+            let [from, to] = member.ends.map(|place| &self.points[place]);
+            let span = to.position - from.position;
+            check(&member, &span, material)
+                .map_err(|error| self.error(&error, [from, to], y_axis))?;
+            members.push(member);
+            given.push(Given {
+                section: name,
+                material: Arc::clone(&material_name),
+            });
+        }
+        Ok(members)
+    }
+
+    /// The section of every segment, by its name in the table, and its change: one section all
+    /// along, a taper along the whole run, or a list of a section for each segment.
+    fn sections(&self, given: Fragment<'a>, tables: &Tables) -> Result<Vec<Sections>, LoadError> {
+        let lengths = self.lengths();
+        let named = |name: Fragment<'_>| -> Result<(Arc<str>, &Profile), LoadError> {
+            Ok((name.string()?.into(), tables.sections.find(name)?))
+        };
+        if !given.text().starts_with('[') {
+            let (name, profile) = named(given)?;
+            let whole: f64 = lengths.iter().sum();
+            let mut passed = 0.0;
+            let parts = lengths.iter().enumerate().map(|(k, length)| {
+                let first = passed / whole;
+                passed += length;
+                let last = k + 1 == lengths.len();
+                let last = if last { 1.0 } else { passed / whole };
+                let (section, taper) = profile.part([first, last]);
+                (Arc::clone(&name), section, taper)
+            });
+            return Ok(parts.collect());
+        }
+        let names = given.list("a section, or a list of one for each segment")?;
+        if names.len() != lengths.len() {
+            return Err(given
+                .error(format!(
+                    "{} has {} segments, its list of sections has {}",
+                    self.what,
+                    lengths.len(),
+                    names.len()
+                ))
+                .with_help(
+                    "list one section for each segment between two points, or name one for all",
+                ));
+        }
+        let whole = |name: Fragment<'_>| {
+            let (name, profile) = named(name)?;
+            let (section, taper) = profile.part([0.0, 1.0]);
+            Ok((name, section, taper))
+        };
+        names.into_iter().map(whole).collect()
+    }
+
+    /// Length of every segment \[m\].
+    fn lengths(&self) -> Vec<f64> {
+        let position = |place: usize| self.points[place].position;
+        let ends = self.places.windows(2);
+        ends.map(|w| (position(w[1]) - position(w[0])).norm())
+            .collect()
+    }
+
+    /// The error of a segment, where the file makes it.
+    fn error(
+        &self,
+        error: &ElementError,
+        [from, to]: [&Through<'a>; 2],
+        y_axis: Option<Fragment<'a>>,
+    ) -> LoadError {
+        let segment = format!("{} between `{}` and `{}`", self.what, from.name, to.name);
+        match error {
+            ElementError::NoLength { .. } => to
+                .at
+                .error(format!(
+                    "{} has no length between `{}` and `{}`",
+                    self.what, from.name, to.name
+                ))
+                .with_help("give the two points different places, or leave one out"),
+            ElementError::AlongBeam { .. } => y_axis
+                .unwrap_or(self.list)
+                .error(format!("`y_axis` lies along {segment}"))
+                .with_help("give a direction across the beam, or leave `y_axis` out"),
+            ElementError::OutOfRange {
+                field: "length",
+                value,
+                ..
+            } => to
+                .at
+                .error(format!(
+                    "{segment}: an element of {value:?} m has a stiffness beyond double precision"
+                ))
+                .with_help(
+                    "look at the points, the section and the material: lengths are in m, `young` \
+                     is in N/m²",
+                ),
+            other => to.at.error(format!("{segment}: {other}")),
+        }
+    }
+}
+
+/// Looks whether the frame and the stiffness of a segment's elements can be formed.
+fn check(member: &Member, span: &Vector3<f64>, material: &Material) -> Result<(), ElementError> {
+    element_frame(span, member.y_axis.as_ref())?;
+    let length = span.norm();
+    match member.change_of_section()? {
+        None => {
+            Beam::new(material, &member.section, length / member.elements as f64)?;
+        }
+        Some(taper) => {
+            TaperedBeam::new(material, &taper, length)?;
+        }
+    }
+    Ok(())
+}

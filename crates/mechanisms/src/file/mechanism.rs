@@ -1,0 +1,179 @@
+//! One mechanism, as a file describes it.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use hyperstat_model::{BodyId, JointId, Model};
+use nalgebra::Point3;
+
+use super::home::Home;
+use super::loads::Acting;
+use super::registry::Registry;
+use super::through::{Tables, check_name};
+use super::value_names::{Given, Replaced};
+use crate::error::{LoadError, Location};
+use crate::file::{bodies, joints, loads, materials, nodes, value_names};
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::source::Place;
+use crate::text::table::Table;
+
+/// A mechanism read from a file: its model, and the place of every part of it.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// The model, with its loads and output.
+    pub model: Model,
+    bodies: Vec<Place>,
+    joints: Vec<Place>,
+    loads: Vec<Place>,
+    output: Place,
+    /// The file's text.
+    root: Place,
+    /// What the segments are given by.
+    given: Vec<Given>,
+    /// Whether the masses are the file's own.
+    own_masses: bool,
+    unused_points: Vec<String>,
+}
+
+impl Mechanism {
+    /// Reads the value of a mechanism file.
+    pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
+        let known = [
+            "name",
+            "materials",
+            "sections",
+            "points",
+            "bodies",
+            "joints",
+            "loads",
+            "cases",
+            "gravity",
+            "masses",
+            "output",
+        ];
+        let fields = Fields::read(fragment, "the mechanism", &known)?;
+        let mut model = Model::new(fields.required("name")?.string()?);
+        let tables = Tables {
+            materials: Table::read(fields.get("materials"), "material", |entry, owner| {
+                materials::material(entry.value, owner)
+            })?,
+            sections: Table::read(fields.get("sections"), "section", |entry, owner| {
+                materials::profile(entry.value, owner)
+            })?,
+            points: Table::read(Some(fields.required("points")?), "point", |entry, _| {
+                check_name(entry, "point")?;
+                place(entry.value)
+            })?,
+        };
+        let mut bodies = Vec::new();
+        let mut given = Vec::new();
+        for entry in fields.required("bodies")?.map()? {
+            bodies::read(&entry, &tables, &mut model, &mut given)?;
+            bodies.push(entry.key.place());
+        }
+        let mut joints = Vec::new();
+        let point = |at: Fragment<'_>| tables.points.find(at).and_then(|_| at.string());
+        for entry in fields.required("joints")?.map()? {
+            joints::read(&entry, point, registry, &mut model)?;
+            joints.push(entry.key.place());
+        }
+        let output = fields.required("output")?;
+        model.set_output(nodes::on(&model, output, "the output")?);
+        let field = |k: usize| fields.get(loads::FIELDS[k]);
+        let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
+        let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        let points = tables.points.names();
+        let unused = points.filter(|name| !used.contains(name));
+        let unused_points = unused.map(Into::into).collect();
+        Ok(Self {
+            model,
+            bodies,
+            joints,
+            loads,
+            output: output.place(),
+            root: fragment.place(),
+            given,
+            own_masses: true,
+            unused_points,
+        })
+    }
+
+    /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the
+    /// mechanism's own.
+    pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
+        if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
+            self.loads = loads;
+        }
+        self.own_masses = !acting.has_masses();
+        Ok(())
+    }
+
+    /// All files that were read for it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.output.source.files()
+    }
+
+    /// Names values of `model`, which is this mechanism's in any configuration, by their paths in
+    /// the file, as `vary` takes them ([`Model::name_value`]): every value of a section and a
+    /// material, masses, and stiffnesses of joints that no other joint has alike.
+    pub fn name_values(&self, model: &mut Model) {
+        self.name_others(&[], model);
+    }
+
+    /// The same where something stands in for parts of the text.
+    pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
+        let root = Fragment::at(&self.root);
+        value_names::of_file(root, replaced, &self.given, self.own_masses, model);
+    }
+
+    /// The points of the file that no body runs through, in its order.
+    pub fn unused_points(&self) -> &[String] {
+        &self.unused_points
+    }
+
+    /// Place of a body's name.
+    ///
+    /// # Panics
+    /// If the body is not one of this mechanism's model.
+    pub fn locate_body(&self, body: BodyId) -> Location {
+        self.bodies[body.0].location()
+    }
+
+    /// Place of a joint's name.
+    ///
+    /// # Panics
+    /// If the joint is not one of this mechanism's model.
+    pub fn locate_joint(&self, joint: JointId) -> Location {
+        self.joints[joint.0].location()
+    }
+
+    /// Place of the value of `output`.
+    pub fn locate_output(&self) -> Location {
+        self.output.location()
+    }
+
+    /// Place of a load, by its index in [`Model::loads`]; in the batch file where a job's loads
+    /// replaced the mechanism's own.
+    ///
+    /// # Panics
+    /// If the model has fewer loads.
+    pub fn locate_load(&self, load: usize) -> Location {
+        self.loads[load].location()
+    }
+}
+
+/// Largest coordinate of a point (m): with those beyond it, sums of squares and the stiffness of
+/// what they span would overflow.
+const FARTHEST: f64 = 1e50;
+
+/// Reads the place of a point.
+fn place(fragment: Fragment<'_>) -> Result<Point3<f64>, LoadError> {
+    let place = fragment.vector()?;
+    if place.amax() > FARTHEST {
+        return Err(fragment
+            .error(format!("no point can be farther than {FARTHEST:?} m"))
+            .with_help("give the coordinates in metres"));
+    }
+    Ok(place.into())
+}

@@ -1,0 +1,218 @@
+//! The joint kinds that a file may name.
+
+use std::fmt;
+use std::sync::Arc;
+
+use hyperstat_joints::Joint;
+use nalgebra::{Rotation3, Vector3};
+use serde::de::DeserializeOwned;
+
+use crate::error::LoadError;
+use crate::file::kinds;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::names;
+
+/// The joint kinds that a file may name, each with its reader.
+#[derive(Clone)]
+pub struct Registry {
+    kinds: Vec<Kind>,
+}
+
+type Reader = dyn Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync;
+type Writer = dyn Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)> + Send + Sync;
+
+#[derive(Clone)]
+struct Kind {
+    name: String,
+    arguments: &'static [&'static str],
+    reader: Arc<Reader>,
+    writer: Option<Arc<Writer>>,
+}
+
+impl Registry {
+    /// The built-in joint kinds: `Fixed`, `Revolute`, `Prismatic`, `Cylindrical`, `Screw`,
+    /// `Universal`, `Spherical` and `Planar`.
+    pub fn builtin() -> Self {
+        let mut registry = Self { kinds: Vec::new() };
+        kinds::register(&mut registry);
+        registry
+    }
+
+    /// Adds a joint kind, or replaces the one of this name. A file may give the named
+    /// `arguments` and no others; `reader` makes the joint from those it gives.
+    pub fn register(
+        &mut self,
+        name: &str,
+        arguments: &'static [&'static str],
+        reader: impl Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync + 'static,
+    ) {
+        self.kinds.retain(|kind| kind.name != name);
+        self.kinds.push(Kind {
+            name: name.into(),
+            arguments,
+            reader: Arc::new(reader),
+            writer: None,
+        });
+    }
+
+    /// Says how joints of the kind `name` are written into a file: `writer` gets the joint and its
+    /// frame (columns x, y, z in global axes) and gives the arguments that the kind's reader makes
+    /// them from. Beside an argument that is one direction, the axis, the frame's x is written as
+    /// the joint's `x_axis`. Only [`write`](crate::write()) needs it. Without a kind of this name
+    /// it does nothing.
+    pub fn register_writer(
+        &mut self,
+        name: &str,
+        writer: impl Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)>
+        + Send
+        + Sync
+        + 'static,
+    ) {
+        if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.name == name) {
+            kind.writer = Some(Arc::new(writer));
+        }
+    }
+
+    /// The arguments of a joint as a file gives them; `None` where its kind has no writer.
+    pub(crate) fn arguments(
+        &self,
+        joint: &dyn Joint,
+        frame: &Rotation3<f64>,
+    ) -> Option<Vec<(&'static str, Argument)>> {
+        let kind = self.kinds.iter().find(|kind| kind.name == joint.kind())?;
+        kind.writer.as_ref().map(|writer| writer(joint, frame))
+    }
+
+    /// Names of all kinds.
+    pub fn kinds(&self) -> impl Iterator<Item = &str> {
+        self.kinds.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// Reads `Kind`, `Kind()` or `Kind(argument: …)`.
+    pub(crate) fn read(&self, fragment: Fragment<'_>) -> Result<ParsedJoint, LoadError> {
+        let (name, arguments) = fragment.variant("a joint kind, such as `Spherical`")?;
+        let Some(kind) = self.kinds.iter().find(|kind| kind.name == name.text()) else {
+            return Err(name
+                .error(format!("unknown joint kind `{}`", name.text()))
+                .unreadable()
+                .with_help(names::help(name.text(), "kinds", self.kinds())));
+        };
+        let owner = format!("`{}`", kind.name);
+        let fields = match arguments {
+            None => Fields::none(fragment, owner),
+            Some(given) => {
+                check_x_axis(given, kind)?;
+                Fields::read(given, owner, kind.arguments)?.within(fragment)
+            }
+        };
+        (kind.reader)(&Arguments { fields })
+    }
+}
+
+/// Refuses an `x_axis` among the arguments of a kind that knows none: it belongs to the joint.
+fn check_x_axis(given: Fragment<'_>, kind: &Kind) -> Result<(), LoadError> {
+    let fields = given.named("arguments in parentheses")?;
+    match fields.iter().find(|(name, _)| name.text() == "x_axis") {
+        Some((name, _)) if !kind.arguments.contains(&"x_axis") => Err(name
+            .error("`x_axis` is a field of the joint, not of its kind")
+            .with_help(format!("write `kind: {}(…), x_axis: (…)`", kind.name))),
+        _ => Ok(()),
+    }
+}
+
+impl fmt::Debug for Registry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.kinds()).finish()
+    }
+}
+
+/// The arguments of a joint kind as a file gives them, such as
+/// `(axis: (0.0, 0.0, 1.0), pitch: 0.005)`. Every error points at the value it is about.
+#[derive(Debug)]
+pub struct Arguments<'a> {
+    fields: Fields<'a>,
+}
+
+impl Arguments<'_> {
+    /// Whether an argument is given.
+    pub fn has(&self, name: &str) -> bool {
+        self.fields.get(name).is_some()
+    }
+
+    /// A number that must be given.
+    ///
+    /// # Errors
+    /// It is missing, not a number or not finite.
+    pub fn number(&self, name: &str) -> Result<f64, LoadError> {
+        self.fields.number(name)
+    }
+
+    /// A vector `(x, y, z)` that must be given.
+    ///
+    /// # Errors
+    /// It is missing, not three finite numbers, or zero.
+    pub fn direction(&self, name: &str) -> Result<Vector3<f64>, LoadError> {
+        self.fields.required(name)?.direction()
+    }
+
+    /// Two vectors `((x, y, z), (x, y, z))` that must be given.
+    ///
+    /// # Errors
+    /// As [`Arguments::direction`].
+    pub fn two_directions(&self, name: &str) -> Result<[Vector3<f64>; 2], LoadError> {
+        let pair = self.fields.required(name)?;
+        let [a, b] = pair.array("two vectors `((x, y, z), (x, y, z))`")?;
+        Ok([a.direction()?, b.direction()?])
+    }
+
+    /// Any other type, if it is given; `expected` says in words what it is ("a list of
+    /// numbers"). Floating-point numbers may come out as NaN or infinite.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn read<T: DeserializeOwned>(
+        &self,
+        name: &str,
+        expected: &str,
+    ) -> Result<Option<T>, LoadError> {
+        let value = self.fields.get(name);
+        value.map(|value| value.parse(expected)).transpose()
+    }
+
+    /// An error at an argument, or at the whole kind where it is not given.
+    pub fn error(&self, name: &str, message: impl Into<String>) -> LoadError {
+        self.fields.error(name, message)
+    }
+}
+
+/// An argument of a joint kind as a writer gives it; directions are in global axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Argument {
+    /// A number.
+    Number(f64),
+    /// A direction.
+    Direction(Vector3<f64>),
+    /// Two directions.
+    TwoDirections([Vector3<f64>; 2]),
+}
+
+/// A joint as a reader returns it.
+#[derive(Debug, Clone)]
+pub struct ParsedJoint {
+    /// The joint.
+    pub joint: Box<dyn Joint>,
+    /// How its frame is oriented.
+    pub orientation: Orientation,
+}
+
+/// How the frame of a joint is oriented; directions are in global axes and of any length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Orientation {
+    /// The frame is the global one.
+    Global,
+    /// y is this axis; x is the joint's `x_axis` in the file made normal to it, or the default.
+    Axis(Vector3<f64>),
+    /// x is the first, y the second made normal to the first.
+    Axes(Vector3<f64>, Vector3<f64>),
+}

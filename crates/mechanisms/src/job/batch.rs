@@ -1,0 +1,327 @@
+//! A batch: jobs, each a mechanism in one or many poses.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use hyperstat_model::{Geometry, ModalOptions, Model};
+
+use super::commanded::Commanded;
+use super::design::{Design, Designs};
+use super::figures::{Figure, Known};
+use super::poses::Poses;
+use super::subject::{Recipe, Subject};
+use super::value::{Value, Varied};
+use super::value_names;
+use super::vary::Variation;
+use crate::error::{LoadError, Location};
+use crate::file::mechanism::Mechanism;
+use crate::file::registry::Registry;
+use crate::job::{figures, modes};
+use crate::prebuilt::PoseError;
+use crate::text::fields::Fields;
+use crate::text::fragment::{Fragment, first_at};
+use crate::text::overlay::Overlay;
+use crate::text::source::Place;
+
+/// The jobs of a batch file, in its order, all of them checked.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Batch {
+    /// The jobs, at least one; their names are unique.
+    pub jobs: Vec<Job>,
+}
+
+/// One job: a mechanism, or many designs of one, its poses and the figures to draw.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Job {
+    /// Name, the stem of its output files: ASCII letters, digits, `_`, `-` and `.`, not starting
+    /// with `.`.
+    pub name: String,
+    /// Figures to draw, of the first design, in the order of the file.
+    pub figures: Vec<Figure>,
+    /// Natural frequencies to find at every pose.
+    pub modes: Option<ModalOptions>,
+    /// Where each figure stands.
+    figure_places: Vec<Place>,
+    recipe: Recipe,
+    poses: Arc<Poses>,
+    /// Where `vary` is given.
+    designs: Option<Designs>,
+    /// Names of the cases.
+    cases: Vec<String>,
+    /// The first design that can be, and its number.
+    first: Arc<Subject>,
+    first_design: usize,
+    place: Place,
+}
+
+impl Batch {
+    /// Reads the value of a batch file.
+    pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
+        let fields = Fields::read(fragment, "the batch", &["jobs"])?;
+        let list = fields.required("jobs")?;
+        let mut seen = HashMap::new();
+        let mut jobs = Vec::new();
+        for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
+            let known = [
+                "name",
+                "mechanism",
+                "poses",
+                "loads",
+                "cases",
+                "gravity",
+                "masses",
+                "misfits",
+                "preloads",
+                "figures",
+                "vary",
+                "zip",
+                "modes",
+            ];
+            let fields = Fields::read(fragment, "a job", &known)?;
+            let at = fields.required("name")?;
+            let name = job_name(at)?;
+            if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
+                return Err(same_name(at, &name, first, &other));
+            }
+            jobs.push(Job::read(name, &fields, at.place(), registry)?);
+        }
+        if jobs.is_empty() {
+            return Err(list
+                .error("the batch has no jobs")
+                .with_help("give at least one, `[(name: \"…\", mechanism: File(\"file.ron\"))]`"));
+        }
+        Ok(Self { jobs })
+    }
+
+    /// All files that were read for it: its own and those that its jobs name.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let first = self.jobs.first();
+        first.map_or_else(Vec::new, |job| job.place.source.files())
+    }
+}
+
+/// The error of the name `at`, which makes the same files as the one `first`.
+fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
+    if name == other {
+        return at
+            .error(format!("two jobs have the name `{name}`"))
+            .with_help(first_at(first));
+    }
+    at.error(format!(
+        "the names `{other}` and `{name}` differ only in case"
+    ))
+    .with_help("give one of them another name: some file systems take them for the same file")
+}
+
+/// Reads a name that can be the stem of a file's name.
+fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
+    let name = fragment.string()?;
+    let allowed = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
+    if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
+        return Err(fragment
+            .error(format!("`{name}` cannot be the name of a job"))
+            .with_help(
+                "a name is of the letters a to z and A to Z, digits, `_`, `-` and `.`, not starting \
+                 with `.`",
+            ));
+    }
+    Ok(name)
+}
+
+impl Job {
+    fn read(
+        name: String,
+        fields: &Fields<'_>,
+        place: Place,
+        registry: &Registry,
+    ) -> Result<Self, LoadError> {
+        let recipe = Recipe::find(fields, registry)?;
+        let known = RefCell::default();
+        let learning = Overlay::learning(&known);
+        let written = match fields.get("vary") {
+            Some(_) => recipe.read(recipe.root().under(&learning))?,
+            None => recipe.read(recipe.root())?,
+        };
+        let poses = written.poses(fields)?;
+        let mut first = recipe.load(written, &poses, None)?;
+        let cases = recipe.cases(&first)?;
+        let figures = match fields.get("figures") {
+            Some(list) => figures::read(
+                list,
+                &Known {
+                    poses: poses.len(),
+                    cases: &cases,
+                },
+            )?,
+            None => Vec::new(),
+        };
+        let (figures, figure_places) = figures.into_iter().unzip();
+        let modes = fields.get("modes").map(modes::read).transpose()?;
+        let mut first_design = 0;
+        let designs = match Variation::read(fields, recipe.root(), poses.len())? {
+            Some(variation) => {
+                let designs = Designs::new(variation, known.into_inner());
+                (first_design, first) = designs.first(&recipe, &poses, &first)?;
+                Some(designs)
+            }
+            None => None,
+        };
+        Ok(Self {
+            name,
+            figures,
+            figure_places,
+            modes,
+            recipe,
+            poses: Arc::new(poses),
+            designs,
+            cases,
+            first: Arc::new(first),
+            first_design,
+            place,
+        })
+    }
+
+    /// Number of poses, at least 1; the same in every design.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
+        self.poses.len()
+    }
+
+    /// Number of designs, at least 1.
+    pub fn designs(&self) -> usize {
+        self.designs.as_ref().map_or(1, Designs::len)
+    }
+
+    /// What varies from design to design, in the order of the file; nothing where `vary` is not
+    /// given.
+    pub fn varied(&self) -> &[Varied] {
+        self.designs.as_ref().map_or(&[], Designs::varied)
+    }
+
+    /// Names of its cases, in their order; the same in every design.
+    pub fn cases(&self) -> &[String] {
+        &self.cases
+    }
+
+    /// Names `joint.direction` of the drives whose values its poses are, in the order of their table;
+    /// none where its poses are those of the output.
+    pub fn drives(&self) -> &[String] {
+        self.poses.drives()
+    }
+
+    /// Values \[m, rad\] of these drives in a pose (from 0).
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn drive_values(&self, pose: usize) -> &[f64] {
+        self.poses.drive_values(pose)
+    }
+
+    /// Number of the first design that can be, of which figures are drawn: 0 unless its values make no
+    /// mechanism. Some design always can be.
+    pub fn first_design(&self) -> usize {
+        self.first_design
+    }
+
+    /// The varied values of a design, which need not be one that can be; none where nothing varies.
+    ///
+    /// # Panics
+    /// If `number` is not below [`Job::designs`].
+    pub fn values(&self, number: usize) -> Vec<Value> {
+        assert!(number < self.designs(), "there is no design {number}");
+        let designs = self.designs.as_ref();
+        designs.map_or_else(Vec::new, |designs| designs.values(number))
+    }
+
+    /// One of the designs, from 0.
+    ///
+    /// # Errors
+    /// The mistake in a mechanism that the varied values make, at the value that is to blame.
+    ///
+    /// # Panics
+    /// If `number` is not below [`Job::designs`].
+    pub fn design(&self, number: usize) -> Result<Design, LoadError> {
+        assert!(number < self.designs(), "there is no design {number}");
+        let subject = match &self.designs {
+            Some(designs) if number != self.first_design => {
+                let subject = designs.load(number, &self.recipe, &self.poses, &self.first)?;
+                Arc::new(subject)
+            }
+            _ => Arc::clone(&self.first),
+        };
+        Ok(Design {
+            number,
+            values: self.values(number),
+            subject,
+            poses: Arc::clone(&self.poses),
+        })
+    }
+
+    /// Names the values of a design's model by their paths in the job's mechanism, as `vary` takes
+    /// them ([`Model::name_value`]): of a file as [`Mechanism::name_values`], of a prebuilt one those
+    /// that stand in the model as they are written.
+    pub fn name_values(&self, design: &Design, model: &mut Model) {
+        let replaced = match &self.designs {
+            Some(designs) => designs.replaced(design.number),
+            None => Vec::new(),
+        };
+        match design.mechanism() {
+            Some(mechanism) => mechanism.name_others(&replaced, model),
+            None => value_names::of_prebuilt(&self.recipe, &replaced, &design.subject, model),
+        }
+    }
+
+    /// Place of the job's name in the batch file.
+    pub fn location(&self) -> Location {
+        self.place.location()
+    }
+
+    /// Place of a figure in the batch file, by its number from 0; the job's where there is none.
+    /// That of a map is the place of its quantity.
+    pub fn figure_location(&self, number: usize) -> Location {
+        let place = self.figure_places.get(number);
+        place.unwrap_or(&self.place).location()
+    }
+
+    /// The coordinates that its poses give, each with a value for every pose, in any order: of the
+    /// output's pose, in the order x y z rx ry rz, or of drives. What is not among them follows
+    /// from the mechanism. None where the job has no poses.
+    pub fn commanded(&self) -> Vec<Commanded> {
+        self.poses.commanded(&self.first)
+    }
+
+    /// [`Design::model`] of the first design that can be.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn model(&self) -> Result<Model, PoseError> {
+        self.first.model()
+    }
+
+    /// [`Design::place`] of the first design that can be.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
+        self.first.place(&self.poses, pose, geometry)
+    }
+
+    /// What is known of a pose (from 0) of any design before it is reached, x y z \[m\] and rotation
+    /// vector \[rad\]: the numbers given, and what is zero in every pose of the mechanism; `None` of the
+    /// rest.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn target(&self, pose: usize) -> [Option<f64>; 6] {
+        self.first.target(&self.poses, pose)
+    }
+
+    /// [`Design::mechanism`] of the first design that can be.
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        self.first.mechanism()
+    }
+}

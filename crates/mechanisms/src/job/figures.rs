@@ -1,0 +1,353 @@
+//! The figures that a job asks for.
+
+use crate::error::LoadError;
+use crate::job::modes;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::source::Place;
+use crate::text::{csv, names};
+
+/// A figure that a job asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Figure {
+    /// The deflected trajectory over the commanded one (Fig. 8).
+    Trajectory {
+        /// Magnification of the deflection.
+        scale: Scale,
+    },
+    /// The deformed mechanism over the undeformed one (Fig. 9).
+    Deformed {
+        /// The pose to draw, from 0.
+        pose: usize,
+        /// The case under whose loads; the loads of the base state where there is none.
+        case: Option<String>,
+        /// Magnification of the deflection.
+        scale: Scale,
+    },
+    /// A natural mode over the mechanism at rest.
+    Mode {
+        /// Which mode, from 1, lowest first.
+        number: usize,
+        /// The pose to draw, from 0.
+        pose: usize,
+        /// Magnification of the shape of unit modal mass.
+        scale: Scale,
+    },
+    /// The shares of bodies, joints and deformations in the displacement of the output, as bars.
+    Budget {
+        /// The displacement along which.
+        along: Along,
+        /// The pose, from 0.
+        pose: usize,
+        /// The case under whose loads; the loads of the base state where there is none.
+        case: Option<String>,
+    },
+    /// A quantity over a plane of the poses, or over all of their planes.
+    Map {
+        /// Name of the quantity: a column of the job's table, or what is found from columns.
+        value: String,
+        /// Coordinates that are held, each with its value: of `x y z rx ry rz`, or drives such as
+        /// `A1.v`.
+        planes: Vec<(String, f64)>,
+        /// The coordinates to the right and up; `None`: two of those that the poses give.
+        axes: Option<[String; 2]>,
+        /// The values, in the SI unit, at which the colours begin and end, ascending; `None`: the
+        /// least and the largest.
+        limits: Option<[f64; 2]>,
+        /// How the colours go from one to the other.
+        scale: ColorScale,
+    },
+}
+
+/// How the colours of a map go with its values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ColorScale {
+    /// Chosen so that most values can be told apart.
+    #[default]
+    Auto,
+    /// Evenly with the values.
+    Linear,
+    /// Evenly with their logarithms.
+    Log,
+}
+
+/// A direction that the output gives along.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Along {
+    /// Of its displacement under the loads.
+    Displacement,
+    /// Of this unit wrench on it: force, moment, global axes.
+    Wrench([f64; 6]),
+}
+
+impl Along {
+    /// The words that name a direction.
+    pub const WORDS: [&'static str; 7] = ["displacement", "x", "y", "z", "rx", "ry", "rz"];
+
+    /// The direction that one of [`Along::WORDS`] names.
+    pub fn named(word: &str) -> Option<Self> {
+        match Self::WORDS.iter().position(|known| *known == word)? {
+            0 => Some(Self::Displacement),
+            k => {
+                let mut wrench = [0.0; 6];
+                wrench[k - 1] = 1.0;
+                Some(Self::Wrench(wrench))
+            }
+        }
+    }
+
+    /// A direction in space, of any length but zero; `None` where it has none.
+    pub fn direction(components: [f64; 3]) -> Option<Self> {
+        let [a, b, c] = components;
+        let length = a.hypot(b).hypot(c);
+        if !(length.is_finite() && length > 0.0) {
+            return None;
+        }
+        Some(Self::Wrench([
+            a / length,
+            b / length,
+            c / length,
+            0.0,
+            0.0,
+            0.0,
+        ]))
+    }
+}
+
+/// Magnification of deflections in a figure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scale {
+    /// Chosen so that the deflections can be seen.
+    Auto,
+    /// This factor, above zero.
+    Factor(f64),
+}
+
+/// What a job has that its figures may name.
+pub(crate) struct Known<'a> {
+    /// Number of poses.
+    pub(crate) poses: usize,
+    /// Names of the cases.
+    pub(crate) cases: &'a [String],
+}
+
+/// Kinds of figures with their fields.
+const KINDS: [(&str, &[&str]); 5] = [
+    ("Trajectory", &["scale"]),
+    ("Deformed", &["pose", "case", "scale"]),
+    ("Mode", &["number", "pose", "scale"]),
+    ("Budget", &["along", "pose", "case"]),
+    ("Map", &["value", "plane", "axes", "limits", "scale"]),
+];
+
+/// Reads the figures of a job, each with its place: that of the quantity, of a map.
+pub(crate) fn read(
+    list: Fragment<'_>,
+    known: &Known<'_>,
+) -> Result<Vec<(Figure, Place)>, LoadError> {
+    let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
+    list.into_iter().map(|item| figure(item, known)).collect()
+}
+
+fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), LoadError> {
+    let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
+    let found = KINDS.into_iter().find(|(kind, _)| *kind == word.text());
+    let (kind, names) = found.ok_or_else(|| {
+        let kinds = KINDS.into_iter().map(|(kind, _)| kind);
+        word.error(format!("unknown figure `{}`", word.text()))
+            .with_help(names::help(word.text(), "figures", kinds))
+    })?;
+    let owner = format!("`{kind}`");
+    let fields = match arguments {
+        Some(given) => Fields::read(given, owner, names)?,
+        None => Fields::none(whole, owner),
+    };
+    let pose = || {
+        let given = fields.get("pose");
+        given.map_or(Ok(0), |at| pose(at, known.poses))
+    };
+    let case = || fields.get("case").map(|at| case(at, known)).transpose();
+    let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
+    let place = fields.get("value").unwrap_or(whole).place();
+    let figure = match kind {
+        "Map" => {
+            let scale = fields
+                .get("scale")
+                .map_or(Ok(ColorScale::Auto), color_scale)?;
+            let limits = |at| limits(at, scale);
+            Figure::Map {
+                value: fields.required("value")?.string()?,
+                planes: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
+                axes: fields.get("axes").map(axes).transpose()?,
+                limits: fields.get("limits").map(limits).transpose()?,
+                scale,
+            }
+        }
+        "Deformed" => Figure::Deformed {
+            pose: pose()?,
+            case: case()?,
+            scale: scale()?,
+        },
+        "Mode" => Figure::Mode {
+            number: fields.get("number").map_or(Ok(1), number)?,
+            pose: pose()?,
+            scale: scale()?,
+        },
+        "Budget" => Figure::Budget {
+            along: fields.get("along").map_or(Ok(Along::Displacement), along)?,
+            pose: pose()?,
+            case: case()?,
+        },
+        _ if known.poses < 2 => {
+            return Err(whole
+                .error("a trajectory needs two poses or more, this job has one")
+                .with_help("use `Deformed` to see a single pose"));
+        }
+        _ => Figure::Trajectory { scale: scale()? },
+    };
+    Ok((figure, place))
+}
+
+/// Reads the name of a case.
+fn case(fragment: Fragment<'_>, known: &Known<'_>) -> Result<String, LoadError> {
+    let name = fragment.string()?;
+    if known.cases.contains(&name) {
+        return Ok(name);
+    }
+    let cases = known.cases.iter().map(String::as_str);
+    Err(fragment
+        .error(format!("there is no case `{name}`"))
+        .with_help(names::help(&name, "cases", cases)))
+}
+
+/// Reads the number of a mode.
+fn number(fragment: Fragment<'_>) -> Result<usize, LoadError> {
+    let expected = format!("the number of a mode, 1 to {}", modes::MOST);
+    match fragment.parse::<usize>(&expected)? {
+        number if (1..=modes::MOST).contains(&number) => Ok(number),
+        _ => Err(fragment.expected(&expected)),
+    }
+}
+
+/// Reads a direction such as `z` or `(0.0, 1.0, -1.0)`.
+fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
+    if fragment.text().starts_with('(') {
+        let numbers = fragment.array("a direction of three numbers, such as `(0.0, 1.0, -1.0)`")?;
+        let [a, b, c] = numbers;
+        let components = [a.number()?, b.number()?, c.number()?];
+        return Along::direction(components).ok_or_else(|| {
+            fragment
+                .error("the direction has no length")
+                .with_help("give three numbers that are not all zero, such as `(0.0, 1.0, -1.0)`")
+        });
+    }
+    let word = fragment.text();
+    Along::named(word).ok_or_else(|| {
+        fragment
+            .error(format!("`{word}` is no direction"))
+            .with_help(format!(
+                "give one of `{}`, or three numbers such as `(0.0, 1.0, -1.0)`",
+                Along::WORDS.join("`, `")
+            ))
+    })
+}
+
+/// Reads a plane such as `z(0.5)`, or a list of them.
+fn planes(fragment: Fragment<'_>) -> Result<Vec<(String, f64)>, LoadError> {
+    match fragment.text().starts_with('[') {
+        true => (fragment.list(PLANE)?.into_iter()).map(plane).collect(),
+        false => plane(fragment).map(|plane| vec![plane]),
+    }
+}
+
+const PLANE: &str = "a plane, such as `z(0.5)`, or of a drive `(\"A1.v\", 0.5)`";
+
+/// Reads `z(0.5)` or `("A1.v", 0.5)`.
+fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
+    if fragment.text().starts_with('(') {
+        let [drive, value] = fragment.array(PLANE)?;
+        return Ok((drive.string()?, value.number()?));
+    }
+    let (kind, Some(arguments)) = fragment.variant(PLANE)? else {
+        return Err(fragment.expected(PLANE));
+    };
+    let coordinate = coordinate(kind)?;
+    let [value] = arguments.array(PLANE)?;
+    Ok((coordinate, value.number()?))
+}
+
+/// Reads `(rx, ry)`, or of drives `("A1.v", "A2.v")`.
+fn axes(fragment: Fragment<'_>) -> Result<[String; 2], LoadError> {
+    let expected = "two coordinates, such as `(x, z)`, or drives, `(\"A1.v\", \"A2.v\")`";
+    let read = |axis: Fragment<'_>| match axis.text().starts_with('"') {
+        true => axis.string(),
+        false => coordinate(axis),
+    };
+    let [right, up] = fragment.array(expected)?;
+    let axes = [read(right)?, read(up)?];
+    if axes[0] == axes[1] {
+        return Err(fragment
+            .error(format!("`{}` is along both axes", axes[0]))
+            .with_help("give two coordinates, such as `(x, z)`"));
+    }
+    Ok(axes)
+}
+
+/// A coordinate of a pose by its name.
+fn coordinate(word: Fragment<'_>) -> Result<String, LoadError> {
+    let name = word.text();
+    if csv::COLUMNS.contains(&name) {
+        return Ok(name.into());
+    }
+    Err(word
+        .error(format!("`{name}` is no coordinate of a pose"))
+        .with_help(names::help(name, "coordinates", csv::COLUMNS)))
+}
+
+/// Reads the values at which colours begin and end.
+fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadError> {
+    let [low, high] = fragment.array("two values, such as `(1e-5, 1e-3)`")?;
+    let limits = [low.number()?, high.number()?];
+    if limits[0] >= limits[1] {
+        return Err(fragment
+            .error("the colours must begin below where they end")
+            .with_help("give the lower value first, such as `(1e-5, 1e-3)`"));
+    }
+    if scale == ColorScale::Log && limits[0] <= 0.0 {
+        return Err(low
+            .error("a logarithmic scale begins above zero")
+            .with_help("give a lower value above zero, or `scale: Linear`"));
+    }
+    Ok(limits)
+}
+
+/// Reads how colours go with values.
+fn color_scale(fragment: Fragment<'_>) -> Result<ColorScale, LoadError> {
+    match fragment.text() {
+        "Auto" => Ok(ColorScale::Auto),
+        "Linear" => Ok(ColorScale::Linear),
+        "Log" => Ok(ColorScale::Log),
+        _ => Err(fragment.expected("a scale of colours, `Auto`, `Linear` or `Log`")),
+    }
+}
+
+fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
+    if fragment.text() == "Auto" {
+        return Ok(Scale::Auto);
+    }
+    let expected = "`Auto` or a factor above zero, such as `50.0`";
+    match fragment.parse::<f64>(expected)? {
+        factor if factor.is_finite() && factor > 0.0 => Ok(Scale::Factor(factor)),
+        _ => Err(fragment.expected(expected)),
+    }
+}
+
+fn pose(fragment: Fragment<'_>, poses: usize) -> Result<usize, LoadError> {
+    let pose = fragment.parse("the number of a pose, from 0")?;
+    if pose >= poses {
+        return Err(fragment
+            .error(format!("there is no pose {pose}"))
+            .with_help(format!("the job's poses are 0 to {}", poses - 1)));
+    }
+    Ok(pose)
+}

@@ -1,0 +1,14 @@
+//! Batch files: jobs, their poses, what they vary.
+
+pub(crate) mod batch;
+pub(crate) mod commanded;
+pub(crate) mod design;
+pub(crate) mod figures;
+pub(crate) mod modes;
+pub(crate) mod mover;
+pub(crate) mod poses;
+pub(crate) mod subject;
+pub(crate) mod targets;
+pub(crate) mod value;
+pub(crate) mod value_names;
+pub(crate) mod vary;

@@ -1,0 +1,73 @@
+//! The natural frequencies that a job asks for.
+
+use hyperstat_elements::{MassShape, RotaryInertia};
+use hyperstat_model::{BeamMass, ModalOptions};
+
+use crate::error::LoadError;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::names;
+
+/// Frequencies of a job at the most.
+pub(crate) const MOST: usize = 1000;
+
+/// Reads `6` or `(count: 6, mass: Lumped)`.
+pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
+    if !fragment.text().starts_with('(') {
+        return count(fragment).map(ModalOptions::lowest);
+    }
+    let known = ["count", "mass", "shape", "rotary_inertia"];
+    let fields = Fields::read(fragment, "`modes`", &known)?;
+    let mut options = ModalOptions::lowest(count(fields.required("count")?)?);
+    if let Some(mass) = fields.get("mass") {
+        options.mass = match word(mass, "kinds of mass", ["Consistent", "Lumped"])? {
+            "Lumped" => BeamMass::Lumped,
+            _ => BeamMass::Consistent,
+        };
+    }
+    if let Some(shape) = fields.get("shape") {
+        options.shape = match word(shape, "shapes", ["Cubic", "Exact"])? {
+            "Exact" => MassShape::Exact,
+            _ => MassShape::Cubic,
+        };
+    }
+    if let Some(rotary) = fields.get("rotary_inertia") {
+        options.rotary_inertia = match rotary.parse("`true` or `false`")? {
+            true => RotaryInertia::Included,
+            false => RotaryInertia::Left,
+        };
+    }
+    let of_shapes = ["shape", "rotary_inertia"].map(|name| (name, fields.get(name)));
+    let given = of_shapes
+        .into_iter()
+        .find_map(|(name, at)| Some((name, at?)));
+    match given {
+        Some((name, at)) if options.mass == BeamMass::Lumped => Err(at
+            .error(format!("lumped masses have no `{name}`"))
+            .with_help(format!("leave `{name}` out, or `mass: Lumped`"))),
+        _ => Ok(options),
+    }
+}
+
+/// A number of modes.
+fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
+    let expected = "a number of natural frequencies from 1 to 1000, or `(count: 6, mass: Lumped)`";
+    match fragment.parse::<usize>(expected)? {
+        count if (1..=MOST).contains(&count) => Ok(count),
+        _ => Err(fragment.expected(expected)),
+    }
+}
+
+/// One of two words.
+fn word(
+    fragment: Fragment<'_>,
+    kinds: &str,
+    known: [&'static str; 2],
+) -> Result<&'static str, LoadError> {
+    let found = known.into_iter().find(|word| *word == fragment.text());
+    found.ok_or_else(|| {
+        fragment
+            .error(format!("unknown `{}`", fragment.text()))
+            .with_help(names::help(fragment.text(), kinds, known))
+    })
+}

@@ -1,0 +1,344 @@
+//! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
+
+use hyperstat_model::{Geometry, Model, NodeId};
+use nalgebra::{Rotation3, Vector3};
+
+use super::mover::Mover;
+use super::poses::Poses;
+use super::targets::{Asked, Targets};
+use crate::error::LoadError;
+use crate::file::home::Home;
+use crate::file::loads::Acting;
+use crate::file::mechanism::Mechanism;
+use crate::file::registry::Registry;
+use crate::parameters;
+use crate::parameters::Kind;
+use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
+use crate::text::columns::Given;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::source::Place;
+use crate::text::{files, names};
+
+/// Where a job's mechanism and loads are written, and how they are read.
+#[derive(Debug)]
+pub(crate) struct Recipe {
+    /// Where the mechanism stands: the value of its file, or the prebuilt one in the job.
+    root: Place,
+    /// Kind of a prebuilt mechanism; `None` is a file.
+    kind: Option<&'static Kind>,
+    acting: Acting,
+    registry: Registry,
+}
+
+/// A mechanism that is read and checked.
+#[derive(Debug)]
+pub(crate) enum Checked {
+    /// Of a file, with the job's loads.
+    File(Box<Mechanism>),
+    /// Prebuilt, not yet built.
+    Prebuilt(Box<dyn Prebuilt>),
+}
+
+/// A mechanism with its loads.
+#[derive(Debug)]
+pub(crate) enum Subject {
+    File {
+        mechanism: Box<Mechanism>,
+        /// Where the job has poses.
+        mover: Option<Box<Mover>>,
+    },
+    Prebuilt {
+        mechanism: Box<dyn Prebuilt>,
+        /// The model with its loads in a pose that can be reached.
+        template: Result<Box<Template>, PoseError>,
+    },
+}
+
+/// A model in a pose that can be reached.
+#[derive(Debug)]
+pub(crate) struct Template {
+    model: Model,
+    pose: [f64; 6],
+}
+
+impl Recipe {
+    /// Finds the mechanism and the loads of a job.
+    pub(crate) fn find(fields: &Fields<'_>, registry: &Registry) -> Result<Self, LoadError> {
+        let whole = fields.required("mechanism")?;
+        let expected = "a mechanism, `File(\"file.ron\")` or a prebuilt one";
+        let (name, arguments) = whole.variant(expected)?;
+        let (root, kind) = if name.text() == "File" {
+            let expected = "one path, `File(\"file.ron\")`";
+            let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
+            let [path] = arguments.array(expected)?;
+            (files::mechanism_at(path)?, None)
+        } else {
+            let Some(kind) = parameters::find(name.text()) else {
+                let known = parameters::KINDS.iter().map(|kind| kind.name);
+                let known = std::iter::once("File").chain(known);
+                return Err(name
+                    .error(format!("unknown mechanism `{}`", name.text()))
+                    .with_help(names::help(name.text(), "mechanisms", known)));
+            };
+            (whole.place(), Some(kind))
+        };
+        Ok(Self {
+            root,
+            kind,
+            acting: Acting::find(fields),
+            registry: registry.clone(),
+        })
+    }
+
+    /// The mechanism as it is written.
+    pub(crate) fn root(&self) -> Fragment<'_> {
+        Fragment::at(&self.root)
+    }
+
+    /// Names of the cases, which do not depend on what varies; `subject` is any design.
+    pub(crate) fn cases(&self, subject: &Subject) -> Result<Vec<String>, LoadError> {
+        let of_file = || {
+            let model = subject.mechanism().map(|mechanism| &mechanism.model);
+            let cases = model.map_or(&[][..], Model::cases).iter();
+            cases.map(|case| case.name.clone()).collect()
+        };
+        Ok(self.acting.cases()?.unwrap_or_else(of_file))
+    }
+
+    /// Reads and checks the mechanism: [`Recipe::root`], or what an overlay makes of it.
+    pub(crate) fn read(&self, root: Fragment<'_>) -> Result<Checked, LoadError> {
+        match self.kind {
+            None => {
+                let mut mechanism = Mechanism::read(root, &self.registry)?;
+                mechanism.replace(&self.acting)?;
+                Ok(Checked::File(Box::new(mechanism)))
+            }
+            Some(kind) => {
+                let (_, arguments) = root.variant("a prebuilt mechanism")?;
+                parameters::read(kind, root, arguments).map(Checked::Prebuilt)
+            }
+        }
+    }
+
+    /// Puts the loads on a mechanism, in a pose that it reaches: one of `poses` or, if it can, the
+    /// pose of `similar`.
+    pub(crate) fn load(
+        &self,
+        checked: Checked,
+        poses: &Poses,
+        similar: Option<&Subject>,
+    ) -> Result<Subject, LoadError> {
+        match checked {
+            Checked::File(mechanism) => {
+                let moves = matches!(poses, Poses::Asked(_));
+                let mover = moves.then(|| Box::new(Mover::new(&mechanism.model)));
+                Ok(Subject::File { mechanism, mover })
+            }
+            Checked::Prebuilt(mechanism) => {
+                let mut template = template(mechanism.as_ref(), poses, similar);
+                if let Ok(template) = &mut template {
+                    let home = Home::Output(template.turned(mechanism.as_ref()));
+                    self.acting.read(&mut template.model, &home)?;
+                }
+                Ok(Subject::Prebuilt {
+                    mechanism,
+                    template,
+                })
+            }
+        }
+    }
+}
+
+impl Template {
+    /// The rotation of the output from its home orientation.
+    fn turned(&self, mechanism: &dyn Prebuilt) -> Rotation3<f64> {
+        let (target, count) = given(mechanism, &self.pose);
+        let mut geometry = self.model.geometry().clone();
+        // It has been reached before.
+        let pose = mechanism.place(&target[..count], &mut geometry);
+        let [.., x, y, z] = pose.unwrap_or(self.pose);
+        Rotation3::new(Vector3::new(x, y, z))
+    }
+}
+
+impl Checked {
+    /// Reads the poses of a job of this mechanism.
+    pub(crate) fn poses(&self, fields: &Fields<'_>) -> Result<Poses, LoadError> {
+        let mechanism = match self {
+            Self::Prebuilt(mechanism) => mechanism,
+            Self::File(mechanism) => {
+                return match fields.get("poses") {
+                    None => Ok(Poses::Own),
+                    Some(poses) => Targets::read(poses, &mechanism.model).map(Poses::Asked),
+                };
+            }
+        };
+        let given = Given {
+            kind: mechanism.kind(),
+            coordinates: mechanism.coordinates(),
+        };
+        match (fields.get("poses"), given.coordinates.len()) {
+            (None, 0) => Ok(Poses::Own),
+            (Some(poses), 0) => Err(poses
+                .error(format!("`{}` takes no poses", given.kind))
+                .with_help("leave `poses` out")),
+            (Some(poses), _) => Poses::read(poses, &given),
+            (None, _) => Err(fields
+                .required("mechanism")?
+                .error(format!("`{}` needs `poses`", given.kind))
+                .with_help("add `poses: List([(x, y, z)])`, `Csv(\"file.csv\")` or `Grid(…)`")),
+        }
+    }
+}
+
+impl Subject {
+    /// The model in a pose that can be reached.
+    pub(crate) fn model(&self) -> Result<Model, PoseError> {
+        match self {
+            Self::File { mechanism, .. } => Ok(mechanism.model.clone()),
+            Self::Prebuilt { template, .. } => match template {
+                Ok(template) => Ok(template.model.clone()),
+                Err(error) => Err(error.clone()),
+            },
+        }
+    }
+
+    /// The model that another prebuilt mechanism of the same kind has in the pose of this one's
+    /// own; `None` where it has none there.
+    pub(crate) fn model_like(&self, other: &Checked) -> Option<Model> {
+        match (self, other) {
+            (Self::Prebuilt { template, .. }, Checked::Prebuilt(other)) => {
+                let pose = template.as_ref().ok()?.pose;
+                let (target, count) = given(other.as_ref(), &pose);
+                other.model(&target[..count]).ok()
+            }
+            _ => None,
+        }
+    }
+
+    /// The coordinates of pose `number` (from 0) that are known of every design before it is reached:
+    /// those that are asked for, and those that are zero in all poses.
+    pub(crate) fn target(&self, poses: &Poses, number: usize) -> [Option<f64>; 6] {
+        match (self, poses) {
+            (_, Poses::Asked(targets)) => match targets.get(number) {
+                Asked::Output(asked) => asked,
+                Asked::Drives(_) => [None; 6],
+            },
+            (Self::File { .. }, _) => [None; 6],
+            (Self::Prebuilt { mechanism, .. }, _) => {
+                let given = poses.get(number);
+                let mut known = [None; 6];
+                for coordinate in mechanism.zero_coordinates() {
+                    known[coordinate.index()] = Some(0.0);
+                }
+                for coordinate in mechanism.coordinates() {
+                    known[coordinate.index()] = Some(given[coordinate.index()]);
+                }
+                known
+            }
+        }
+    }
+
+    /// Brings a geometry of its model to pose `number` (from 0); returns the whole pose.
+    pub(crate) fn place(
+        &self,
+        poses: &Poses,
+        number: usize,
+        geometry: &mut Geometry,
+    ) -> Result<[f64; 6], PoseError> {
+        match self {
+            Self::File { mechanism, mover } => {
+                if let (Some(mover), Poses::Asked(targets)) = (mover, poses) {
+                    return mover.place(targets, number, geometry);
+                }
+                let model = &mechanism.model;
+                let own = model.geometry();
+                geometry.positions.clone_from(&own.positions);
+                geometry.y_axes.clone_from(&own.y_axes);
+                geometry.frames.clone_from(&own.frames);
+                geometry.rotations.clone_from(&own.rotations);
+                Ok(own_pose(model))
+            }
+            Self::Prebuilt { mechanism, .. } => {
+                let (target, count) = given(mechanism.as_ref(), &poses.get(number));
+                mechanism.place(&target[..count], geometry)
+            }
+        }
+    }
+
+    /// The coordinates that a prebuilt mechanism takes; none of a file.
+    pub(crate) fn coordinates(&self) -> &[PoseCoordinate] {
+        match self {
+            Self::File { .. } => &[],
+            Self::Prebuilt { mechanism, .. } => mechanism.coordinates(),
+        }
+    }
+
+    /// The mechanism, where it comes from a file.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match self {
+            Self::File { mechanism, .. } => Some(mechanism),
+            Self::Prebuilt { .. } => None,
+        }
+    }
+}
+
+/// The output's pose in a model's own configuration.
+fn own_pose(model: &Model) -> [f64; 6] {
+    let position = |node: NodeId| model.geometry().positions[node.0];
+    let [x, y, z] = model.output().map(position).unwrap_or_default().into();
+    [x, y, z, 0.0, 0.0, 0.0]
+}
+
+/// Of a whole pose the coordinates that `mechanism` is given, first, and their number.
+fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
+    let coordinates = mechanism.coordinates();
+    let mut target = [0.0; 6];
+    for (value, coordinate) in target.iter_mut().zip(coordinates) {
+        *value = pose[coordinate.index()];
+    }
+    (target, coordinates.len())
+}
+
+/// The model in the first of these poses that can be reached: the job's first [`TRIED`] poses, that
+/// of a `similar` design, the poses of [`probes`], the rest of the job's; the first pose's error
+/// where none can. The loads are checked in a pose that the job does not have, too: the names of a
+/// mechanism are the same in every pose.
+fn template(
+    mechanism: &dyn Prebuilt,
+    poses: &Poses,
+    similar: Option<&Subject>,
+) -> Result<Box<Template>, PoseError> {
+    let build = |pose: [f64; 6]| {
+        let (target, count) = given(mechanism, &pose);
+        let model = mechanism.model(&target[..count])?;
+        Ok(Box::new(Template { model, pose }))
+    };
+    let reached = match similar {
+        Some(Subject::Prebuilt { template, .. }) => template.as_ref().ok().map(|t| t.pose),
+        _ => None,
+    };
+    let first = poses.len().min(TRIED);
+    let tried = (1..first).map(|pose| poses.get(pose)).chain(reached);
+    let rest = (first..poses.len()).map(|pose| poses.get(pose));
+    let mut others = tried.chain(probes(mechanism.coordinates())).chain(rest);
+    build(poses.get(0)).or_else(|error| others.find_map(|pose| build(pose).ok()).ok_or(error))
+}
+
+/// Number of poses of a job that are tried before any other: a large grid may be out of reach.
+const TRIED: usize = 1000;
+
+/// Poses of which a mechanism of any size between a millimetre and a kilometre is likely to reach
+/// one: home, and one coordinate at a time on either side of it, by steps of 3 %.
+fn probes(coordinates: &[PoseCoordinate]) -> impl Iterator<Item = [f64; 6]> {
+    let values = || (0..=468).flat_map(|k| [1.0, -1.0].map(|sign| sign * 1e-3 * 1.03_f64.powi(k)));
+    let moved = coordinates.iter().flat_map(move |coordinate| {
+        values().map(|value| {
+            let mut pose = [0.0; 6];
+            pose[coordinate.index()] = value;
+            pose
+        })
+    });
+    std::iter::once([0.0; 6]).chain(moved)
+}

@@ -1,0 +1,279 @@
+//! What varies in a job: paths to values of its mechanism, and the values each of them takes.
+
+use std::ops::Range;
+
+use super::value::{Value, Varied};
+use crate::error::{LoadError, Location};
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::source::{Place, Source};
+use crate::text::values::Values;
+use crate::text::{names, paths};
+
+/// The designs of a job: all combinations of some values, or the values side by side.
+#[derive(Debug)]
+pub(crate) struct Variation {
+    /// Where the map `vary` stands.
+    pub(crate) place: Place,
+    axes: Vec<Axis>,
+    /// Whether all axes run together, so that a design has the same place in each.
+    zip: bool,
+    count: usize,
+}
+
+/// One varied value.
+#[derive(Debug)]
+struct Axis {
+    /// Its path in the mechanism.
+    path: String,
+    /// Where it stands in the mechanism's text.
+    span: Range<usize>,
+    /// Where its values stand.
+    place: Place,
+    values: AxisValues,
+}
+
+#[derive(Debug)]
+enum AxisValues {
+    Range(Values),
+    /// Where each stands.
+    List(Vec<Range<usize>>),
+}
+
+impl Variation {
+    /// Reads the fields `vary` and `zip` of a job whose mechanism is `root` and which has so many
+    /// `poses`.
+    pub(crate) fn read(
+        fields: &Fields<'_>,
+        root: Fragment<'_>,
+        poses: usize,
+    ) -> Result<Option<Self>, LoadError> {
+        let zip = fields.get("zip");
+        let Some(map) = fields.get("vary") else {
+            return match zip {
+                None => Ok(None),
+                Some(zip) => Err(zip
+                    .error("`zip` without `vary`")
+                    .with_help("give `vary: { \"path\": [value, …] }`, or leave `zip` out")),
+            };
+        };
+        let zip = zip.map_or(Ok(false), |zip| zip.parse("`true` or `false`"))?;
+        let mut axes = Vec::<Axis>::new();
+        for entry in map.map()? {
+            let span = paths::find(root, entry.key)?.span();
+            if let Some(field) = replacing(fields, &entry.name) {
+                return Err(entry
+                    .key
+                    .error(format!(
+                        "the job's own `{field}` replaces `{}` of the file: varying it would change nothing",
+                        entry.name
+                    ))
+                    .with_help(format!("leave `{field}` out of the job, or vary another value")));
+            }
+            let within = |a: &Range<usize>, b: &Range<usize>| a.start >= b.start && a.end <= b.end;
+            let overlaps = |axis: &&Axis| within(&axis.span, &span) || within(&span, &axis.span);
+            if let Some(other) = axes.iter().find(overlaps) {
+                let message = format!("`{}` and `{}` overlap", other.path, entry.name);
+                return Err(entry
+                    .key
+                    .error(message)
+                    .with_help("one is a part of the other: vary the whole or its parts"));
+            }
+            axes.push(Axis {
+                values: AxisValues::read(entry.value)?,
+                path: entry.name,
+                place: entry.value.place(),
+                span,
+            });
+        }
+        if axes.is_empty() {
+            return Err(map
+                .error("`vary` names nothing")
+                .with_help("give `vary: { \"path\": [value, …] }`, or leave it out"));
+        }
+        let count = if zip {
+            Some(same_length(&axes)?)
+        } else {
+            let mut counts = axes.iter().map(|axis| axis.values.len());
+            counts.try_fold(1_usize, usize::checked_mul)
+        };
+        let Some(count) = count.filter(|count| count.checked_mul(poses).is_some()) else {
+            return Err(map
+                .error("more designs and poses than can be counted")
+                .with_help("give fewer values, or `zip: true` to take them side by side"));
+        };
+        Ok(Some(Self {
+            place: map.place(),
+            axes,
+            zip,
+            count,
+        }))
+    }
+
+    /// Number of designs, at least 1.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// What varies, in the order of the file.
+    pub(crate) fn varied(&self) -> Vec<Varied> {
+        let number = |axis: &Axis, k| matches!(Value::at(&axis.value(k)), Value::Number(_));
+        let varied = |axis: &Axis| Varied {
+            path: axis.path.clone(),
+            numeric: match &axis.values {
+                AxisValues::Range(_) => true,
+                AxisValues::List(spans) => (0..spans.len()).all(|k| number(axis, k)),
+            },
+        };
+        self.axes.iter().map(varied).collect()
+    }
+
+    /// Where the value of every path stands in the mechanism's text.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = Range<usize>> {
+        self.axes.iter().map(|axis| axis.span.clone())
+    }
+
+    /// The values of design `k`, from 0, as texts of their own or as they stand in the file: the
+    /// first path runs fastest.
+    pub(crate) fn design(&self, k: usize) -> Vec<Place> {
+        let mut rest = k;
+        let value = |axis: &Axis| {
+            let count = axis.values.len();
+            let own = rest % count;
+            if !self.zip {
+                rest /= count;
+            }
+            axis.value(own)
+        };
+        self.axes.iter().map(value).collect()
+    }
+
+    /// Whether a location is inside of the map `vary`.
+    pub(crate) fn holds(&self, location: &Location) -> bool {
+        let Place { source, span } = &self.place;
+        let offset = source.offset(location.line, location.column);
+        location.path == source.path() && span.contains(&offset)
+    }
+
+    /// Designs among which every value of every path is found, `most` of a path at most, or all
+    /// designs where they are no more.
+    pub(crate) fn samples(&self, most: usize) -> Vec<usize> {
+        if self.count <= most {
+            return (0..self.count).collect();
+        }
+        let mut samples = Vec::new();
+        let mut stride = 1;
+        for axis in &self.axes {
+            let count = axis.values.len();
+            let taken = count.min(most);
+            // Evenly spread, from the first to the last.
+            let last = (taken - 1).max(1);
+            samples.extend(
+                (0..taken)
+                    .map(|k| stride * ((count - 1) as u128 * k as u128 / last as u128) as usize),
+            );
+            if self.zip {
+                break;
+            }
+            stride *= count;
+        }
+        samples
+    }
+}
+
+/// The number of values that all have.
+fn same_length(axes: &[Axis]) -> Result<usize, LoadError> {
+    let count = axes[0].values.len();
+    match axes.iter().find(|axis| axis.values.len() != count) {
+        None => Ok(count),
+        Some(other) => {
+            let message = format!(
+                "`{}` has {count} values and `{}` has {}",
+                axes[0].path,
+                other.path,
+                other.values.len()
+            );
+            Err(other
+                .place
+                .error(message)
+                .with_help("with `zip: true` all have the same number of values"))
+        }
+    }
+}
+
+impl Axis {
+    /// Value number `k`, from 0.
+    fn value(&self, k: usize) -> Place {
+        match &self.values {
+            AxisValues::List(spans) => Place {
+                source: self.place.source.clone(),
+                span: spans[k].clone(),
+            },
+            AxisValues::Range(values) => {
+                let text = written(values.get(k));
+                let span = 0..text.len();
+                let source = Source::made(text, self.place.clone());
+                Place { source, span }
+            }
+        }
+    }
+}
+
+/// The field of the job that is taken in place of what stands at a path of its mechanism file.
+fn replacing(fields: &Fields<'_>, path: &str) -> Option<&'static str> {
+    let mut parts = path.split('.');
+    let field = match (parts.next()?, parts.nth(1)) {
+        ("loads", _) => "loads",
+        ("cases", _) => "cases",
+        ("gravity", _) => "gravity",
+        ("masses", _) => "masses",
+        ("joints", Some("misfit")) => "misfits",
+        ("joints", Some("preload")) => "preloads",
+        _ => return None,
+    };
+    fields.get(field).map(|_| field)
+}
+
+impl AxisValues {
+    fn read(fragment: Fragment<'_>) -> Result<Self, LoadError> {
+        let expected = "values, `Range(first, last, count)` or a list `[value, …]`";
+        if fragment.text().starts_with('[') {
+            let items = fragment.list(expected)?;
+            if items.is_empty() {
+                return Err(fragment
+                    .error("the list of values is empty")
+                    .with_help("give at least one value"));
+            }
+            return Ok(Self::List(items.into_iter().map(Fragment::span).collect()));
+        }
+        match fragment.variant(expected)? {
+            (kind, Some(arguments)) if kind.text() == "Range" => {
+                Values::read(arguments, "three values, `Range(first, last, count)`")
+                    .map(Self::Range)
+            }
+            (kind, Some(_)) => Err(kind
+                .error(format!("unknown kind of values `{}`", kind.text()))
+                .with_help(names::help(kind.text(), "kinds of values", ["Range"]))),
+            _ => Err(fragment.expected(expected)),
+        }
+    }
+
+    /// How many, at least 1.
+    fn len(&self) -> usize {
+        match self {
+            Self::Range(values) => values.len(),
+            Self::List(spans) => spans.len(),
+        }
+    }
+}
+
+/// The shortest number that reads back to the same double; whole ones as what counts is written.
+fn written(number: f64) -> String {
+    /// Whole numbers up to here are written without a point.
+    const LARGEST: f64 = 1e15;
+    if number.fract() == 0.0 && number.abs() < LARGEST {
+        format!("{number:.0}")
+    } else {
+        format!("{number:?}")
+    }
+}

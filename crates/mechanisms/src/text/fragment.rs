@@ -1,0 +1,432 @@
+//! One RON value as it stands in a file, and the ways to read it.
+//!
+//! A file is read value by value from the outside in. ron checks the grammar of the whole text
+//! once; after that every value is a [`Fragment`], a piece of the file's own text (ron's
+//! `RawValue` borrows it), so that its place is known to every error about it.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+use ron::extensions::Extensions;
+use ron::value::RawValue;
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+
+use super::overlay::{Form, Overlay};
+use super::source::{Place, Source};
+use crate::error::LoadError;
+use crate::text::{slips, syntax};
+
+/// The text of one RON value, without the white space and comments around it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fragment<'a> {
+    source: &'a Arc<Source>,
+    text: &'a str,
+    /// What stands in for parts of the text.
+    overlay: Option<&'a Overlay<'a>>,
+}
+
+/// An entry `"name": value` of a map.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry<'a> {
+    /// The name without its quotes.
+    pub(crate) name: String,
+    /// The name as it stands in the file.
+    pub(crate) key: Fragment<'a>,
+    pub(crate) value: Fragment<'a>,
+}
+
+/// ron, with the extensions of the file format.
+pub(crate) fn options() -> ron::Options {
+    ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME)
+        .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
+}
+
+impl<'a> Fragment<'a> {
+    /// The value that a whole file holds.
+    pub(crate) fn of_file(source: &'a Arc<Source>) -> Result<Self, LoadError> {
+        match options().from_str::<&RawValue>(source.text()) {
+            Ok(raw) => Ok(Self::of_raw(source, raw)),
+            Err(error) => Err(syntax::error(source, &error)),
+        }
+    }
+
+    fn of_raw(source: &'a Arc<Source>, raw: &'a RawValue) -> Self {
+        Self {
+            source,
+            text: text_of(raw),
+            overlay: None,
+        }
+    }
+
+    /// The value that stands at a place.
+    pub(crate) fn at(place: &'a Place) -> Self {
+        Self {
+            source: &place.source,
+            text: place.source.text().get(place.span.clone()).unwrap_or(""),
+            overlay: None,
+        }
+    }
+
+    /// The same value, with what `overlay` says of its parts.
+    pub(crate) fn under(self, overlay: &'a Overlay<'a>) -> Self {
+        Self {
+            overlay: Some(overlay),
+            ..self
+        }
+    }
+
+    /// A part of this fragment's text.
+    pub(crate) fn part(self, text: &'a str) -> Self {
+        Self { text, ..self }
+    }
+
+    /// A value inside this one, or what stands in for it.
+    fn inner(self, text: &'a str) -> Self {
+        let inner = self.part(text);
+        let replacement = self.overlay.and_then(|overlay| overlay.replacement(inner));
+        replacement.unwrap_or(inner)
+    }
+
+    pub(crate) fn text(self) -> &'a str {
+        self.text
+    }
+
+    pub(crate) fn source(self) -> &'a Arc<Source> {
+        self.source
+    }
+
+    /// The bytes of the source that it is.
+    pub(crate) fn span(self) -> Range<usize> {
+        // The text is a piece of the source's, so the distance of the two is its offset.
+        let start = self.text.as_ptr() as usize;
+        let start = start.saturating_sub(self.source.text().as_ptr() as usize);
+        start..start + self.text.len()
+    }
+
+    pub(crate) fn place(self) -> Place {
+        Place {
+            source: Arc::clone(self.source),
+            span: self.span(),
+        }
+    }
+
+    pub(crate) fn error(self, message: impl Into<String>) -> LoadError {
+        self.place().error(message)
+    }
+
+    /// An error for a value of another kind than `expected`.
+    pub(crate) fn expected(self, expected: &str) -> LoadError {
+        let line = self.text.lines().next().unwrap_or_default();
+        let mut found: String = line.chars().take(40).collect();
+        if found.len() < self.text.len() {
+            found.push('…');
+        }
+        let error = self
+            .error(format!("expected {expected}, found `{found}`"))
+            .unreadable();
+        // What is right instead shows what is wrong.
+        let right = slips::in_value(self.text, expected).filter(|_| self.source.is_shown());
+        match right {
+            Some(help) => error.with_help(help),
+            None => error,
+        }
+    }
+
+    /// Any type that serde can read; `expected` says in words what it is.
+    pub(crate) fn parse<T: Deserialize<'a>>(self, expected: &str) -> Result<T, LoadError> {
+        options()
+            .from_str(self.text)
+            .map_err(|_| self.expected(expected))
+    }
+
+    /// A finite number.
+    pub(crate) fn number(self) -> Result<f64, LoadError> {
+        if let Some(number) = self.overlay.and_then(|overlay| overlay.number(self)) {
+            return Ok(number);
+        }
+        let number: f64 = self.parse("a number")?;
+        if !number.is_finite() {
+            return Err(self
+                .error(format!("`{}` is not a finite number", self.text))
+                .unreadable()
+                .with_help("give a number such as 0.25 or 2.1e11"));
+        }
+        if let Some(overlay) = self.overlay {
+            overlay.learn_number(self, number);
+        }
+        Ok(number)
+    }
+
+    /// A number of what acts on a mechanism, no larger than [`MOST`].
+    pub(crate) fn acting(self) -> Result<f64, LoadError> {
+        let number = self.number()?;
+        if number.abs() > MOST {
+            return Err(self
+                .error(format!("nothing that acts is larger than {MOST:?}"))
+                .with_help("units are m, N, rad, kg, s and K"));
+        }
+        Ok(number)
+    }
+
+    /// Three of them.
+    pub(crate) fn acting_vector(self) -> Result<Vector3<f64>, LoadError> {
+        let [x, y, z] = self.array("three numbers `(x, y, z)`")?;
+        Ok(Vector3::new(x.acting()?, y.acting()?, z.acting()?))
+    }
+
+    pub(crate) fn string(self) -> Result<String, LoadError> {
+        self.unquoted("a text in quotes")
+    }
+
+    fn unquoted(self, expected: &str) -> Result<String, LoadError> {
+        if let Some(string) = self.overlay.and_then(|overlay| overlay.string(self)) {
+            return Ok(string);
+        }
+        let string: String = self.parse(expected)?;
+        if let Some(overlay) = self.overlay {
+            overlay.learn_string(self, &string);
+        }
+        Ok(string)
+    }
+
+    /// The parts that `read` takes this fragment apart into, or that are known.
+    fn parts(
+        self,
+        form: Form,
+        read: impl FnOnce() -> Result<Vec<&'a str>, LoadError>,
+    ) -> Result<Vec<&'a str>, LoadError> {
+        if let Some(parts) = self.overlay.and_then(|overlay| overlay.parts(self, form)) {
+            return Ok(parts);
+        }
+        let parts = read()?;
+        if let Some(overlay) = self.overlay {
+            let parts = parts.iter().map(|text| self.part(text).span());
+            overlay.learn_parts(self, form, parts.collect());
+        }
+        Ok(parts)
+    }
+
+    /// A tuple `(…, …)` of any length; `expected` says in words what it is.
+    pub(crate) fn tuple(self, expected: &str) -> Result<Vec<Self>, LoadError> {
+        let parts = self.parts(Form::Tuple, || {
+            let Tuple(items) = self.parse(expected)?;
+            Ok(items.into_iter().map(text_of).collect())
+        })?;
+        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
+    }
+
+    /// A tuple of `N` values.
+    pub(crate) fn array<const N: usize>(self, expected: &str) -> Result<[Self; N], LoadError> {
+        let items = self.tuple(expected)?;
+        self.no_decimal_commas(&items, N, expected)?;
+        items.try_into().map_err(|_| self.expected(expected))
+    }
+
+    /// Refuses the items of this tuple where they would be so many `wanted` ones with decimal commas,
+    /// and are more.
+    pub(crate) fn no_decimal_commas(
+        self,
+        items: &[Self],
+        wanted: usize,
+        expected: &str,
+    ) -> Result<(), LoadError> {
+        // What stands in for a part of the text stands elsewhere.
+        let own = |item: &Self| Arc::ptr_eq(item.source, self.source);
+        if items.len() == wanted || !items.iter().all(own) {
+            return Ok(());
+        }
+        let texts: Vec<&str> = items.iter().map(|item| item.text).collect();
+        match slips::decimal_commas(&texts, wanted) {
+            Some(help) => Err(self.expected(expected).with_help(help)),
+            None => Ok(()),
+        }
+    }
+
+    /// A list `[…, …]`.
+    pub(crate) fn list(self, expected: &str) -> Result<Vec<Self>, LoadError> {
+        let parts = self.parts(Form::List, || {
+            let items: Vec<&RawValue> = self.parse(expected)?;
+            Ok(items.into_iter().map(text_of).collect())
+        })?;
+        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
+    }
+
+    /// Three finite numbers.
+    pub(crate) fn vector(self) -> Result<Vector3<f64>, LoadError> {
+        let [x, y, z] = self.array("three numbers `(x, y, z)`")?;
+        Ok(Vector3::new(x.number()?, y.number()?, z.number()?))
+    }
+
+    /// Three finite numbers, not all zero.
+    pub(crate) fn direction(self) -> Result<Vector3<f64>, LoadError> {
+        let vector = self.vector()?;
+        if vector == Vector3::zeros() {
+            return Err(self
+                .error("a zero vector has no direction")
+                .with_help("give a vector of any length but zero, such as (0.0, 0.0, 1.0)"));
+        }
+        Ok(vector)
+    }
+
+    /// A map `{ "name": value, … }` in the order of the file; a name given twice is an error.
+    pub(crate) fn map(self) -> Result<Vec<Entry<'a>>, LoadError> {
+        let parts = self.parts(Form::Map, || {
+            let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
+            let mut seen = HashMap::new();
+            let mut parts = Vec::with_capacity(2 * pairs.len());
+            for (key, value) in pairs {
+                let key = self.part(text_of(key));
+                let name = key.unquoted(NAME)?;
+                if let Some(first) = seen.insert(name.clone(), key) {
+                    return Err(key
+                        .error(format!("the name \"{name}\" is given twice"))
+                        .with_help(first_at(first)));
+                }
+                parts.extend([key.text, text_of(value)]);
+            }
+            Ok(parts)
+        })?;
+        let entry = |pair: &[&'a str]| {
+            let key = self.part(pair[0]);
+            Ok(Entry {
+                name: key.unquoted(NAME)?,
+                key,
+                value: self.inner(pair[1]),
+            })
+        };
+        parts.chunks_exact(2).map(entry).collect()
+    }
+
+    /// The fields of a struct `(name: value, …)` in the order of the file: names and values.
+    pub(crate) fn named(self, expected: &str) -> Result<Vec<(Self, Self)>, LoadError> {
+        let parts = self.parts(Form::Named, || {
+            let Named(fields) = self.parse(expected)?;
+            let pair = |(name, raw)| [name, text_of(raw)];
+            Ok(fields.into_iter().flat_map(pair).collect())
+        })?;
+        let pair = |pair: &[&'a str]| (self.part(pair[0]), self.inner(pair[1]));
+        Ok(parts.chunks_exact(2).map(pair).collect())
+    }
+
+    /// A kind and its arguments: `Kind(…)` or `Kind`, whose arguments are `None`.
+    pub(crate) fn variant(self, expected: &str) -> Result<(Self, Option<Self>), LoadError> {
+        let parts = self.parts(Form::Variant, || {
+            let wrong = |_| self.expected(expected);
+            let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
+            let Identifier(kind) =
+                Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
+            let rest = deserializer.remainder().trim();
+            Ok([kind, rest][..if rest.is_empty() { 1 } else { 2 }].to_vec())
+        })?;
+        Ok((
+            self.part(parts[0]),
+            parts.get(1).map(|rest| self.part(rest)),
+        ))
+    }
+}
+
+/// Largest number of what acts, in SI units: the squares of larger ones, and their products with
+/// stiffnesses and lever arms, overflow.
+const MOST: f64 = 1e50;
+
+/// What a key of a map is.
+const NAME: &str = "a name in quotes";
+
+/// The text of a value without the white space and comments around it.
+fn text_of(raw: &RawValue) -> &str {
+    raw.trim().get_ron()
+}
+
+/// Where something stood first that is given twice.
+pub(crate) fn first_at(first: Fragment<'_>) -> String {
+    let line = first.place().location().line;
+    format!("it stands in line {line} already; remove one of the two")
+}
+
+struct Tuple<'a>(Vec<&'a RawValue>);
+
+impl<'de> Deserialize<'de> for Tuple<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Items;
+        impl<'de> Visitor<'de> for Items {
+            type Value = Tuple<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a tuple")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Tuple<'de>, A::Error> {
+                let mut items = Vec::new();
+                while let Some(item) = seq.next_element()? {
+                    items.push(item);
+                }
+                Ok(Tuple(items))
+            }
+        }
+        deserializer.deserialize_tuple(0, Items)
+    }
+}
+
+struct Pairs<'a>(Vec<(&'a RawValue, &'a RawValue)>);
+
+impl<'de> Deserialize<'de> for Pairs<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries;
+        impl<'de> Visitor<'de> for Entries {
+            type Value = Pairs<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a map")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<'de>, A::Error> {
+                let mut pairs = Vec::new();
+                while let Some(pair) = map.next_entry()? {
+                    pairs.push(pair);
+                }
+                Ok(Pairs(pairs))
+            }
+        }
+        deserializer.deserialize_map(Entries)
+    }
+}
+
+struct Named<'a>(Vec<(&'a str, &'a RawValue)>);
+
+impl<'de> Deserialize<'de> for Named<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Fields;
+        impl<'de> Visitor<'de> for Fields {
+            type Value = Named<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("named fields")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<'de>, A::Error> {
+                let mut fields = Vec::new();
+                while let Some((Identifier(name), value)) = map.next_entry()? {
+                    fields.push((name, value));
+                }
+                Ok(Named(fields))
+            }
+        }
+        deserializer.deserialize_struct("", &[], Fields)
+    }
+}
+
+struct Identifier<'a>(&'a str);
+
+impl<'de> Deserialize<'de> for Identifier<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Name;
+        impl<'de> Visitor<'de> for Name {
+            type Value = Identifier<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("an identifier")
+            }
+            fn visit_borrowed_str<E>(self, name: &'de str) -> Result<Identifier<'de>, E> {
+                Ok(Identifier(name))
+            }
+        }
+        deserializer.deserialize_identifier(Name)
+    }
+}

@@ -1,0 +1,16 @@
+//! Text of files: reading it, places in it, names and paths, tables.
+
+pub(crate) mod brackets;
+pub(crate) mod columns;
+pub(crate) mod csv;
+pub(crate) mod fields;
+pub mod files;
+pub(crate) mod fragment;
+pub(crate) mod names;
+pub(crate) mod overlay;
+pub(crate) mod paths;
+pub(crate) mod slips;
+pub(crate) mod source;
+pub(crate) mod syntax;
+pub(crate) mod table;
+pub(crate) mod values;

@@ -1,0 +1,269 @@
+//! The text of a file, and places in it.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::error::{LoadError, Location};
+use crate::text::files;
+
+/// A text file: its name in messages and its text.
+#[derive(Debug)]
+pub(crate) struct Source {
+    path: PathBuf,
+    text: String,
+    /// Where the whole text is asked for, if it stands in no file as it is.
+    origin: Option<Place>,
+    family: Arc<Family>,
+    /// Whether messages may show its text: not that of a file from elsewhere, named by another,
+    /// before it is known to be of the kind that it was taken for.
+    shown: AtomicBool,
+}
+
+/// What the file that was asked for and the files that it names have in common.
+#[derive(Debug, Default)]
+struct Family {
+    /// Folder of the file that was asked for; `None` where it is in none.
+    folder: Option<PathBuf>,
+    /// All files that were read.
+    read: Mutex<BTreeSet<PathBuf>>,
+}
+
+impl Family {
+    /// Of a file that is asked for.
+    fn of(path: &Path) -> Arc<Self> {
+        Arc::new(Self {
+            folder: folder(path),
+            read: Mutex::default(),
+        })
+    }
+
+    /// Whether a file lies in the folder, or in one below it.
+    fn holds(&self, path: &Path) -> bool {
+        let place = path.canonicalize().ok();
+        let of_both = place.as_ref().zip(self.folder.as_ref());
+        of_both.is_some_and(|(place, folder)| place.starts_with(folder))
+    }
+}
+
+/// The folder that a file is in, without links.
+fn folder(path: &Path) -> Option<PathBuf> {
+    let parent = path.parent()?;
+    let here = parent.as_os_str().is_empty();
+    let parent = if here { Path::new(".") } else { parent };
+    parent.canonicalize().ok()
+}
+
+impl Source {
+    /// `text`, which messages call `path`; a byte order mark is dropped.
+    pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
+        Self::of(path, text, Family::of(path), true)
+    }
+
+    fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
+        Arc::new(Self {
+            path: path.into(),
+            text: text.strip_prefix('\u{feff}').unwrap_or(text).into(),
+            origin: None,
+            family,
+            shown: AtomicBool::new(shown),
+        })
+    }
+
+    /// A value that is asked for at `origin` without standing there, such as one of a range:
+    /// messages about it point there.
+    pub(crate) fn made(text: String, origin: Place) -> Arc<Self> {
+        Arc::new(Self {
+            path: origin.source.path.clone(),
+            text,
+            family: Arc::clone(&origin.source.family),
+            shown: AtomicBool::new(true),
+            origin: Some(origin),
+        })
+    }
+
+    /// Reads a file that is asked for.
+    pub(crate) fn read(path: &Path) -> Result<Arc<Self>, LoadError> {
+        Self::read_into(path, Family::of(path), true)
+    }
+
+    /// Reads a file that this one names. Messages show its text where it lies in the folder of the
+    /// file that was asked for, else from [`Source::understood`] on.
+    pub(crate) fn read_named(&self, path: &Path) -> Result<Arc<Self>, LoadError> {
+        Self::read_into(path, Arc::clone(&self.family), self.family.holds(path))
+    }
+
+    fn read_into(path: &Path, family: Arc<Family>, shown: bool) -> Result<Arc<Self>, LoadError> {
+        let bytes = files::read(path).map_err(|source| LoadError::Read {
+            path: path.into(),
+            source,
+        })?;
+        let mut read = family.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.insert(path.into());
+        drop(read);
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Self::of(path, &text, family, shown)),
+            Err(error) => {
+                let valid = error.utf8_error().valid_up_to();
+                let text = String::from_utf8_lossy(error.as_bytes());
+                let place = Place {
+                    source: Self::of(path, &text, family, shown),
+                    span: valid..valid,
+                };
+                Err(place
+                    .error("the file is not UTF-8 text")
+                    .with_help("save it with the encoding UTF-8"))
+            }
+        }
+    }
+
+    /// Notes that the file is of the kind that it was taken for: from now on messages show its text.
+    pub(crate) fn understood(&self) {
+        self.shown.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether messages may show its text.
+    pub(crate) fn is_shown(&self) -> bool {
+        self.shown.load(Ordering::Relaxed)
+    }
+
+    /// All files that were read: the one that was asked for and those that it led to, so far.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let read = self.family.read.lock();
+        let read = read.unwrap_or_else(PoisonError::into_inner);
+        read.iter().cloned().collect()
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// `path` as seen from the folder of this file.
+    pub(crate) fn relative(&self, path: &str) -> PathBuf {
+        match self.path.parent() {
+            Some(folder) => folder.join(path),
+            None => path.into(),
+        }
+    }
+
+    fn locate(&self, span: &Range<usize>) -> Location {
+        let start = boundary(&self.text, span.start);
+        let (before, rest) = self.text.split_at(start);
+        let line_start = before.rfind('\n').map_or(0, |k| k + 1);
+        let line_end = rest.find('\n').map_or(self.text.len(), |k| start + k);
+        let end = boundary(&self.text, span.end.min(line_end));
+        Location {
+            path: self.path.clone(),
+            line: 1 + before.matches('\n').count(),
+            column: 1 + self.text[line_start..start].chars().count(),
+            width: self.text[start..end.max(start)]
+                .trim_end()
+                .chars()
+                .count()
+                .max(1),
+            text: match self.is_shown() {
+                true => self.text[line_start..line_end]
+                    .trim_end_matches('\r')
+                    .into(),
+                false => String::new(),
+            },
+        }
+    }
+
+    /// Byte offset of a line and a column in characters, both from 1.
+    pub(crate) fn offset(&self, line: usize, column: usize) -> usize {
+        let mut start = 0;
+        for _ in 1..line {
+            start += self.text[start..].find('\n').map_or(0, |k| k + 1);
+        }
+        let mut characters = self.text[start..].char_indices();
+        characters
+            .nth(column.saturating_sub(1))
+            .map_or(self.text.len(), |(k, _)| start + k)
+    }
+}
+
+/// The last character boundary of `text` at or before `offset`.
+fn boundary(text: &str, offset: usize) -> usize {
+    let offset = offset.min(text.len());
+    (0..=offset)
+        .rev()
+        .find(|&k| text.is_char_boundary(k))
+        .unwrap_or(0)
+}
+
+/// A range of bytes of a source, kept for messages that come after reading.
+#[derive(Debug, Clone)]
+pub(crate) struct Place {
+    pub(crate) source: Arc<Source>,
+    pub(crate) span: Range<usize>,
+}
+
+impl Place {
+    pub(crate) fn location(&self) -> Location {
+        match &self.source.origin {
+            Some(origin) => origin.location(),
+            None => self.source.locate(&self.span),
+        }
+    }
+
+    pub(crate) fn error(&self, message: impl Into<String>) -> LoadError {
+        LoadError::At {
+            location: Box::new(self.location()),
+            message: match self.source.is_shown() {
+                true => message.into(),
+                false => NOT_SHOWN.into(),
+            },
+            help: None,
+            unreadable: false,
+        }
+    }
+}
+
+/// What is said of a file from elsewhere that is not what it was taken for.
+const NOT_SHOWN: &str = "this is not understood; the text is not shown, for the file lies outside \
+                         the folder of the file that was given";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn locate(text: &str, span: Range<usize>) -> (usize, usize, usize, String) {
+        let source = Source::new(Path::new("f.ron"), text);
+        let place = Place { source, span };
+        let at = place.location();
+        (at.line, at.column, at.width, at.text)
+    }
+
+    #[test]
+    fn columns_and_widths_count_characters() {
+        let text = "å: 1,\r\nβγ: 22,\n";
+        let start = text.find("22").unwrap();
+        assert_eq!(locate(text, start..start + 2), (2, 5, 2, "βγ: 22,".into()));
+        assert_eq!(locate(text, 0..2), (1, 1, 1, "å: 1,".into()));
+        assert_eq!(locate(text, start..text.len()), (2, 5, 3, "βγ: 22,".into()));
+    }
+
+    #[test]
+    fn ends_and_odd_offsets_are_places_too() {
+        assert_eq!(locate("", 0..0), (1, 1, 1, String::new()));
+        assert_eq!(locate("a\n", 2..2), (2, 1, 1, String::new()));
+        assert_eq!(locate("åb", 1..9).1, 1);
+    }
+
+    #[test]
+    fn offset_is_the_inverse_of_location() {
+        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx");
+        for (k, _) in source.text().char_indices() {
+            let at = source.locate(&(k..k));
+            assert_eq!(source.offset(at.line, at.column), k);
+        }
+        assert_eq!(source.offset(99, 99), source.text().len());
+    }
+}
