@@ -7,6 +7,7 @@ mod book;
 mod closure;
 mod designs;
 mod equilibrium;
+mod floors;
 mod frame3dd_example_b;
 mod frame3dd_self_weight;
 mod freed;

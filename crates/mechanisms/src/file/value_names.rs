@@ -10,11 +10,9 @@ use std::sync::Arc;
 use hyperstat_joints::Dof;
 use hyperstat_model::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 
-use crate::job::subject::{Recipe, Subject};
 use crate::text::fragment::Fragment;
-use crate::text::overlay::{Known, Overlay};
 use crate::text::paths;
-use crate::text::source::{Place, Source};
+use crate::text::source::Place;
 
 /// Part by which a number is made larger: any that does not vanish does, since values are looked
 /// for that are the number itself, before and after.
@@ -101,11 +99,11 @@ fn letter(direction: Dof) -> &'static str {
 
 /// A number that `vary` takes.
 pub(crate) struct Number<'a> {
-    path: String,
+    pub(crate) path: String,
     /// As it is written in the text.
-    written: Fragment<'a>,
+    pub(crate) written: Fragment<'a>,
     /// Its value, or that of what stands in for it.
-    value: f64,
+    pub(crate) value: f64,
 }
 
 /// The numbers of a text that `vary` takes, beside what it has taken already.
