@@ -186,7 +186,9 @@ struct Paths {
 
 impl<'f> Visit<'f> for Paths {
     fn visit_item_use(&mut self, item: &'f syn::ItemUse) {
-        if !is_test(&item.attrs) {
+        // What is only handed on is not used here.
+        let own = matches!(item.vis, syn::Visibility::Inherited);
+        if own && !is_test(&item.attrs) {
             self.found
                 .extend(leaves(&item.tree).into_iter().map(|leaf| leaf.0));
         }
