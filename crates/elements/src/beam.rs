@@ -1,15 +1,12 @@
 //! Straight prismatic beams: Euler–Bernoulli, or Timoshenko where the section has shear areas.
 
-use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::error::{ElementError, check, positive};
-use crate::frame::transport;
+use crate::frame::{Matrix12, transport};
 use crate::material::Material;
 use crate::section::Section;
 use crate::straight::StraightBeam;
-
-/// A 12×12 matrix over the two nodes of a beam, node 1 first.
-pub type Matrix12 = SMatrix<f64, 12, 12>;
 
 /// A straight prismatic beam between two nodes, with no load between them.
 ///

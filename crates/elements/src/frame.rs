@@ -1,9 +1,11 @@
 //! Element frames, rotation to global axes, and transport of displacements and wrenches.
 
-use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Rotation3, SMatrix, Vector3, Vector6};
 
-use crate::beam::Matrix12;
 use crate::error::ElementError;
+
+/// A 12×12 matrix over the two nodes of a beam, node 1 first.
+pub type Matrix12 = SMatrix<f64, 12, 12>;
 
 /// A `y_axis` closer than this to the beam (sine of the angle) counts as along it.
 const ALONG: f64 = 1e-6;

@@ -28,9 +28,10 @@ pub mod subassembly;
 mod taper;
 mod tapered_beam;
 
-pub use beam::{Beam, Matrix12, SectionStrain};
+pub use beam::{Beam, SectionStrain};
 pub use error::ElementError;
 pub use flexible::FlexibleBody;
+pub use frame::Matrix12;
 pub use frame::{element_frame, rotate_matrix6, rotate_matrix12, rotate_vector6, transport};
 pub use load::{BeamLoad, TemperatureChange};
 pub use mass::{Along, LineMass, MassShape, RotaryInertia};

@@ -11,9 +11,9 @@
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
-use crate::beam::{Matrix12, cubic_shape};
+use crate::beam::cubic_shape;
 use crate::error::{ElementError, check};
-use crate::frame::transport;
+use crate::frame::{Matrix12, transport};
 use crate::load::BeamLoad;
 use crate::quadrature::gauss;
 use crate::section::Section;

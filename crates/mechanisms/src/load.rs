@@ -8,8 +8,8 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::batch::Batch;
 use crate::parameters;
-use crate::text::files::{is_batch, mechanism_in};
 use crate::text::fragment::Fragment;
+use crate::text::named::{is_batch, mechanism_in};
 use crate::text::source::Source;
 
 /// What a file holds.

@@ -12,15 +12,15 @@ use std::collections::{HashMap, HashSet};
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
-pub(crate) use super::model::checks::fresh_revision;
 use crate::error::ModelError;
 use crate::loads::{Axes, Load, LoadCase, LoadSet};
-use crate::model::checks::{check_semidefinite, check_stiffness};
-use crate::model::values::ValuePlace;
+use crate::parts::ValuePlace;
 use crate::parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, Member, Misfit,
     Node, NodeId, NodeMass, Segment, SegmentId,
 };
+pub(crate) use crate::revision::fresh_revision;
+use crate::stiffness::{check_semidefinite, check_stiffness};
 
 /// A mechanism in one configuration.
 #[derive(Debug, Clone)]

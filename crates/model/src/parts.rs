@@ -4,7 +4,7 @@
 //! changes stands apart in [`Geometry`].
 
 use hyperstat_elements::{ElementError, FlexibleBody, Material, RigidMass, Section, Taper};
-use hyperstat_joints::{DofSet, Joint};
+use hyperstat_joints::{Dof, DofSet, Joint};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 macro_rules! index {
@@ -253,4 +253,37 @@ fn change_of_section(
     }
     let whole = Taper::new(from.clone(), to.clone())?;
     Ok(Some(whole.part(*first, *last)))
+}
+
+/// Where a value of a model stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ValuePlace {
+    /// A dimension of a segment's section, by its name in files.
+    Dimension {
+        /// The segment.
+        segment: SegmentId,
+        /// Whether the section is the one that the segment's change of section ends with.
+        second: bool,
+        /// The dimension.
+        dimension: &'static str,
+    },
+    /// A constant of a segment's material, by its name in files.
+    Constant {
+        /// The segment.
+        segment: SegmentId,
+        /// The constant.
+        constant: &'static str,
+    },
+    /// A stiffness of a joint that is given by directions.
+    Stiffness {
+        /// The joint.
+        joint: JointId,
+        /// The direction.
+        direction: Dof,
+    },
+    /// The mass of a node.
+    Mass {
+        /// Its place among [`Model::masses`].
+        mass: usize,
+    },
 }

@@ -3,8 +3,9 @@
 use nalgebra::{Matrix3, Matrix6, Rotation3};
 
 use super::elastic_joint::ElasticJoint;
-use crate::beam::{Beam, Matrix12};
+use crate::beam::Beam;
 use crate::error::ElementError;
+use crate::frame::Matrix12;
 use crate::frame::{rotate_matrix6, transport};
 
 /// Stiffness of a beam with elastic joints at its nodes, element frame, by Eqs. 3–12:

@@ -13,9 +13,6 @@ use crate::text::names;
 /// The name of the fixed body.
 pub(crate) const GROUND: &str = "ground";
 
-/// Most elements that a segment may be divided into.
-pub(crate) const MOST_ELEMENTS: usize = 1_000_000;
-
 /// Adds the body of `entry` to the model, and to `given` what its segments are given by.
 pub(crate) fn read(
     entry: &Entry<'_>,

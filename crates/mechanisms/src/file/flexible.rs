@@ -8,7 +8,7 @@ use super::through::{Tables, pairs, through};
 use crate::error::LoadError;
 use crate::text::fields::Fields;
 use crate::text::source::Place;
-use crate::text::{csv, files};
+use crate::text::{csv, named};
 
 /// What the stiffness must be, for messages.
 const WANTED: &str = "give the stiffness of the free body over its points: six rows and columns \
@@ -37,7 +37,7 @@ pub(crate) fn read(
         }
         _ => return Err(given.expected(expected)),
     };
-    let table = files::read_named(path)?;
+    let table = named::read_named(path)?;
     let rows = csv::numbers(&table).map_err(|error| error.with_help(WANTED))?;
     let size = 6 * points.len();
     let line = |row: &[(f64, Place)]| row.first().map(|(_, place)| place.clone());

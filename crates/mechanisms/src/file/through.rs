@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use hyperstat_elements::Material;
 use nalgebra::Point3;
 
-use super::bodies::MOST_ELEMENTS;
 use super::materials::Profile;
 use crate::error::LoadError;
 use crate::text::fields::Fields;
@@ -96,3 +95,6 @@ pub(crate) fn pairs<'p>(points: &'p [Through<'_>]) -> Vec<(&'p str, Point3<f64>)
     let pair = |point: &'p Through<'_>| (point.name.as_str(), point.position);
     points.iter().map(pair).collect()
 }
+
+/// Most elements that a segment may be divided into.
+pub(crate) const MOST_ELEMENTS: usize = 1_000_000;

@@ -7,7 +7,7 @@ use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::values::Values;
-use crate::text::{csv, files, names};
+use crate::text::{csv, named, names};
 
 /// Poses x y z \[m\] and rotation vector \[rad\] of the output.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ impl Poses {
         match kind.text() {
             "Csv" => {
                 let [path] = arguments()?.array("one path, `Csv(\"file.csv\")`")?;
-                let table = files::read_named(path)?;
+                let table = named::read_named(path)?;
                 csv::read(&table, given).map(Self::List)
             }
             "List" => {

@@ -18,7 +18,7 @@ use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
-use crate::text::{files, names};
+use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug)]
@@ -72,7 +72,7 @@ impl Recipe {
             let expected = "one path, `File(\"file.ron\")`";
             let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
             let [path] = arguments.array(expected)?;
-            (files::mechanism_at(path)?, None)
+            (named::mechanism_at(path)?, None)
         } else {
             let Some(kind) = parameters::find(name.text()) else {
                 let known = parameters::KINDS.iter().map(|kind| kind.name);

@@ -11,7 +11,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
 use crate::text::values::Values;
-use crate::text::{csv, files, names};
+use crate::text::{csv, named, names};
 
 /// Targets of a mechanism of a file, one a pose.
 #[derive(Debug)]
@@ -52,7 +52,7 @@ impl Targets {
         match kind.text() {
             "Csv" => {
                 let [path] = arguments()?.array("one path, `Csv(\"file.csv\")`")?;
-                let (columns, rows) = csv::named(&files::read_named(path)?, coordinate)?;
+                let (columns, rows) = csv::named(&named::read_named(path)?, coordinate)?;
                 let asked = |row: Vec<f64>| {
                     let mut asked = [None; 6];
                     for (column, value) in columns.iter().zip(row) {
@@ -75,7 +75,7 @@ impl Targets {
                     return Err(table.expected(expected));
                 };
                 let [path] = inner.array("one path, `Csv(\"file.csv\")`")?;
-                let table = files::read_named(path)?;
+                let table = named::read_named(path)?;
                 let drive = |name: &str, place: &Place| drive(name, place, model, &closure);
                 let (drives, rows) = csv::named(&table, drive)?;
                 let name = |(joint, direction): &(JointId, Dof)| {

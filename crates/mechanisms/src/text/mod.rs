@@ -6,6 +6,7 @@ pub(crate) mod csv;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
+pub(crate) mod named;
 pub(crate) mod names;
 pub(crate) mod overlay;
 pub(crate) mod paths;

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 
-use super::checks::fresh_revision;
 use crate::model::Model;
 use crate::parts::{Geometry, Node, NodeId, Segment, SegmentId, Tapering};
+use crate::revision::fresh_revision;
 use crate::segment_beam::segment_beam;
 use hyperstat_elements::ElementError;
 

@@ -3,11 +3,11 @@
 use hyperstat_joints::DofSet;
 use nalgebra::Vector6;
 
-use super::checks::fresh_revision;
 use crate::directions::Directions;
 use crate::error::ModelError;
 use crate::model::Model;
 use crate::parts::{JointId, Misfit};
+use crate::revision::fresh_revision;
 
 impl Model {
     /// Makes the second body of a joint stand off from the first by `misfit` when no force acts:

@@ -3,40 +3,7 @@
 use hyperstat_joints::Dof;
 
 use crate::model::Model;
-use crate::parts::{JointId, JointStiffness, SegmentId};
-
-/// Where a value of a model stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ValuePlace {
-    /// A dimension of a segment's section, by its name in files.
-    Dimension {
-        /// The segment.
-        segment: SegmentId,
-        /// Whether the section is the one that the segment's change of section ends with.
-        second: bool,
-        /// The dimension.
-        dimension: &'static str,
-    },
-    /// A constant of a segment's material, by its name in files.
-    Constant {
-        /// The segment.
-        segment: SegmentId,
-        /// The constant.
-        constant: &'static str,
-    },
-    /// A stiffness of a joint that is given by directions.
-    Stiffness {
-        /// The joint.
-        joint: JointId,
-        /// The direction.
-        direction: Dof,
-    },
-    /// The mass of a node.
-    Mass {
-        /// Its place among [`Model::masses`].
-        mass: usize,
-    },
-}
+use crate::parts::{JointId, JointStiffness, SegmentId, ValuePlace};
 
 impl Model {
     /// All dimensions, constants and stiffnesses of segments and joints, with their places.
