@@ -120,7 +120,7 @@ fn times(case: &Case) -> Panel {
                 value: |row| Some(row.traditional_time.as_secs_f64() * 1e3),
             },
             Curve {
-                name: "this method, a pose of a sweep",
+                name: "this method, a pose one by one",
                 color: BLUE,
                 value: |row| Some(row.pose_time.as_secs_f64() * 1e3),
             },

@@ -31,7 +31,7 @@ fn times(out: &mut String, case: &Case) -> std::fmt::Result {
     let pose = shortest(|row| row.pose_time);
     writeln!(
         out,
-        "| | equations | time (ms) | over a pose of a sweep |\n|---|---|---|---|"
+        "| | equations | time (ms) | over a pose one by one |\n|---|---|---|---|"
     )?;
     let lines = [
         (
@@ -49,7 +49,7 @@ fn times(out: &mut String, case: &Case) -> std::fmt::Result {
             case.unknowns,
             shortest(|row| row.solve_time),
         ),
-        ("this method, a pose of a sweep", case.unknowns, pose),
+        ("this method, a pose one by one", case.unknowns, pose),
     ];
     for (name, equations, time) in lines {
         let ratio = time.as_secs_f64() / pose.as_secs_f64();
