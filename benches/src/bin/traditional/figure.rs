@@ -66,27 +66,27 @@ fn errors(case: &Case) -> Panel {
         exponents: -17..9,
         curves: vec![
             Curve {
-                name: "traditional, springs for rigid joints",
+                name: "springs in the matrix, for rigid joints",
                 color: BLACK,
                 value: |row| Some(row.traditional?.rigid_joints),
             },
             Curve {
-                name: "traditional with multipliers, same springs, free rotations 1e-7 N·m/rad",
+                name: "multipliers, free rotations 1e-7 N·m/rad",
                 color: SKY,
                 value: |row| Some(row.lagrange?.same_springs),
             },
             Curve {
-                name: "traditional, same springs, free rotations 1e-7 N·m/rad",
+                name: "springs in the matrix, free rotations 1e-7 N·m/rad",
                 color: ORANGE,
                 value: |row| Some(row.traditional_not_free?.same_springs),
             },
             Curve {
-                name: "traditional, same springs, free rotations 0",
+                name: "springs in the matrix, free rotations 0",
                 color: VERMILLION,
                 value: |row| Some(row.traditional?.same_springs),
             },
             Curve {
-                name: "this method, same springs",
+                name: "this method",
                 color: BLUE,
                 value: |row| Some(row.ours),
             },
@@ -97,7 +97,7 @@ fn errors(case: &Case) -> Panel {
 fn times(case: &Case) -> Panel {
     Panel {
         title: format!(
-            "Equations: traditional {}, with multipliers {}, this method {}",
+            "Equations: springs in the matrix {}, multipliers {}, this method {}",
             case.equations, case.lagrange_equations, case.unknowns
         ),
         quantity: "time (ms)",
@@ -110,12 +110,12 @@ fn times(case: &Case) -> Panel {
                 value: |row| Some(row.solve_time.as_secs_f64() * 1e3),
             },
             Curve {
-                name: "traditional with multipliers",
+                name: "multipliers",
                 color: ORANGE,
                 value: |row| Some(row.lagrange_time.as_secs_f64() * 1e3),
             },
             Curve {
-                name: "traditional",
+                name: "springs in the matrix",
                 color: VERMILLION,
                 value: |row| Some(row.traditional_time.as_secs_f64() * 1e3),
             },
