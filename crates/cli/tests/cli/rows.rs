@@ -310,6 +310,72 @@ fn the_order_of_the_poses_is_that_of_the_rows_and_nothing_else() {
     }
 }
 
+/// Of a mechanism of a file too a row depends on nothing but its pose: each alone is as it is among
+/// the others, in any order, to the last digit. Many of them are of another branch or out of reach, and
+/// more than one lot of poses that a thread takes.
+#[test]
+fn a_pose_of_a_file_is_reached_alike_alone_and_among_others() {
+    let bench = Bench::new("rows-reached");
+    let examples = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let five_bar = std::fs::read_to_string(examples.join("five_bar.ron")).unwrap();
+    bench.file("five_bar.ron", &five_bar);
+    let run = |kind: &str, head: &str, rows: &[String]| {
+        bench.file("p.csv", &format!("{head}\n{}\n", rows.join("\n")));
+        let poses = match kind {
+            "Drives" => "Drives(Csv(\"p.csv\"))",
+            _ => "Csv(\"p.csv\")",
+        };
+        let job =
+            format!(r#"(jobs: [(name: "d", mechanism: File("five_bar.ron"), poses: {poses})])"#);
+        bench.file("d.ron", &job);
+        let status = bench
+            .hyperstat(&["run", "d.ron", "--out", "out", "--one-by-one"])
+            .status();
+        assert!(status < 2, "{kind}: {rows:?}");
+        let rows = Table::read(&bench, "out/d.csv").rows;
+        rows.into_iter().map(|row| row[1..].to_vec()).collect()
+    };
+    let cross = |xs: &[f64], ys: &[f64]| -> Vec<String> {
+        let all = ys.iter().flat_map(|y| xs.iter().map(move |x| [x, y]));
+        all.map(|[x, y]| format!("{x},{y}")).collect()
+    };
+    // The first is where the way from the second would lead, but not the way from the file's
+    // configuration.
+    let mut places = vec!["-0.25,-0.36875".to_string(), "0.0,-0.5".to_string()];
+    places.extend(cross(
+        &[-0.3, -0.1, 0.05, 0.2, 0.35],
+        &[-0.5, -0.3, -0.1, 0.05, 0.2, 0.3, 0.45],
+    ));
+    let mut drives = vec!["-1.5,1.5".to_string(), "-1.5,-1.5".to_string()];
+    let values = [-2.0, -1.0, -0.4, 0.0, 0.6, 1.2];
+    drives.extend(cross(&values, &values));
+    for (kind, head, rows) in [("Csv", "x,y", places), ("Drives", "A1.v,A2.v", drives)] {
+        let count = rows.len();
+        assert!(count > 36);
+        let alone: Vec<Vec<String>> = (rows.iter().enumerate())
+            .filter(|(k, _)| *k < 2 || k % 5 == 0)
+            .flat_map(|(_, row)| -> Vec<Vec<String>> {
+                run(kind, head, std::slice::from_ref(row))
+            })
+            .collect();
+        let whole: Vec<Vec<String>> = run(kind, head, &rows);
+        let picked = |k: &usize| *k < 2 || k % 5 == 0;
+        for (k, alone) in (0..count).filter(picked).zip(&alone) {
+            assert_eq!(*alone, whole[k], "{}", rows[k]);
+        }
+        // Steps that have no divisor in common with the number of poses, and the reverse.
+        let steps = (2..count).filter(|step| (2..=*step).all(|d| step % d > 0 || count % d > 0));
+        for step in steps.take(2).chain([count - 1]) {
+            let order: Vec<usize> = (1..=count).map(|k| k * step % count).collect();
+            let shuffled: Vec<String> = order.iter().map(|k| rows[*k].clone()).collect();
+            let found: Vec<Vec<String>> = run(kind, head, &shuffled);
+            for (found, k) in found.iter().zip(order) {
+                assert_eq!(*found, whole[k], "{}", rows[k]);
+            }
+        }
+    }
+}
+
 /// A planar 3-RRR at the rotation at which its three distal links meet in P: there nothing resists a
 /// turn about z. That is told of the pose whether it is the first or not, as by `solve`.
 #[test]
