@@ -181,6 +181,50 @@ fn what_stands_before_the_first_value_or_does_not_show_is_named() {
     slip(&both, "m.ron:4:", &["write 1.020, or 1020.0 if"]);
 }
 
+/// Tables of poses with comments, blanks and what does not show.
+#[test]
+fn slips_in_tables_are_named() {
+    let bench = Bench::new("messages-tables");
+    bench.file("d.ron", &delta_batch("d", r#"Csv("p.csv")"#, ""));
+    for (table, words) in [
+        (
+            "# poses\nx,y,z\n0,0,0.5\n",
+            ["p.csv:1:1", "`#` begins no comment"],
+        ),
+        (
+            "x,y,z\n# poses\n0,0,0.5\n",
+            ["p.csv:2:1", "`#` begins no comment"],
+        ),
+        (
+            "x y z\n0 0 0.5\n",
+            ["p.csv:1:2", "a blank separates the cells"],
+        ),
+        (
+            "x,y,z\n0 0 0.5\n",
+            ["p.csv:2:2", "a blank separates the cells"],
+        ),
+        (
+            "x,y,z\n0,0,0.5\u{200b}\n",
+            ["p.csv:2:5", "U+200B (zero-width space)"],
+        ),
+    ] {
+        bench.file("p.csv", table);
+        let outcome = bench.hyperstat(&["run", "d.ron", "--out", "out"]);
+        outcome
+            .ends_with(2)
+            .says(&[&words[..], &["help: "]].concat());
+    }
+    bench.file("p.csv", "x,y,z\r0,0,0.5\r0.1,0,0.5\r");
+    let outcome = bench
+        .hyperstat(&["run", "d.ron", "--out", "out"])
+        .ends_with(0);
+    assert!(
+        outcome.out().contains("d: 2 poses, all solved"),
+        "{}",
+        outcome.out()
+    );
+}
+
 /// Lines may end with a carriage return alone, as old programs write them.
 #[test]
 fn carriage_returns_end_lines() {
