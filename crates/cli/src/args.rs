@@ -35,7 +35,7 @@ Units are SI throughout (m, N, rad, kg, s). Vectors are in the global frame, lin
 Exit status:
   0  done
   1  a run finished in which some pose has no result
-  2  the input cannot be used
+  2  the input cannot be used, or a figure not be drawn as it was asked for
   3  an output could not be written
  70  a bug in hyperstat: please report it";
 

@@ -140,7 +140,12 @@ impl CliError {
     /// The exit status: 2 for input that cannot be used, 3 for an output that cannot be written.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
-            Self::Write { .. } | Self::Print(_) | Self::Figure { .. } => 3,
+            Self::Write { .. }
+            | Self::Print(_)
+            | Self::Figure {
+                source: FigureError::Svg(_) | FigureError::Png(_),
+                ..
+            } => 3,
             _ => 2,
         }
     }

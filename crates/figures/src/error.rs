@@ -4,6 +4,8 @@ use std::error::Error as StdError;
 
 use thiserror::Error;
 
+use crate::numbers;
+
 /// A figure that cannot be drawn from the data given.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -47,7 +49,7 @@ pub enum FigureError {
         limit: f64,
     },
     /// A number that is not finite, or too large to draw.
-    #[error("{what}: entry {index} is {value}, not a finite number within {limit:e}")]
+    #[error("{what}: entry {index} is {}, not a finite number within {limit:e}", number(*.value))]
     InvalidNumber {
         /// Which list.
         what: String,
@@ -75,13 +77,13 @@ pub enum FigureError {
         what: String,
     },
     /// Limits of colours that are not two ascending numbers.
-    #[error("the colours go from {} to {}; they need two finite numbers, ascending", .limits[0], .limits[1])]
+    #[error("the colours go from {} to {}; they need two finite numbers, ascending", number(.limits[0]), number(.limits[1]))]
     InvalidLimits {
         /// The limits as given.
         limits: [f64; 2],
     },
     /// A logarithmic scale that would begin at zero or below.
-    #[error("a logarithmic scale needs values above zero, and would begin at {least}")]
+    #[error("a logarithmic scale needs values above zero, and would begin at {}", number(*.least))]
     Logarithm {
         /// Where it would begin.
         least: f64,
@@ -101,7 +103,7 @@ pub enum FigureError {
         most: usize,
     },
     /// A place on an axis of categories that is none of them.
-    #[error("{what}: entry {index} is {value}, the number of none of {count} categories")]
+    #[error("{what}: entry {index} is {}, the number of none of {count} categories", number(*.value))]
     NoCategory {
         /// Which list.
         what: String,
@@ -123,13 +125,13 @@ pub enum FigureError {
         points: usize,
     },
     /// A magnification that is not a finite number above zero.
-    #[error("the magnification is {factor}; it must be a finite number above zero")]
+    #[error("the magnification is {}; it must be a finite number above zero", number(*.factor))]
     InvalidFactor {
         /// The magnification as given.
         factor: f64,
     },
     /// A difference between two methods that is not a finite number, zero or above.
-    #[error("the difference from `{name}` is {difference}; it must be finite and not negative")]
+    #[error("the difference from `{name}` is {}; it must be finite and not negative", number(*.difference))]
     InvalidDifference {
         /// Name of the second method.
         name: String,
@@ -151,6 +153,29 @@ pub enum FigureError {
 }
 
 fn numbers(values: &[f64; 3]) -> String {
-    let [x, y, z] = values;
-    format!("{x}, {y}, {z}")
+    values.map(number).join(", ")
+}
+
+/// A number of at most six digits: plain where that is short, else with an exponent.
+fn number(value: f64) -> String {
+    numbers::number(numbers::rounded(value, 5))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+
+    #[test]
+    fn messages_have_short_numbers() {
+        for (value, text) in [
+            (-1.534_621_973_498e-5, "-1.53462e-5"),
+            (-0.1 - 0.2, "-0.3"),
+            (1.797_693e308, "1.79769e308"),
+            (f64::NAN, "NaN"),
+            (f64::NEG_INFINITY, "-inf"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
 }

@@ -60,7 +60,7 @@ pub(crate) fn short(value: f64) -> String {
 }
 
 /// The value with so many decimals in scientific notation.
-fn rounded(value: f64, decimals: usize) -> f64 {
+pub(crate) fn rounded(value: f64, decimals: usize) -> f64 {
     format!("{value:.decimals$e}")
         .parse()
         .expect("a number as it was written")

@@ -36,6 +36,17 @@ pub(crate) struct Held {
 }
 
 impl Failure {
+    /// What is wrong, and what would be right where that can be said.
+    pub(crate) fn in_words(&self) -> String {
+        match self {
+            Self::Design(error) => match error.help() {
+                Some(help) => format!("{error}; {help}"),
+                None => error.to_string(),
+            },
+            other => other.to_string(),
+        }
+    }
+
     /// The word for it in a table.
     pub(crate) fn status(&self) -> &'static str {
         match self {

@@ -72,7 +72,7 @@ impl Summary {
                             status,
                             count: 1,
                             first_pose: self.poses,
-                            why: failure.to_string(),
+                            why: failure.in_words(),
                         }),
                     }
                 }

@@ -8,9 +8,22 @@ mod result;
 mod tests;
 mod watch;
 
+use hyperstat_assembly::Model;
+
 pub(crate) use input::of_model;
 pub(crate) use result::of_solution;
 pub(crate) use watch::Watch;
+
+/// Diagonal of the box around a mechanism's points \[m\].
+fn size(model: &Model) -> f64 {
+    let positions = &model.geometry().positions;
+    positions.first().map_or(0.0, |first| {
+        let bounds = positions.iter().fold((*first, *first), |(least, most), p| {
+            (least.inf(p), most.sup(p))
+        });
+        (bounds.1 - bounds.0).norm()
+    })
+}
 
 /// A number in a message: four digits.
 fn number(value: f64) -> String {

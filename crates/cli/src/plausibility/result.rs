@@ -3,7 +3,7 @@
 use hyperstat_assembly::{BodyId, Model, NodeId, Solution, WorstPoint};
 use nalgebra::Vector6;
 
-use super::number;
+use super::{number, size};
 
 /// Displacements above this share of a mechanism's size are beyond a linear model.
 const MOVED: f64 = 0.05;
@@ -44,15 +44,8 @@ pub(crate) fn of_solution(model: &Model, solution: &Solution) -> Vec<String> {
 impl Findings {
     /// Of a model of which nothing is solved yet.
     pub(super) fn of(model: &Model) -> Self {
-        let positions = &model.geometry().positions;
-        let size = positions.first().map_or(0.0, |first| {
-            let bounds = positions.iter().fold((*first, *first), |(least, most), p| {
-                (least.inf(p), most.sup(p))
-            });
-            (bounds.1 - bounds.0).norm()
-        });
         Self {
-            size,
+            size: size(model),
             moved: None,
             turned: None,
             used: None,
@@ -117,14 +110,21 @@ impl Findings {
         const LOOK: &str = "this is beyond a linear model: are all forces in N, stiffnesses in N/m or \
                             N·m/rad, and is every drive locked?";
         let mut told = Vec::new();
-        // A mechanism of one point has no size to compare with.
-        let moved = self.moved.as_ref().filter(|_| self.size > 0.0);
-        if let Some(Largest { value, of, at }) = moved.filter(|m| m.value > MOVED * self.size) {
+        // A mechanism of one point has no size to compare with, and is taken as one of 1 m.
+        let size = if self.size > 0.0 { self.size } else { 1.0 };
+        let moved = self.moved.as_ref();
+        if let Some(Largest { value, of, at }) = moved.filter(|m| m.value > MOVED * size) {
+            let share = match self.size > 0.0 {
+                true => format!(
+                    "{} % of the mechanism's size of {} m",
+                    number(100.0 * value / size),
+                    number(size)
+                ),
+                false => "and all points of the mechanism are at one place".into(),
+            };
             told.push(format!(
-                "{of} moves by {} m{at}, {} % of the mechanism's size of {} m; {LOOK}",
-                number(*value),
-                number(100.0 * value / self.size),
-                number(self.size)
+                "{of} moves by {} m{at}, {share}; {LOOK}",
+                number(*value)
             ));
         }
         let turned = self.turned.as_ref().filter(|turned| turned.value > TURNED);

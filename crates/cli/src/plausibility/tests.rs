@@ -83,7 +83,9 @@ fn units_of_materials() {
         &["Young's modulus of `bar` is 210 N/m²", "GPa", "2.100e11"],
     );
     let told = changed(&[("2.1e11", "2.1e5")]);
-    says(&told, &["softer than rubber", "N/mm²", "2.100e11"]);
+    says(&told, &["as soft as rubber", "N/mm²", "2.100e11"]);
+    let told = changed(&[("2.1e11", "7e4")]);
+    says(&told, &["softer than rubber", "N/mm²", "7.000e10"]);
     let told = changed(&[("2.1e11", "2.1e14")]);
     says(&told, &["stiffer than diamond"]);
     for (density, unit) in [
@@ -97,6 +99,95 @@ fn units_of_materials() {
         );
     }
     assert_eq!(changed(&[("7850.0", "0.0")]), Vec::<String>::new());
+}
+
+#[test]
+fn rubber_is_soft_and_shear_moduli_go_with_youngs() {
+    // Silicone of 0.5 N/mm², by its Poisson's ratio, by its density, and without either.
+    let of = |law: &str| {
+        let law = law.to_string();
+        let told = changed(&[("young: 2.1e11, poisson: 0.3, density: 7850.0", &law)]);
+        let is_of_modulus = |line: &String| line.contains("modulus of");
+        told.into_iter().filter(is_of_modulus).collect::<Vec<_>>()
+    };
+    for silicone in [
+        "young: 5e5, poisson: 0.3",
+        "young: 3e5, poisson: 0.48",
+        "young: 2e5, poisson: 0.3, density: 1100.0",
+        "young: 1.2e10, shear: 6e8, density: 600.0",
+        "young: 1.4e11, shear: 5e9, density: 1600.0",
+    ] {
+        assert_eq!(of(silicone), Vec::<String>::new(), "{silicone}");
+    }
+    for (shear, unit) in [("80.0", "GPa"), ("8e4", "N/mm² (MPa)"), ("8e7", "kPa")] {
+        let law = format!("young: 2.1e11, shear: {shear}, density: 7850.0");
+        says(
+            &of(&law),
+            &["the shear modulus of `bar`", unit, "8.000e10 here"],
+        );
+    }
+}
+
+#[test]
+fn gravity_and_size_in_mm() {
+    let gravity = "output: (\"platform\", \"C\")";
+    let told = changed(&[(gravity, &format!("gravity: (0.0, 0.0, -9810.0), {gravity}"))]);
+    says(&told, &["gravity is 9810 m/s²", "mm/s²", "9.81 here"]);
+    let told = changed(&[
+        ("(0.5, 0.0, 0.0)", "(500.0, 0.0, 0.0)"),
+        ("(0.6, 0.0, 0.1)", "(600.0, 0.0, 100.0)"),
+    ]);
+    says(
+        &told,
+        &["the mechanism is 608.3 m across", "in mm?", "0.6083 here"],
+    );
+}
+
+#[test]
+fn leaves_may_be_wide_and_small_bushings_soft() {
+    let circle = "Circle(diameter: 0.03)";
+    let across = |section: &str| {
+        let told = changed(&[
+            (circle, section),
+            ("(0.5, 0.0, 0.0)", "(0.002, 0.0, 0.0)"),
+            ("(0.6, 0.0, 0.1)", "(0.01, 0.0, 0.0)"),
+        ]);
+        told.iter().filter(|line| line.contains("across")).count()
+    };
+    // A leaf of 0.2 mm, 2 mm long and 30 mm wide; a block; one wider than any leaf.
+    assert_eq!(across("Rectangle(width: 0.03, height: 0.0002)"), 0);
+    assert_eq!(across("Rectangle(width: 0.03, height: 0.002)"), 1);
+    assert_eq!(across("Rectangle(width: 0.05, height: 0.0002)"), 1);
+    // 10 mN on 500 N/m in a mechanism of 10 mm: 20 µm.
+    let bearing = "x: 2e8, y: 2e8, z: 2e8";
+    let small = [
+        (bearing, "x: 500.0, y: 500.0, z: 500.0"),
+        ("(0.5, 0.0, 0.0)", "(0.008, 0.0, 0.0)"),
+        ("(0.6, 0.0, 0.1)", "(0.01, 0.0, 0.0)"),
+        (circle, "Circle(diameter: 0.001)"),
+        ("-100.0", "-0.01"),
+    ];
+    let told = changed(&small);
+    assert!(
+        !told.iter().any(|line| line.contains("bearing")),
+        "{told:#?}"
+    );
+}
+
+#[test]
+fn what_lies_at_one_place_may_move_too_far() {
+    let text = r#"(
+        name: "carriage",
+        points: { "A": (0.0, 0.0, 0.0) },
+        bodies: { "carriage": Rigid(points: ["A"]) },
+        joints: { "spring": (at: "A", between: ("ground", "carriage"), kind: Fixed, stiffness: (x: 2e3)) },
+        loads: [(on: ("carriage", "A"), force: (1000.0, 0.0, 0.0))],
+        output: ("carriage", "A"),
+    )"#;
+    let mechanism = mechanism_from_str(text, Path::new("m.ron"), &Registry::builtin());
+    // 1000 N on 2000 N/m: 0.5 m.
+    let told = told(&mechanism.unwrap().model);
+    says(&told, &["moves by 0.5 m", "at one place"]);
 }
 
 #[test]

@@ -129,7 +129,12 @@ pub(crate) enum PlotError {
         path: PathBuf,
         what: &'static str,
         number: usize,
+        /// The largest that it holds.
+        last: usize,
     },
+    /// A table of a header alone.
+    #[error("{} has no rows: there is nothing to draw", .path.display())]
+    Empty { path: PathBuf },
 }
 
 impl PlotError {
@@ -195,7 +200,15 @@ impl PlotError {
                     format!("choose among them with {}", planes.join(" and "))
                 }
             }),
-            Self::NoRows { what, .. } => Some(format!("{what}s are counted from 0")),
+            Self::NoRows { what, last: 0, .. } => {
+                Some(format!("{what}s are counted from 0: leave `--{what}` out"))
+            }
+            Self::NoRows { what, last, .. } => Some(format!(
+                "choose `--{what}` from 0 to {last}: {what}s are counted from 0"
+            )),
+            Self::Empty { .. } => {
+                Some("`hyperstat run` writes a row for every pose; run the batch again".into())
+            }
             _ => None,
         }
     }

@@ -73,6 +73,9 @@ pub(crate) fn figure(table: &Table, lines: &Lines) -> Result<LineFigure, PlotErr
             format!("{} over {}", names.join(", "), over.quantity.name)
         }
     };
+    if let Some(design) = lines.choice.in_words(table) {
+        subtitle += &format!("; {design}");
+    }
     if curves.all.len() < curves.count {
         let (shown, all) = (curves.all.len(), curves.count);
         subtitle += &format!("; {shown} of {all} values of {}", curves.names.join(", "));

@@ -88,7 +88,8 @@ pub(crate) fn figure(table: &Table, map: &Map) -> Result<MapFigure, PlotError> {
             path: table.path().into(),
         });
     }
-    let mut over = poses.held_in_words(&held, axes);
+    let mut over: Vec<String> = map.choice.in_words(table).into_iter().collect();
+    over.extend(poses.held_in_words(&held, axes));
     if let Some(k) = across {
         let (all, shown) = (coordinates.count(k), planes.len());
         let name = &coordinates.get(k).name;

@@ -24,7 +24,7 @@ use crate::outputs;
 pub(crate) use error::PlotError;
 use lines::Lines;
 pub(crate) use map::{Map, figure as map};
-pub(crate) use quantity::{Drawn, instead_of};
+pub(crate) use quantity::{Drawn, instead_of, is_frequency};
 pub(crate) use rows::Choice;
 pub(crate) use table::Table;
 
@@ -139,8 +139,9 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         pose: args.pose,
     };
     // One design, where no more are asked for.
+    let first = rows::first_design(table)?;
     let one_design = Choice {
-        design: choice.design.or(Some(0)),
+        design: choice.design.or(first).or(Some(0)),
         ..choice
     };
     let kind = match (&args.kind.map, &args.kind.lines) {
@@ -206,7 +207,10 @@ fn trajectory(
     let columns: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
     let columns = table.read(&columns)?;
     let mut figure = TrajectoryFigure {
-        title: title.unwrap_or_else(|| table.job()),
+        title: title.unwrap_or_else(|| {
+            let design = choice.design.filter(|_| table.varies());
+            drawing::title(&table.job(), design, None, None)
+        }),
         commanded: Vec::new(),
         displacement: Vec::new(),
         second: None,

@@ -306,7 +306,7 @@ pub(super) fn unit(name: &str) -> &'static str {
 }
 
 /// Whether a column is a natural frequency: `f1`, `f2` …
-fn is_frequency(name: &str) -> bool {
+pub(crate) fn is_frequency(name: &str) -> bool {
     let number = name.strip_prefix('f').unwrap_or_default();
     !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
 }

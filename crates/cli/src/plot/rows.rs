@@ -1,7 +1,10 @@
 //! Which rows of a table are drawn.
 
 use super::error::PlotError;
-use super::table::{Column, Table};
+use super::table::{Column, STATUS, Table};
+
+/// What the status of a pose with a result is.
+const SOLVED: [&str; 2] = ["ok", "rigid"];
 
 /// What chooses rows.
 #[derive(Debug, Clone, Copy, Default)]
@@ -12,10 +15,37 @@ pub(crate) struct Choice {
     pub(crate) pose: Option<usize>,
 }
 
+/// The first design of a table with a pose that has a result, as a job's figures are of; the first
+/// where none has. `None` where the table is of one design.
+pub(super) fn first_design(table: &Table) -> Result<Option<usize>, PlotError> {
+    let Some(place) = table.find("design") else {
+        return Ok(None);
+    };
+    let designs = table.read(&[place])?.remove(0);
+    let statuses = table.words(table.find(STATUS).unwrap_or(0))?;
+    let mut solved = designs.iter().zip(&statuses);
+    let found = solved.find_map(|(design, status)| match SOLVED.contains(&&**status) {
+        true => *design,
+        false => None,
+    });
+    Ok(Some(found.unwrap_or(0.0) as usize))
+}
+
 impl Choice {
+    /// The design in words, where the table is of several.
+    pub(super) fn in_words(self, table: &Table) -> Option<String> {
+        let design = self.design.filter(|_| table.varies())?;
+        Some(format!("design {design}"))
+    }
+
     /// The rows that are chosen.
     pub(super) fn rows(self, table: &Table) -> Result<Vec<usize>, PlotError> {
         let pose = table.read(&[table.find("pose").unwrap_or(0)])?.remove(0);
+        if pose.is_empty() {
+            return Err(PlotError::Empty {
+                path: table.path().into(),
+            });
+        }
         let mut rows: Vec<usize> = (0..pose.len()).collect();
         let designs = match table.find("design") {
             Some(place) => table.read(&[place])?.remove(0),
@@ -26,10 +56,15 @@ impl Choice {
             let Some(number) = number else { continue };
             rows.retain(|&row| column[row] == Some(number as f64));
             if rows.is_empty() {
+                let last = column
+                    .iter()
+                    .flatten()
+                    .fold(0.0_f64, |last, k| last.max(*k));
                 return Err(PlotError::NoRows {
                     path: table.path().into(),
                     what,
                     number,
+                    last: last as usize,
                 });
             }
         }

@@ -19,7 +19,7 @@ const DESIGN: &str = "design";
 const FIRST: [&str; 8] = ["pose", "x", "y", "z", "rx", "ry", "rz", "status"];
 
 /// The column that says how a pose came out, in a word.
-const STATUS: &str = "status";
+pub(super) const STATUS: &str = "status";
 
 /// A column of numbers; `None` where a cell is empty.
 pub(super) type Column = Vec<Option<f64>>;
@@ -107,6 +107,11 @@ impl Table {
             .find(DESIGN)
             .map_or(self.names.len(), |place| place + 1);
         self.names.get(first..).unwrap_or_default()
+    }
+
+    /// Whether it is of several designs.
+    pub(super) fn varies(&self) -> bool {
+        self.find(DESIGN).is_some()
     }
 
     /// Whether a column may hold words.

@@ -166,10 +166,10 @@ pub(super) fn write_worst_of(
 
 impl WorstReport {
     /// The numbers of its row.
-    fn numbers(&self, with_utilisation: bool) -> Vec<f64> {
+    fn numbers(&self, with_utilisation: bool) -> Vec<Option<f64>> {
         let size = self.y.hypot(self.z);
         let in_section = [self.y, self.z].map(|c| if c.abs() < ROUNDING * size { 0.0 } else { c });
-        let mut row = vec![
+        let told = [
             self.at,
             in_section[0],
             in_section[1],
@@ -179,9 +179,8 @@ impl WorstReport {
             self.strain.normal,
             self.strain.shear,
         ];
-        if with_utilisation {
-            row.push(self.utilisation.unwrap_or(f64::NAN));
-        }
-        row
+        // Of a material without a limit there is none.
+        let utilisation = with_utilisation.then_some(self.utilisation);
+        told.map(Some).into_iter().chain(utilisation).collect()
     }
 }

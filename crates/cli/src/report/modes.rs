@@ -67,9 +67,11 @@ impl ModesReport {
         let residuals = found.modes.iter().map(|mode| mode.residual);
         let worst = residuals.fold(0.0, f64::max);
         if worst > UNSETTLED {
-            remarks.push(format!(
-                "parts of very different stiffness: modes are good to about {worst:.0e} only"
-            ));
+            let good = match worst < 1.0 {
+                true => format!("modes are good to about {worst:.0e} only"),
+                false => "no digit of the modes is right".into(),
+            };
+            remarks.push(format!("parts of very different stiffness: {good}"));
         }
         let mode = |mode| ModeReport::new(model, mode, all);
         Self {

@@ -20,11 +20,18 @@ impl Table {
         }
     }
 
-    /// Adds a row of names followed by numbers.
-    pub(crate) fn row(&mut self, names: &[&str], numbers: impl IntoIterator<Item = f64>) {
+    /// Adds a row of names followed by numbers; a dash stands for one that there is not.
+    pub(crate) fn row<N: Into<Option<f64>>>(
+        &mut self,
+        names: &[&str],
+        numbers: impl IntoIterator<Item = N>,
+    ) {
         let names = names.iter().map(|name| (*name).to_string());
-        self.rows
-            .push(names.chain(numbers.into_iter().map(number)).collect());
+        let numbers = numbers.into_iter().map(|value| match value.into() {
+            Some(value) => number(value),
+            None => "–".into(),
+        });
+        self.rows.push(names.chain(numbers).collect());
     }
 
     /// Adds a row of names followed by a remark in place of the numbers.

@@ -23,6 +23,10 @@ fn a_map_that_a_job_cannot_have_is_told_before_the_first_job() {
             ["there is no quantity `k77`", "k11, k12"],
         ),
         (
+            r#"Map(value: "f2")"#,
+            ["there is no quantity `f2`", "need `modes: 2` in the job"],
+        ),
+        (
             r#"Map(value: "status")"#,
             ["there is no quantity `status`", "k11, k12"],
         ),
@@ -379,5 +383,47 @@ fn the_example_of_maps_runs() {
     assert_eq!(count, 5);
     for name in pictures.iter().filter(|name| name.ends_with(".svg")) {
         assert!(is_filled(&bench.read(&format!("maps/{name}"))), "{name}");
+    }
+}
+
+/// A map that cannot be drawn of the results is left out, and the jobs behind it run.
+#[test]
+fn a_figure_that_cannot_be_drawn_does_not_end_the_run() {
+    let bench = Bench::new("maps-undrawable");
+    let figures = r#"figures: [Map(value: "dx", scale: Log), Map(value: "k33")],"#;
+    let one = delta_batch("m", GRID, figures);
+    let job = one.split_once("jobs: [").unwrap().1;
+    let job = job.rsplit_once("],").unwrap().0;
+    let later = job.replace("\"m\"", "\"later\"").replace(figures, "");
+    bench.file("b.ron", &format!("(jobs: [{job}{later}])"));
+    let outcome = bench.hyperstat(&["run", "b.ron", "--out", "out"]);
+    let outcome = outcome.ends_with(0);
+    let line = "  no m-map-1: a logarithmic scale needs values above zero, and would begin at -";
+    assert!(outcome.out().contains(line), "{}", outcome.out());
+    let names = bench.names("out");
+    assert_eq!(
+        names,
+        ["later.csv", "m-map-2.png", "m-map-2.svg", "m.csv"],
+        "{}",
+        outcome.out()
+    );
+    // `plot` was asked for something that cannot be: the status says so, in numbers of few digits.
+    for (options, words) in [
+        (&["--map", "dx", "--scale", "log"][..], "would begin at -"),
+        (
+            &["--map", "k33", "--scale", "log", "--limits", "-0.1,1e9"],
+            "would begin at -0.1",
+        ),
+        (&["--trajectory", "--scale", "1e300"], "beyond "),
+    ] {
+        let outcome = bench.hyperstat(&[&["plot", "out/m.csv"], options].concat());
+        let outcome = outcome.ends_with(2);
+        outcome.says(&[words]);
+        let long = |word: &str| word.chars().filter(char::is_ascii_digit).count() > 9;
+        assert!(
+            !outcome.err().split_whitespace().any(long),
+            "{}",
+            outcome.err()
+        );
     }
 }

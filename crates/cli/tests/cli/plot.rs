@@ -184,7 +184,11 @@ fn lines_over_what_varies_take_one_pose_of_each_design() {
     bench
         .hyperstat(&["plot", "designs.csv", "--map", "k11", "--design", "6"])
         .ends_with(2)
-        .says(&["designs.csv holds no design 6", "counted from 0"]);
+        .says(&[
+            "designs.csv holds no design 6",
+            "choose `--design` from 0 to 5",
+            "counted from 0",
+        ]);
 }
 
 #[test]
@@ -284,4 +288,34 @@ fn a_figure_that_cannot_be_written_ends_with_3() {
         .hyperstat(&["plot", "out/map.csv", "--map", "k11", "--out", "none/map"])
         .ends_with(3)
         .says(&["cannot write none/map.svg"]);
+}
+
+/// Rods of 0.05 m reach no pose: the first design that has a result is drawn, and named.
+#[test]
+fn the_first_design_with_a_result_is_drawn() {
+    let bench = Bench::new("plot-first-design");
+    let vary = r#"vary: { "rod_length": [0.05, 0.6, 0.7] },"#;
+    bench.file("d.ron", &delta_batch("d", GRID, vary));
+    let outcome = bench.hyperstat(&["run", "d.ron", "--out", "."]);
+    assert!(outcome.status() < 2, "{}", outcome.err());
+    for options in [&["--map", "k11"], &["--lines", "k11"]] {
+        let outcome = bench.hyperstat(&[&["plot", "d.csv"], &options[..]].concat());
+        let outcome = outcome.ends_with(0);
+        assert!(outcome.out().contains("design 1"), "{}", outcome.out());
+    }
+    bench.hyperstat(&["plot", "d.csv"]).ends_with(2);
+    bench
+        .hyperstat(&["plot", "d.csv", "--trajectory"])
+        .ends_with(0);
+    assert!(bench.read("d-trajectory.svg").contains("d, design 1"));
+    let chosen = bench.hyperstat(&["plot", "d.csv", "--map", "k11", "--design", "2"]);
+    assert!(chosen.ends_with(0).out().contains("design 2"));
+    let table = bench.read("d.csv");
+    bench.file("head.csv", &format!("{}\n", table.lines().next().unwrap()));
+    for kind in ["--map", "--lines"] {
+        bench
+            .hyperstat(&["plot", "head.csv", kind, "k11"])
+            .ends_with(2)
+            .says(&["head.csv has no rows", "run the batch again"]);
+    }
 }

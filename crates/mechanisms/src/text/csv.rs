@@ -148,21 +148,33 @@ fn wrong_count(
         })
 }
 
-/// Refuses a line of cells that something else than commas separates.
+/// Refuses a line of cells that something else than commas separates, or that is a comment.
 fn separated(table: &Arc<Source>, line: &Range<usize>) -> Result<(), LoadError> {
     let text = &table.text()[line.clone()];
-    let Some(at) = text.find([';', '\t']).filter(|_| !text.contains(',')) else {
-        return Ok(());
-    };
-    let what = if text[at..].starts_with(';') {
-        "`;`"
-    } else {
-        "a tab"
-    };
-    let place = Place {
+    let place = |at: usize| Place {
         source: Arc::clone(table),
         span: line.start + at..line.start + at + 1,
     };
+    if text.starts_with('#') {
+        return Err(place(0)
+            .error("`#` begins no comment")
+            .with_help("a table has no comments: leave the line out"));
+    }
+    // Blanks separate words of a header, and numbers.
+    let number = |word: &str| word.parse::<f64>().is_ok();
+    let blank = |at: &usize| line.start == 0 || text[*at..].split(' ').any(number);
+    let other = text.find([';', '\t']);
+    let blanks = text.find(' ').filter(|_| !text.contains('"'));
+    let other = other.or_else(|| blanks.filter(blank));
+    let Some(at) = other.filter(|_| !text.contains(',')) else {
+        return Ok(());
+    };
+    let what = match &text[at..=at] {
+        ";" => "`;`",
+        "\t" => "a tab",
+        _ => "a blank",
+    };
+    let place = place(at);
     Err(place
         .error(format!("{what} separates the cells of this table"))
         .with_help("separate cells by commas, and write decimals with a point"))
@@ -191,6 +203,11 @@ fn number(place: &Place) -> Result<f64, LoadError> {
             .with_help(NUMBER)),
         Err(_) => {
             separated(&place.source, &place.span)?;
+            if let Some((_, name)) = slips::invisible(text) {
+                return Err(place
+                    .error(format!("expected a number, found {name} in `{}`", shown()))
+                    .with_help(slips::VISIBLE));
+            }
             Err(place
                 .error(format!("expected a number, found `{}`", shown()))
                 .with_help(NUMBER))

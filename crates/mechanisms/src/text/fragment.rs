@@ -166,7 +166,7 @@ impl<'a> Fragment<'a> {
         let number = self.number()?;
         if number.abs() > MOST {
             return Err(self
-                .error(format!("nothing that acts is larger than {MOST:?}"))
+                .error(format!("nothing that acts may be larger than {MOST:?}"))
                 .with_help("units are m, N, rad, kg, s and K"));
         }
         Ok(number)

@@ -1,7 +1,11 @@
 //! What was probably meant where a file holds what the format does not: habits of other languages,
 //! of spreadsheets and of other countries.
 
-use std::ops::Range;
+mod separators;
+
+use std::ops::{Range, RangeInclusive};
+
+pub(crate) use separators::decimal_commas;
 
 /// What was probably meant.
 #[derive(Debug, PartialEq)]
@@ -20,8 +24,38 @@ const QUOTES: &str = "texts stand in double quotes";
 /// What arithmetic is written with.
 const OPERATORS: &str = "*/+-^−×·÷";
 
-/// How decimals are written.
-const POINT: &str = "decimals have a point, and a comma separates two values";
+/// Characters that look like a blank or like nothing, with their names.
+const INVISIBLE: [(RangeInclusive<char>, &str); 12] = [
+    ('\u{00a0}'..='\u{00a0}', "no-break space"),
+    ('\u{00ad}'..='\u{00ad}', "soft hyphen"),
+    ('\u{2000}'..='\u{200a}', "space of typesetting"),
+    ('\u{200b}'..='\u{200b}', "zero-width space"),
+    ('\u{200c}'..='\u{200d}', "zero-width joiner"),
+    ('\u{200e}'..='\u{200f}', "mark of direction"),
+    ('\u{2028}'..='\u{2029}', "line separator"),
+    ('\u{202a}'..='\u{202e}', "mark of direction"),
+    ('\u{202f}'..='\u{202f}', "narrow no-break space"),
+    ('\u{2060}'..='\u{2069}', "word joiner"),
+    ('\u{3000}'..='\u{3000}', "ideographic space"),
+    ('\u{feff}'..='\u{feff}', "byte order mark"),
+];
+
+/// The invisible character of a text, with what it is in words: its code point and its name.
+pub(crate) fn invisible(text: &str) -> Option<(usize, String)> {
+    text.char_indices().find_map(|(at, c)| {
+        let known = INVISIBLE.iter().find(|(range, _)| range.contains(&c));
+        let name = match known {
+            Some((_, name)) => name,
+            None if c.is_control() && !c.is_whitespace() => "control character",
+            None => return None,
+        };
+        Some((at, format!("U+{:04X} ({name})", u32::from(c))))
+    })
+}
+
+/// What would be right instead of an invisible character.
+pub(crate) const VISIBLE: &str = "delete it, or write an ordinary blank: it came from a web page or a word \
+                                  processor, and does not show";
 
 /// The slip at the place of a text at which its grammar is noticed to be wrong.
 pub(crate) fn in_grammar(text: &str, noticed: usize) -> Option<Slip> {
@@ -43,12 +77,20 @@ pub(crate) fn in_grammar(text: &str, noticed: usize) -> Option<Slip> {
     }
     let next = text[noticed..].chars().next()?;
     let at = noticed..noticed + next.len_utf8();
+    // In the word that is not understood, wherever that is noticed.
+    let apart = |c: char| c.is_ascii_whitespace() || "()[]{},:\"'".contains(c);
+    let start = text[..noticed].rfind(apart).map_or(0, |k| k + 1);
+    let end = text[noticed..]
+        .find(apart)
+        .map_or(text.len(), |k| noticed + k);
+    if let Some((inside, name)) = invisible(&text[start..end]) {
+        let first = start + inside;
+        let width = text[first..].chars().next().map_or(1, char::len_utf8);
+        let message = format!("{name} cannot stand here");
+        return found(first..first + width, message, VISIBLE.into());
+    }
     match next {
-        '#' => found(
-            at,
-            "`#` begins no comment".into(),
-            "comments are `// …` to the end of the line, or `/* … */`".into(),
-        ),
+        '#' => Some(hash(noticed)),
         '=' => found(
             at,
             "`=` gives nothing a value".into(),
@@ -73,13 +115,23 @@ pub(crate) fn in_grammar(text: &str, noticed: usize) -> Option<Slip> {
     }
 }
 
+/// The slip of a comment that begins with a `#`, here.
+pub(crate) fn hash(at: usize) -> Slip {
+    Slip {
+        span: at..at + 1,
+        message: "`#` begins no comment".into(),
+        help: "comments are `// …` to the end of the line, or `/* … */`".into(),
+    }
+}
+
 /// The slip in numbers around the place at which the grammar is noticed to be wrong.
 fn number(text: &str, noticed: usize) -> Option<Slip> {
-    if let Some((span, right)) = comma_before(text, noticed) {
+    if let Some((span, read)) = separators::around(text, noticed) {
+        let (message, help) = read.told();
         return Some(Slip {
             span,
-            message: POINT.into(),
-            help: format!("write {right}"),
+            message,
+            help,
         });
     }
     let span = word(text, noticed);
@@ -133,38 +185,6 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     of_number(text).map(|(message, help)| format!("{message}: {help}"))
 }
 
-/// The values of a tuple, so many, that was written with decimal commas: `(0,0, 0,0, 0,9)`.
-///
-/// Two whole numbers are one decimal number where no space stands between them, beside the comma.
-pub(crate) fn decimal_commas(items: &[&str], wanted: usize) -> Option<String> {
-    let whole = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let mut values: Vec<String> = Vec::new();
-    let mut merged = 0;
-    let mut k = 0;
-    while k < items.len() {
-        let first = items[k];
-        let glued = items.get(k + 1).filter(|next| {
-            // Parts of one text: their distance is what stands between them.
-            let distance = next.as_ptr() as usize - first.as_ptr() as usize;
-            distance == first.len() + 1 && whole(next)
-        });
-        let sign = first.strip_prefix(['-', '+']).unwrap_or(first);
-        match glued.filter(|_| whole(sign)) {
-            Some(next) => {
-                values.push(format!("{first}.{next}"));
-                merged += 1;
-                k += 2;
-            }
-            None => {
-                values.push(first.into());
-                k += 1;
-            }
-        }
-    }
-    let right = merged > 0 && values.len() == wanted;
-    right.then(|| format!("{POINT}: write ({})", values.join(", ")))
-}
-
 /// What is wrong with a text that should be one number, and what would be right.
 fn of_number(text: &str) -> Option<(String, String)> {
     let end = |text: &str| {
@@ -198,9 +218,8 @@ fn of_number(text: &str) -> Option<(String, String)> {
         );
         return Some((message, help));
     }
-    if let Some(digits) = rest.strip_prefix(',') {
-        let right = !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit());
-        return right.then(|| (POINT.into(), format!("write {}.{digits}", &text[..first])));
+    if rest.contains(',') {
+        return separators::read(text).map(|read| read.told());
     }
     let unit = operator.is_alphabetic() || "°%µ".contains(operator);
     let known = ["inf", "nan", "e", "E", "x", "b", "o"];
@@ -225,24 +244,6 @@ fn single_quoted(line: &str, place: usize) -> Option<Range<usize>> {
         let text = inner.chars().count() != 1 && !inner.contains(['"', ',', ':', '(', ')']);
         (text && place <= end + 1).then_some(start..end + 1)
     })
-}
-
-/// The whole of `0,014` where the place is that of its decimals, or just behind, with what is right.
-fn comma_before(text: &str, place: usize) -> Option<(Range<usize>, String)> {
-    let digit = |b: &u8| b.is_ascii_digit();
-    let bytes = text.as_bytes();
-    // The decimals around the place.
-    let first = (0..place).rev().take_while(|&k| digit(&bytes[k])).last();
-    let first = first.unwrap_or(place);
-    let last = (first..bytes.len())
-        .take_while(|&k| digit(&bytes[k]))
-        .last()?;
-    let comma = first.checked_sub(1).filter(|&k| bytes[k] == b',')?;
-    let whole = (0..comma).rev().take_while(|&k| digit(&bytes[k])).last()?;
-    let signed = whole.checked_sub(1).filter(|&k| bytes[k] == b'-');
-    let start = signed.unwrap_or(whole);
-    let right = format!("{}.{}", &text[start..comma], &text[first..=last]);
-    Some((start..last + 1, right))
 }
 
 /// The word that a place is in or just behind: what no bracket, separator or space parts.
@@ -279,21 +280,6 @@ mod tests {
         for no_slip in ["", "steel", "0.5", "-3e-4", "1e", "A1", "inf", "0x1f"] {
             assert_eq!(right(no_slip), None, "{no_slip}");
         }
-    }
-
-    #[test]
-    fn commas_are_decimal_where_the_count_says_so() {
-        let read = |text: &'static str, wanted| {
-            let items: Vec<&str> = text.split(',').map(str::trim).collect();
-            decimal_commas(&items, wanted)
-        };
-        let right = |values| Some(format!("{POINT}: write ({values})"));
-        assert_eq!(read("0,0, 0,0, 0,9", 3), right("0.0, 0.0, 0.9"));
-        assert_eq!(read("0,0,0,0,0,9", 3), right("0.0, 0.0, 0.9"));
-        assert_eq!(read("-0,2, 0,2, 41", 3), right("-0.2, 0.2, 41"));
-        assert_eq!(read("1, 2, 3, 4, 5, 6", 3), None);
-        assert_eq!(read("0.5,1,2", 3), None);
-        assert_eq!(read("0,0, 1", 3), None);
     }
 
     #[test]

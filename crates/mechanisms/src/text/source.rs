@@ -57,15 +57,20 @@ fn folder(path: &Path) -> Option<PathBuf> {
 }
 
 impl Source {
-    /// `text`, which messages call `path`; a byte order mark is dropped.
+    /// `text`, which messages call `path`; a byte order mark is dropped, and carriage returns that
+    /// alone end lines are read as line feeds.
     pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
         Self::of(path, text, Family::of(path), true)
     }
 
     fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Arc::new(Self {
             path: path.into(),
-            text: text.strip_prefix('\u{feff}').unwrap_or(text).into(),
+            text: match text.contains('\n') {
+                true => text.into(),
+                false => text.replace('\r', "\n"),
+            },
             origin: None,
             family,
             shown: AtomicBool::new(shown),

@@ -48,8 +48,14 @@ pub(crate) fn error(source: &Arc<Source>, error: &SpannedError) -> LoadError {
         }
         _ => {}
     }
-    // What is right instead shows what is wrong.
-    let slip = slips::in_grammar(source.text(), noticed).filter(|_| source.is_shown());
+    // What is right instead shows what is wrong. A `#` before the value begins an attribute of RON.
+    let slip = match error.code {
+        Error::ExpectedAttribute | Error::ExpectedAttributeEnd | Error::NoSuchExtension(_) => {
+            source.text()[..noticed].rfind('#').map(slips::hash)
+        }
+        _ => slips::in_grammar(source.text(), noticed),
+    };
+    let slip = slip.filter(|_| source.is_shown());
     if let Some(slip) = slip {
         let Range { start, end } = slip.span;
         return place(start, end - start)

@@ -11,7 +11,7 @@ use super::summary::Summary;
 use crate::case::{Source, job_model};
 use crate::drawing::{self, Drawing};
 use crate::error::CliError;
-use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, instead_of};
+use crate::plot::{self, Choice, Drawn, Map, PlotError, Table, instead_of, is_frequency};
 use crate::report::{self, Asked};
 pub(crate) use trajectory::Trajectory;
 
@@ -28,7 +28,13 @@ pub(crate) fn check(job: &Job, columns: &[String]) -> Result<(), CliError> {
                 if Drawn::named(value, columns).is_none() {
                     return Err(refused(PlotError::NoQuantity {
                         name: value.clone(),
-                        help: instead_of(value, columns),
+                        help: match (&job.modes, is_frequency(value)) {
+                            (None, true) => {
+                                let count = value.trim_start_matches(['f', '0']);
+                                format!("natural frequencies need `modes: {count}` in the job")
+                            }
+                            _ => instead_of(value, columns),
+                        },
                     }));
                 }
                 let commanded = job.commanded();
@@ -117,8 +123,11 @@ pub(crate) fn draw(
         if let Some(difference) = drawing.difference() {
             summary.compared(difference);
         }
-        for path in drawing.write(&table.with_file_name(name))? {
-            summary.wrote(path);
+        match drawing.write(&table.with_file_name(&name)) {
+            Ok(paths) => paths.into_iter().for_each(|path| summary.wrote(path)),
+            // One that cannot be drawn is as one without a result: the run goes on.
+            Err(CliError::Figure { source, .. }) => summary.left_out(name, source.to_string()),
+            Err(error) => return Err(error),
         }
     }
     Ok(())
