@@ -217,6 +217,9 @@ impl fmt::Display for Warning {
                     None => Ok(()),
                 }
             }
+            Self::LostDigits { error } if error.is_nan() || *error >= 1.0 => f.write_str(
+                "parts of very different stiffness: no digit of the results is right, by an estimate",
+            ),
             Self::LostDigits { error } => write!(
                 f,
                 "parts of very different stiffness: results are good to {} only, by an estimate",
@@ -240,7 +243,17 @@ fn one_digit_up(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::one_digit_up;
+    use super::{Warning, one_digit_up};
+
+    #[test]
+    fn without_a_digit_no_size_is_stated() {
+        for error in [1.0, 35.0, f64::INFINITY, f64::NAN] {
+            let told = Warning::LostDigits { error }.to_string();
+            assert!(told.contains("no digit of the results is right"), "{told}");
+        }
+        let told = Warning::LostDigits { error: 0.3 }.to_string();
+        assert!(told.contains("good to 3e-1 only"), "{told}");
+    }
 
     #[test]
     fn what_is_stated_is_never_less() {

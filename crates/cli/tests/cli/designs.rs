@@ -211,7 +211,8 @@ fn a_design_that_cannot_be_is_rows() {
         let outcome = bench.hyperstat(&arguments).ends_with(1);
         let message = "  9 design, the first of them design 0, pose 0: d.ron:";
         assert!(outcome.out().contains(message), "{}", outcome.out());
-        let why = "design 0: `inner` of the section cannot be 0.012";
+        let why =
+            "design 0: `inner` of the section cannot be 0.012; it must be zero or more and below";
         assert!(outcome.out().contains(why), "{}", outcome.out());
         assert!(
             outcome

@@ -204,8 +204,11 @@ impl fmt::Display for Doubt {
                 moments: [first, second, third],
             } => write!(
                 f,
-                "no body has the inertia of the mass on `{node}`: of its principal moments {first}, \
-                 {second} and {third} kg·m² the largest is above the sum of the other two"
+                "no body has the inertia of the mass on `{node}`: of its principal moments {}, {} \
+                 and {} kg·m² the largest is above the sum of the other two",
+                short(*first),
+                short(*second),
+                short(*third)
             ),
             Self::ShearArea {
                 bodies,
@@ -214,9 +217,11 @@ impl fmt::Display for Doubt {
                 area,
             } => write!(
                 f,
-                "`{field}` of {}, {shear} m², is larger than the section's area, {area} m²: an \
-                 effective shear area κA is smaller",
-                named(bodies)
+                "`{field}` of {}, {} m², is larger than the section's area, {} m²: an effective shear \
+                 area κA is smaller",
+                named(bodies),
+                short(*shear),
+                short(*area)
             ),
             Self::Torsion {
                 bodies,
@@ -224,9 +229,11 @@ impl fmt::Display for Doubt {
                 polar,
             } => write!(
                 f,
-                "the torsion constant of {}, {torsion} m⁴, is above iy + iz, {polar} m⁴, which only \
-                 a circle reaches",
-                named(bodies)
+                "the torsion constant of {}, {} m⁴, is above iy + iz, {} m⁴, which only a circle \
+                 reaches",
+                named(bodies),
+                short(*torsion),
+                short(*polar)
             ),
             Self::NoLoad { on, case } => {
                 write!(f, "the load on `{on}`")?;
@@ -236,6 +243,16 @@ impl fmt::Display for Doubt {
                 f.write_str(" has neither force nor moment")
             }
         }
+    }
+}
+
+/// A number of at most six digits.
+fn short(value: f64) -> String {
+    let rounded = format!("{value:.5e}");
+    let rounded = rounded.parse().unwrap_or(value);
+    match rounded == 0.0 || (1e-3..1e6).contains(&rounded.abs()) {
+        true => format!("{rounded}"),
+        false => format!("{rounded:e}"),
     }
 }
 
@@ -255,4 +272,22 @@ fn named(bodies: &[String]) -> String {
         more => format!(" and {more} more"),
     };
     format!("{noun} {}{more}", shown.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn numbers_have_six_digits_at_most() {
+        for (value, text) in [
+            (0.1 + 0.2, "0.3"),
+            (std::f64::consts::PI * 1e-9, "3.14159e-9"),
+            (123_456.78, "123457"),
+            (0.0, "0"),
+            (5e-9, "5e-9"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
 }
