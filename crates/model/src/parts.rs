@@ -283,7 +283,7 @@ pub enum ValuePlace {
     },
     /// The mass of a node.
     Mass {
-        /// Its place among [`Model::masses`].
+        /// Its place among [`Model::masses`](crate::Model::masses).
         mass: usize,
     },
 }
