@@ -14,7 +14,7 @@ use crate::plan::Plan;
 use crate::plan::blocks::{multiply, shift};
 use crate::plan::elements::Source;
 use crate::plan::workspace::{LOADS, Workspace};
-use crate::pose::node_displacement;
+use crate::pose::{node_displacement, node_motion};
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::room;
 use crate::room::MOST_ELIMINATED;
@@ -38,12 +38,17 @@ pub(crate) fn recover(
     workspace: &Workspace,
     set: usize,
     (acting, floor): (&Acting, &Floor),
-    output: Vector6<f64>,
+    mut output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
     let column = LOADS + set;
     let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
         .map(|n| node_displacement(plan, geometry, workspace, column, NodeId(n)))
         .collect();
+    let remainder = &workspace.remainders[set * plan.unknowns..][..plan.unknowns];
+    for (n, displacement) in displacements.iter_mut().enumerate() {
+        *displacement += node_motion(plan, geometry, workspace, remainder, NodeId(n));
+    }
+    output += node_motion(plan, geometry, workspace, remainder, plan.output);
     let loads = node_loads(model, acting);
     let all_forces = element_forces(plan, workspace, set);
     // What the elements take at their nodes: the sum of all other wrenches on the node.
@@ -149,7 +154,7 @@ impl State {
 }
 
 /// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
-fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
+pub(crate) fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
     let n = plan.unknowns;
     let solution = &workspace.solutions[(LOADS + set) * n..][..n];
     let remainder = &workspace.remainders[set * n..][..n];
