@@ -176,11 +176,16 @@ impl Plan {
         let mut warnings = Vec::new();
         let mut doubtful = restraint.kinematics.doubtful.or(workspace.doubtful);
         let mut states = Vec::with_capacity(acting.len());
+        let mut off = 0.0_f64;
         let each = acting.iter().zip(&floors).zip(displacements);
         for (set, (acting, displacement)) in each.enumerate() {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
+            let scale = state.largest_wrench();
+            if recovered.off > 0.0 && scale > 0.0 {
+                off = off.max(recovered.off / scale);
+            }
             if !state.is_finite() {
                 return Err(SolveError::Overflow.into());
             }
@@ -202,7 +207,7 @@ impl Plan {
         let lost = self.lost(model, geometry, workspace, &output, &states)?;
         let held = (&*pins, compliance.as_ref());
         let spread = self.spread(model, geometry, workspace, held, &states)?;
-        let error = lost.max(condensed).max(settled).max(spread);
+        let error = lost.max(condensed).max(settled).max(spread).max(off);
         if error > LOST_DIGITS {
             warnings.push(Warning::LostDigits { error });
         }

@@ -2,6 +2,7 @@
 
 pub(crate) mod cluster;
 pub(crate) mod condense;
+pub(crate) mod joining;
 pub(crate) mod loads;
 pub(crate) mod precision;
 pub(crate) mod recover;

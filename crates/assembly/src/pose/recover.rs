@@ -8,6 +8,7 @@ use hyperstat_model::{
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
 use super::cluster::{absorbed_joint, cluster_frame, misfit_inside};
+use super::joining::join;
 use crate::answer::solution::{SegmentForces, State};
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -27,6 +28,8 @@ pub(crate) struct Recovered {
     pub state: State,
     /// A pivot of the joints' equilibrium between zero and not zero.
     pub doubtful: Option<f64>,
+    /// What wrenches inside absorbed joints are off by \[N\], moments over the size.
+    pub off: f64,
 }
 
 /// Recovers displacements and forces under a set of loads, from its column of the solutions; the
@@ -113,6 +116,15 @@ pub(crate) fn recover(
             }
         }
     }
+    let off = join(
+        plan,
+        model,
+        geometry,
+        workspace,
+        &segments,
+        &mut displacements,
+        floor.size,
+    )?;
     for (wrench, load) in demand.iter_mut().zip(&loads) {
         *wrench -= load;
     }
@@ -136,7 +148,11 @@ pub(crate) fn recover(
         floor: *floor,
     };
     state.clear_rounding();
-    Ok(Recovered { state, doubtful })
+    Ok(Recovered {
+        state,
+        doubtful,
+        off,
+    })
 }
 
 impl State {

@@ -136,17 +136,24 @@ impl Plan {
     }
 }
 
+impl State {
+    /// The largest joint wrench \[N\], moments over the size; no less than that of the floor.
+    pub(crate) fn largest_wrench(&self) -> f64 {
+        let floor = &self.floor;
+        let wrenches = self.joint_wrenches.iter().flatten();
+        wrenches.fold(floor.least_force(), |most, w| most.max(floor.as_force(w)))
+    }
+}
+
 impl Scales {
     fn of(state: &State) -> Self {
         let floor = &state.floor;
         let least = floor.least_force();
-        let most = |wrenches: &mut dyn Iterator<Item = &Vector6<f64>>| {
-            wrenches.fold(least, |most, w| most.max(floor.as_force(w)))
-        };
+        let ends = state.segments.iter().flat_map(|s| &s.ends);
         Self {
             displacement: state.scale(),
-            wrench: most(&mut state.joint_wrenches.iter().flatten()),
-            end: most(&mut state.segments.iter().flat_map(|s| &s.ends)),
+            wrench: state.largest_wrench(),
+            end: ends.fold(least, |most, w| most.max(floor.as_force(w))),
         }
     }
 
