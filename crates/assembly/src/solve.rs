@@ -32,6 +32,10 @@ const UNEVEN_PIVOT: f64 = 1e-4;
 /// Corrections of the output, once its stiffness is known.
 const CORRECTIONS: usize = 3;
 
+/// What is found of the output: itself, its displacements in all sets, the relative size of their
+/// last correction, and the compliance that corrects it where its coordinates are independent.
+type Found = (Output, Vec<Vector6<f64>>, f64, Option<Matrix6<f64>>);
+
 /// What a full solve finds.
 struct Solved {
     restraint: Restraint,
@@ -167,16 +171,21 @@ impl Plan {
         let floors = acting.iter().map(|a| at_rest.under(model, geometry, a));
         let floors: Vec<Floor> = floors.collect();
         let works: Vec<f64> = floors.iter().map(Floor::least_work).collect();
-        let (mut output, displacements, settled) =
+        let (mut output, displacements, settled, compliance) =
             self.output(geometry, workspace, &pins, &restraint, &works)?;
         let mut warnings = Vec::new();
         let mut doubtful = restraint.kinematics.doubtful.or(workspace.doubtful);
         let mut states = Vec::with_capacity(acting.len());
+        let mut off = 0.0_f64;
         let each = acting.iter().zip(&floors).zip(displacements);
         for (set, (acting, displacement)) in each.enumerate() {
             let recovered = recover(self, model, geometry, workspace, set, acting, displacement)?;
             doubtful = doubtful.or(recovered.doubtful);
             let state = recovered.state;
+            let scale = state.largest_wrench();
+            if recovered.off > 0.0 && scale > 0.0 {
+                off = off.max(recovered.off / scale);
+            }
             if !state.is_finite() {
                 return Err(SolveError::Overflow.into());
             }
@@ -196,7 +205,9 @@ impl Plan {
             output.displacement = first.output;
         }
         let lost = self.lost(model, geometry, workspace, &output, &states)?;
-        let error = lost.max(condensed).max(settled);
+        let held = (&*pins, compliance.as_ref());
+        let spread = self.spread(model, geometry, workspace, held, &states)?;
+        let error = lost.max(condensed).max(settled).max(spread).max(off);
         if error > LOST_DIGITS {
             warnings.push(Warning::LostDigits { error });
         }
@@ -249,7 +260,7 @@ impl Plan {
         }
         // Nothing is said of digits here, so that no work is too small.
         let works = vec![0.0; acting.len()];
-        let (output, displacements, _) =
+        let (output, displacements, ..) =
             self.output(geometry, workspace, &pins, &restraint, &works)?;
         let held = output.free_motions.is_empty();
         let mut displacements = displacements.into_iter().filter(|_| held);
@@ -271,7 +282,7 @@ impl Plan {
         pins: &[usize],
         restraint: &Restraint,
         works: &[f64],
-    ) -> Result<(Output, Vec<Vector6<f64>>, f64), SolveError> {
+    ) -> Result<Found, SolveError> {
         let sets = LOADS..workspace.columns();
         let size = restraint.size;
         let free_motions = restraint
@@ -305,7 +316,7 @@ impl Plan {
                 rigid_directions,
                 free_motions,
             };
-            return Ok((output, displacements, 0.0));
+            return Ok((output, displacements, 0.0, None));
         }
         let stiffness = self.stiffness_by_energy(workspace);
         let mut held = stiffness;
@@ -341,7 +352,7 @@ impl Plan {
             rigid_directions: Vec::new(),
             free_motions,
         };
-        Ok((output, displacements, last))
+        Ok((output, displacements, last, Some(compliance)))
     }
 
     /// Takes a free twist of the output (orthonormal, translations over `size`) out of a set's
@@ -370,7 +381,7 @@ impl Plan {
     /// first (the first finds its displacement), each followed by one of the rest. Returns the
     /// relative size of the output's last correction, by the work it does: over that of its
     /// displacement, and where this is rounding beside what acts over `least`.
-    fn settle(
+    pub(crate) fn settle(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],

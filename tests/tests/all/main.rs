@@ -31,6 +31,7 @@ mod reordering;
 mod rigid_limits;
 mod sensitivities;
 mod single_freedom;
+mod soft_across_stiff;
 mod states;
 mod tapers;
 mod traditional;

@@ -15,6 +15,7 @@ use crate::error::SolveError;
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, multiply, read};
 use crate::plan::workspace::{LOADS, Workspace};
+use crate::pose::recover::element_forces;
 
 /// Refinement steps at the most.
 const MOST_REFINEMENTS: usize = 6;
@@ -216,7 +217,8 @@ impl Plan {
     }
 
     /// Finds what a set's column still lacks, too small to be added to it: the forces of the
-    /// elements take it in, so that they balance at every node to rounding.
+    /// elements take it in, so that they balance at every node to rounding. It is refined like the
+    /// column itself, as long as its corrections shrink.
     pub(crate) fn find_remainder(
         &self,
         workspace: &mut Workspace,
@@ -225,24 +227,50 @@ impl Plan {
         column: usize,
     ) {
         let (n, inner) = (self.unknowns, self.inner);
-        let step = compliance.map(|c| c * self.output_force(workspace, column));
-        if step.is_none() {
-            self.residuals(workspace, column..column + 1);
+        let own = (column - LOADS) * n..(column - LOADS + 1) * n;
+        workspace.remainders[own.clone()].fill(0.0);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_REFINEMENTS {
+            self.imbalance(workspace, column);
+            let residual = &workspace.residuals[column * n..(column + 1) * n];
+            let mut step = vec![0.0; n];
+            step[..inner].copy_from_slice(&residual[..inner]);
+            for &pin in pins {
+                step[pin] = 0.0;
+            }
+            let moved =
+                compliance.map(|c| c * self.force_on_output(residual, &workspace.solutions));
+            self.pattern
+                .solve(&mut workspace.factor, &mut step[..inner]);
+            for (k, share) in moved.iter().flatten().enumerate() {
+                let motion = &workspace.solutions[k * n..(k + 1) * n];
+                for (entry, motion) in step.iter_mut().zip(motion) {
+                    *entry += motion * share;
+                }
+            }
+            // Work of the residual: positive but for rounding.
+            let work = dot(&step, residual).abs();
+            if (work >= last || work.is_nan()) {
+                break;
+            }
+            last = work;
+            for (entry, step) in workspace.remainders[own.clone()].iter_mut().zip(&step) {
+                *entry += step;
+            }
         }
-        let right_side = &mut workspace.right_sides[..inner];
-        right_side.copy_from_slice(&workspace.residuals[column * n..column * n + inner]);
-        for &pin in pins {
-            right_side[pin] = 0.0;
-        }
-        self.pattern.solve(&mut workspace.factor, right_side);
-        let set = column - LOADS;
-        let remainder = &mut workspace.remainders[set * n..(set + 1) * n];
-        remainder.fill(0.0);
-        remainder[..inner].copy_from_slice(right_side);
-        for (k, step) in step.iter().flatten().enumerate() {
-            let motion = &workspace.solutions[k * n..(k + 1) * n];
-            for (entry, motion) in remainder.iter_mut().zip(motion) {
-                *entry += motion * step;
+    }
+
+    /// Residual of a set's column, its remainder included.
+    fn imbalance(&self, workspace: &mut Workspace, column: usize) {
+        let n = self.unknowns;
+        let all = element_forces(self, workspace, column - LOADS);
+        let residual = &mut workspace.residuals[column * n..(column + 1) * n];
+        residual.copy_from_slice(&workspace.loads[column * n..(column + 1) * n]);
+        for (element, forces) in self.elements.iter().zip(&all) {
+            let (rows, start) = (element.rows, element.operator_start);
+            let d = &workspace.operators[start..start + rows * element.columns.len()];
+            for (&idc, d_column) in element.columns.iter().zip(d.chunks_exact(rows)) {
+                residual[idc] -= dot(d_column, forces);
             }
         }
     }

@@ -2,10 +2,12 @@
 
 pub(crate) mod cluster;
 pub(crate) mod condense;
+pub(crate) mod joining;
 pub(crate) mod loads;
 pub(crate) mod precision;
 pub(crate) mod recover;
 pub(crate) mod restraint;
+pub(crate) mod spread;
 pub(crate) mod spring;
 
 use hyperstat_model::{Geometry, Model, NodeId, characteristic_length};
@@ -167,14 +169,29 @@ pub(crate) fn node_displacement(
     column: usize,
     node: NodeId,
 ) -> Vector6<f64> {
+    let solution = &workspace.solutions[column * plan.unknowns..][..plan.unknowns];
+    let mut displacement = node_motion(plan, geometry, workspace, solution, node);
+    if column >= LOADS && !workspace.offsets.is_empty() {
+        let carrier = plan.topology.carrier_of[node.0];
+        let reference = plan.topology.carriers[carrier].reference;
+        displacement += shift(geometry, reference, node) * workspace.offsets[carrier];
+    }
+    displacement
+}
+
+/// What displacements of the IDCs move a node by.
+pub(crate) fn node_motion(
+    plan: &Plan,
+    geometry: &Geometry,
+    workspace: &Workspace,
+    solution: &[f64],
+    node: NodeId,
+) -> Vector6<f64> {
     let carrier = plan.topology.carrier_of[node.0];
     let block = plan.block(workspace, carrier);
     let mut at_reference = Vector6::zeros();
     for (k, &idc) in plan.columns[carrier].iter().enumerate() {
-        at_reference += read(block, 6 * k) * workspace.solutions[column * plan.unknowns + idc];
-    }
-    if column >= LOADS && !workspace.offsets.is_empty() {
-        at_reference += workspace.offsets[carrier];
+        at_reference += read(block, 6 * k) * solution[idc];
     }
     shift(geometry, plan.topology.carriers[carrier].reference, node) * at_reference
 }

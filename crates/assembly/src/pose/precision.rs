@@ -22,22 +22,22 @@ use crate::plan::workspace::{LOADS, Workspace};
 
 /// Last bits by which a sum of a few products is off, with room to spare: measured on random
 /// mechanisms against 32 digits (`tests`, `precision.rs`).
-const BITS: f64 = 8.0 * f64::EPSILON;
+pub(crate) const BITS: f64 = 8.0 * f64::EPSILON;
 
 /// Displacements of the IDCs in some states.
-struct Columns<'a> {
-    values: &'a [f64],
+pub(crate) struct Columns<'a> {
+    pub values: &'a [f64],
     /// Deformations that the elements start from, where they do: by states.
-    initial: Option<&'a [f64]>,
+    pub initial: Option<&'a [f64]>,
 }
 
 /// What an element does in a state.
-struct Part {
+pub(crate) struct Part {
     deformation: Vec<f64>,
     force: Vec<f64>,
     /// Sizes of what is summed up in each.
-    summed: Vec<f64>,
-    weighed: Vec<f64>,
+    pub summed: Vec<f64>,
+    pub weighed: Vec<f64>,
 }
 
 impl Plan {
@@ -106,7 +106,7 @@ impl Plan {
     }
 
     /// What an element does in some states.
-    fn parts(
+    pub(crate) fn parts(
         &self,
         element: &ElementPlan,
         sizes: &[f64],
@@ -150,7 +150,7 @@ impl Plan {
     }
 
     /// As the operator D of an element, with sizes in place of what D sums up.
-    fn operand_sizes(
+    pub(crate) fn operand_sizes(
         &self,
         element: &ElementPlan,
         model: &Model,
@@ -215,7 +215,7 @@ impl Part {
 
 impl State {
     /// The largest translation and rotation of any node; no less than those of the floor.
-    fn scale(&self) -> [f64; 2] {
+    pub(crate) fn scale(&self) -> [f64; 2] {
         let least = self.floor.least_displacement();
         let largest = |start: usize| {
             let parts = self.displacements.iter();

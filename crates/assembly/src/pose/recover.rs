@@ -8,13 +8,14 @@ use hyperstat_model::{
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
 use super::cluster::{absorbed_joint, cluster_frame, misfit_inside};
+use super::joining::join;
 use crate::answer::solution::{SegmentForces, State};
 use crate::error::SolveError;
 use crate::plan::Plan;
 use crate::plan::blocks::{multiply, shift};
 use crate::plan::elements::Source;
 use crate::plan::workspace::{LOADS, Workspace};
-use crate::pose::node_displacement;
+use crate::pose::{node_displacement, node_motion};
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::room;
 use crate::room::MOST_ELIMINATED;
@@ -27,6 +28,8 @@ pub(crate) struct Recovered {
     pub state: State,
     /// A pivot of the joints' equilibrium between zero and not zero.
     pub doubtful: Option<f64>,
+    /// What wrenches inside absorbed joints are off by \[N\], moments over the size.
+    pub off: f64,
 }
 
 /// Recovers displacements and forces under a set of loads, from its column of the solutions; the
@@ -38,12 +41,17 @@ pub(crate) fn recover(
     workspace: &Workspace,
     set: usize,
     (acting, floor): (&Acting, &Floor),
-    output: Vector6<f64>,
+    mut output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
     let column = LOADS + set;
     let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
         .map(|n| node_displacement(plan, geometry, workspace, column, NodeId(n)))
         .collect();
+    let remainder = &workspace.remainders[set * plan.unknowns..][..plan.unknowns];
+    for (n, displacement) in displacements.iter_mut().enumerate() {
+        *displacement += node_motion(plan, geometry, workspace, remainder, NodeId(n));
+    }
+    output += node_motion(plan, geometry, workspace, remainder, plan.output);
     let loads = node_loads(model, acting);
     let all_forces = element_forces(plan, workspace, set);
     // What the elements take at their nodes: the sum of all other wrenches on the node.
@@ -108,6 +116,15 @@ pub(crate) fn recover(
             }
         }
     }
+    let off = join(
+        plan,
+        model,
+        geometry,
+        workspace,
+        &segments,
+        &mut displacements,
+        floor.size,
+    )?;
     for (wrench, load) in demand.iter_mut().zip(&loads) {
         *wrench -= load;
     }
@@ -131,7 +148,11 @@ pub(crate) fn recover(
         floor: *floor,
     };
     state.clear_rounding();
-    Ok(Recovered { state, doubtful })
+    Ok(Recovered {
+        state,
+        doubtful,
+        off,
+    })
 }
 
 impl State {
@@ -149,7 +170,7 @@ impl State {
 }
 
 /// Forces `k (D U + δ₀)` of all elements, the solution's remainder included.
-fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
+pub(crate) fn element_forces(plan: &Plan, workspace: &Workspace, set: usize) -> Vec<Vec<f64>> {
     let n = plan.unknowns;
     let solution = &workspace.solutions[(LOADS + set) * n..][..n];
     let remainder = &workspace.remainders[set * n..][..n];

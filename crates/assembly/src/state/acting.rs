@@ -39,6 +39,16 @@ impl Acting {
             .collect()
     }
 
+    /// No load, no misfit.
+    pub fn nothing() -> Self {
+        Self {
+            nodes: Vec::new(),
+            preloaded: (0, Vec::new()),
+            segments: Vec::new(),
+            misfits: false,
+        }
+    }
+
     /// A set of loads alone.
     pub fn new(model: &Model, geometry: &Geometry, set: &LoadSet) -> Result<Self, SolveError> {
         let mut acting = Self {

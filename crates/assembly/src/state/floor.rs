@@ -61,6 +61,15 @@ impl Floor {
         }
     }
 
+    /// The same mechanism with nothing that acts.
+    pub(crate) fn of_nothing(self) -> Self {
+        Self {
+            displacement: 0.0,
+            force: 0.0,
+            ..self
+        }
+    }
+
     /// With what acts in a state.
     pub(crate) fn under(mut self, model: &Model, geometry: &Geometry, acting: &Acting) -> Self {
         for (_, wrench) in &acting.nodes {
