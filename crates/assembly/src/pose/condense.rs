@@ -250,7 +250,7 @@ impl Plan {
             }
             // Work of the residual: positive but for rounding.
             let work = dot(&step, residual).abs();
-            if (work >= last || work.is_nan()) {
+            if work >= last || work.is_nan() {
                 break;
             }
             last = work;
