@@ -147,9 +147,11 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             energy = (own * held[k]).mul_add(held[k], energy);
         }
         let spread = spread * factor * factor;
+        let twice = factor * Lane::splat(simd, -2.0);
         for i in k + 1..6 {
-            // What a reflection takes away of an entry leaves its rounding there.
-            errors[i] = spread.mul_add(s[i] * s[i], errors[i]);
+            let weighed = s[i] * s[i];
+            let kept = errors[i] * twice.mul_add(weighed, one);
+            errors[i] = spread.mul_add(weighed, kept);
             for j in k + 1..=i {
                 let first = (-s[i]).mul_add(w[j], c[i][j]);
                 c[i][j] = (-w[i]).mul_add(s[j], first);
