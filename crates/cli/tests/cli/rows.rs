@@ -354,9 +354,7 @@ fn a_pose_of_a_file_is_reached_alike_alone_and_among_others() {
         assert!(count > 36);
         let alone: Vec<Vec<String>> = (rows.iter().enumerate())
             .filter(|(k, _)| *k < 2 || k % 5 == 0)
-            .flat_map(|(_, row)| -> Vec<Vec<String>> {
-                run(kind, head, std::slice::from_ref(row))
-            })
+            .flat_map(|(_, row)| -> Vec<Vec<String>> { run(kind, head, std::slice::from_ref(row)) })
             .collect();
         let whole: Vec<Vec<String>> = run(kind, head, &rows);
         let picked = |k: &usize| *k < 2 || k.is_multiple_of(5);
