@@ -36,6 +36,13 @@ const CORRECTIONS: usize = 3;
 /// last correction, and the compliance that corrects it where its coordinates are independent.
 type Found = (Output, Vec<Vector6<f64>>, f64, Option<Matrix6<f64>>);
 
+/// Whether a full solve estimates its precision, for a warning.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Precision {
+    Stated,
+    Left,
+}
+
 /// What a full solve finds.
 struct Solved {
     restraint: Restraint,
@@ -65,7 +72,7 @@ impl Plan {
         self.check_model(model)?;
         let geometry = model.geometry();
         let acting = Acting::of_model(model, geometry)?;
-        let solved = self.solve_all(model, geometry, &acting)?;
+        let solved = self.solve_all(model, geometry, &acting, Precision::Stated)?;
         let mut states = solved.states.into_iter();
         let base = states.next().ok_or(SolveError::Singular)?;
         let cases = model.cases().iter().zip(states);
@@ -106,7 +113,8 @@ impl Plan {
             .iter()
             .map(|set| Acting::new(model, geometry, set))
             .collect();
-        Ok(self.solve_all(model, geometry, &acting?)?.states)
+        let solved = self.solve_all(model, geometry, &acting?, Precision::Left)?;
+        Ok(solved.states)
     }
 
     fn solve_all(
@@ -114,15 +122,16 @@ impl Plan {
         model: &Model,
         geometry: &Geometry,
         acting: &[Acting],
+        precision: Precision,
     ) -> Result<Solved, SolveError> {
         let mut workspace = self.workspace();
-        match self.solve_full(model, geometry, acting, &mut workspace) {
+        match self.solve_full(model, geometry, acting, &mut workspace, precision) {
             Ok(solved) => Ok(solved),
             Err(Fault::Error(error)) => Err(error),
             Err(Fault::Changed) => {
                 let plan = Self::at(model, geometry)?;
                 let mut workspace = plan.workspace();
-                settled(plan.solve_full(model, geometry, acting, &mut workspace))
+                settled(plan.solve_full(model, geometry, acting, &mut workspace, precision))
             }
         }
     }
@@ -160,6 +169,7 @@ impl Plan {
         geometry: &Geometry,
         acting: &[Acting],
         workspace: &mut Workspace,
+        precision: Precision,
     ) -> Result<Solved, Fault> {
         check_recovery(self, model)?;
         let restraint = Restraint::new(model, geometry, self.output)?;
@@ -204,12 +214,14 @@ impl Plan {
         if let Some(first) = states.first() {
             output.displacement = first.output;
         }
-        let lost = self.lost(model, geometry, workspace, &output, &states)?;
-        let held = (&*pins, compliance.as_ref());
-        let spread = self.spread(model, geometry, workspace, held, &states)?;
-        let error = lost.max(condensed).max(settled).max(spread).max(off);
-        if error > LOST_DIGITS {
-            warnings.push(Warning::LostDigits { error });
+        if precision == Precision::Stated {
+            let lost = self.lost(model, geometry, workspace, &output, &states)?;
+            let held = (&*pins, compliance.as_ref());
+            let spread = self.spread(model, geometry, workspace, held, &states)?;
+            let error = lost.max(condensed).max(settled).max(spread).max(off);
+            if error > LOST_DIGITS {
+                warnings.push(Warning::LostDigits { error });
+            }
         }
         Ok(Solved {
             restraint,
