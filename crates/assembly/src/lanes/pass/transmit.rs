@@ -3,9 +3,9 @@
 //!
 //! The links' compliances C are added up in the axes and about the centre of the softest one. A
 //! free motion s allows only wrenches with `sᵀ W = 0`: one Householder reflection a motion turns it
-//! into a coordinate that is left out, of C and of the wrenches (`reflections.rs`). What is left of C is regular, and
-//! `L D Lᵀ` of it gives the wrenches, columns of `Q L⁻ᵀ`, and their stiffnesses `D⁻¹`. Nothing is
-//! chosen by size, so all poses in a register go the same way.
+//! into a coordinate that is left out, of C and of the wrenches (`reflections.rs`). What is left of C
+//! is regular, and `L D Lᵀ` of it gives the wrenches, columns of `Q L⁻ᵀ`, and their stiffnesses
+//! `D⁻¹`. Nothing is chosen by a pose's sizes, so all poses in a register go the same way.
 //!
 //! With loads L on what lies between the ends, the wrench in a part is `W + L`, L the sum of the
 //! loads beyond it. They move end 1 by `Σ C L`, and where a free motion is, `sᵀ (W + L) = 0`: in the
