@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{
-    BeamMass, BodyId, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion, Solution,
-    SolveError,
+    BeamMass, BodyId, Configuration, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion,
+    Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};
@@ -21,7 +21,7 @@ use crate::verification::Verification;
 /// A mechanism in one configuration, ready to be solved.
 #[derive(Debug)]
 pub(crate) struct Case {
-    pub(crate) model: Model,
+    prepared: Prepared,
     /// All files that were read for it.
     pub(crate) files: Vec<PathBuf>,
     origin: Origin,
@@ -55,7 +55,7 @@ impl Case {
                     }
                 }
                 Ok(Self {
-                    model: mechanism.model.clone(),
+                    prepared: Prepared::new(mechanism.model.clone()),
                     files,
                     origin: Origin::Mechanism(Box::new(mechanism)),
                 })
@@ -88,7 +88,7 @@ impl Case {
         let design = job.design(design)?;
         match design_model(&design, pose) {
             Ok(model) => Ok(Self {
-                model,
+                prepared: Prepared::new(model),
                 files,
                 origin: Origin::Job {
                     job: Box::new(job),
@@ -105,11 +105,21 @@ impl Case {
         }
     }
 
+    /// The mechanism in its configuration: what is found of it is found once.
+    pub(crate) fn here(&self) -> Configuration<'_> {
+        self.prepared.here()
+    }
+
+    /// The model.
+    pub(crate) fn model(&self) -> &Model {
+        self.prepared.model()
+    }
+
     /// Names values of the model by their paths in the mechanism, as `vary` takes them.
     pub(crate) fn name_values(&mut self) {
         match &self.origin {
-            Origin::Mechanism(mechanism) => mechanism.name_values(&mut self.model),
-            Origin::Job { job, design, .. } => job.name_values(design, &mut self.model),
+            Origin::Mechanism(mechanism) => mechanism.name_values(self.prepared.model_mut()),
+            Origin::Job { job, design, .. } => job.name_values(design, self.prepared.model_mut()),
         }
     }
 
@@ -131,7 +141,7 @@ impl Case {
 
     /// Solves the mechanism. What is unrestrained is named, with its place in the file.
     pub(crate) fn solve(&self) -> Result<Solution, CliError> {
-        hyperstat_assembly::solve(&self.model).map_err(|error| self.unsolvable(error))
+        self.here().solve().map_err(|error| self.unsolvable(error))
     }
 
     /// Solves the mechanism, whose output must not move freely.
@@ -166,14 +176,14 @@ impl Case {
 
     /// The error of the mechanism having no such result, with its place in the file.
     pub(crate) fn unsolvable(&self, error: SolveError) -> CliError {
-        self.source().unsolvable(&self.model, error)
+        self.source().unsolvable(&self.here(), error)
     }
 
     /// Title of a figure of it, under the loads of a case.
     pub(crate) fn title(&self, case: Option<&str>) -> String {
         match self.job() {
             Some((job, pose)) => drawing::title(job, self.design(), Some(pose), case),
-            None => drawing::title(&self.model.name, None, None, case),
+            None => drawing::title(&self.model().name, None, None, case),
         }
     }
 
@@ -195,20 +205,26 @@ impl Case {
         Some(options)
     }
 
+    /// The mechanism made ready for natural frequencies.
+    pub(crate) fn modal(&self, options: &ModalOptions) -> Result<ModalPlan, CliError> {
+        let modal = self.prepared.modal(options);
+        modal.map_err(|error| self.unsolvable(error))
+    }
+
     /// Natural frequencies and modes.
-    pub(crate) fn modes(&self, options: &ModalOptions) -> Result<Modes, CliError> {
-        hyperstat_assembly::modes(&self.model, options).map_err(|error| self.unsolvable(error))
+    pub(crate) fn modes(&self, modal: &ModalPlan) -> Result<Modes, CliError> {
+        let modes = modal.modes(self.model().geometry());
+        modes.map_err(|error| self.unsolvable(error))
     }
 
     /// Adds what changes natural frequencies.
     pub(crate) fn add_frequencies(
         &self,
-        options: &ModalOptions,
+        modal: &ModalPlan,
         report: &mut SolveReport,
     ) -> Result<(), CliError> {
-        let found = ModalPlan::new(&self.model, options)
-            .and_then(|plan| plan.sensitivities(self.model.geometry()))
-            .map_err(|error| self.source().unsolvable(&self.model, error))?;
+        let found = modal.sensitivities(self.model().geometry());
+        let found = found.map_err(|error| self.unsolvable(error))?;
         report.add_frequencies(FrequencyReport::all(self, &found), found.complete);
         Ok(())
     }
@@ -219,7 +235,7 @@ impl Case {
         solution: &Solution,
         modes: Option<&Modes>,
     ) -> Result<String, CliError> {
-        crate::vtu::vtu(&self.model, solution, modes).map_err(|error| self.unsolvable(error))
+        crate::vtu::vtu(self.model(), solution, modes).map_err(|error| self.unsolvable(error))
     }
 
     /// Adds displacements of the nodes inside segments, by the name of each: `body.A-B.k`.
@@ -229,7 +245,7 @@ impl Case {
         report: &mut SolveReport,
     ) -> Result<(), CliError> {
         report
-            .add_inner_displacements(&self.model, solution)
+            .add_inner_displacements(self.model(), solution)
             .map_err(|error| self.unsolvable(error))
     }
 
@@ -241,10 +257,7 @@ impl Case {
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even
     /// without loads.
     pub(crate) fn idle_motions(&self) -> Option<Vec<Motion>> {
-        let mut unloaded = self.model.clone();
-        unloaded.clear_loads();
-        let solution = hyperstat_assembly::solve(&unloaded).ok()?;
-        Some(solution.idle)
+        self.here().idle_motions().ok()
     }
 
     /// The mechanism file that it is from, where it is from one.
@@ -260,7 +273,7 @@ impl Case {
         if solution.output.free_motions.is_empty() {
             return None;
         }
-        let model = &self.model;
+        let model = self.model();
         let output = model.output()?;
         let body = model.nodes()[output.0].body;
         let origin = model.bodies()[body.0].nodes[0];
@@ -275,23 +288,27 @@ impl Case {
             location: Box::new(self.source().output()),
             output: model.node_name(output),
             motions: solution.output.free_motions.iter().map(in_words).collect(),
-            drives: Box::new(MissingDrives::of(model, body)),
+            drives: Box::new(MissingDrives::of(&self.here(), body)),
         })
     }
 
     /// Compares a solution with the independent solver's.
     pub(crate) fn verify(&self, solution: &Solution) -> Result<Verification, CliError> {
-        Ok(Verification::new(&self.model, solution, &self.reference()?))
+        Ok(Verification::new(
+            &self.here(),
+            solution,
+            &self.reference()?,
+        ))
     }
 
     /// The independent solver's solution.
     pub(crate) fn reference(&self) -> Result<ReferenceSolution, CliError> {
-        hyperstat_reference::solve(&self.model).map_err(CliError::Unverified)
+        hyperstat_reference::solve(self.model()).map_err(CliError::Unverified)
     }
 
     /// The mechanism in this configuration as a mechanism file.
     pub(crate) fn mechanism_file(&self, registry: &Registry) -> Result<String, CliError> {
-        hyperstat_mechanisms::write(&self.model, registry).map_err(|source| CliError::Export {
+        hyperstat_mechanisms::write(self.model(), registry).map_err(|source| CliError::Export {
             location: Box::new(self.source().output()),
             source,
         })
@@ -360,7 +377,8 @@ pub(crate) enum Source<'a> {
 
 impl Source<'_> {
     /// The error of a model that has no solution, at the place that is to blame.
-    pub(crate) fn unsolvable(&self, model: &Model, error: SolveError) -> CliError {
+    pub(crate) fn unsolvable(&self, here: &Configuration<'_>, error: SolveError) -> CliError {
+        let model = here.model();
         let location = match &error {
             SolveError::Unheld { bodies } => {
                 let body = bodies.first().and_then(|name| model.body(name));
@@ -380,7 +398,7 @@ impl Source<'_> {
         };
         let drives = match &error {
             SolveError::LoadOnFreeMotion { body, .. }
-            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
+            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(here, *body),
             _ => MissingDrives::default(),
         };
         CliError::Unsolvable {

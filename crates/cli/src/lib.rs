@@ -120,11 +120,13 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         case.add_inner_displacements(&solution, &mut report)?;
     }
     let options = case.modal_options(args.modes(), args.lumped);
-    let modes = options.as_ref().map(|options| case.modes(options));
+    let modal = options.as_ref().map(|options| case.modal(options));
+    let modal = modal.transpose()?;
+    let modes = modal.as_ref().map(|modal| case.modes(modal));
     let modes = modes.transpose()?;
     if let (Some(options), Some(found)) = (&options, &modes) {
         report.add_modes(ModesReport::new(
-            &case.model,
+            case.model(),
             found,
             options.count,
             args.all_nodes,
@@ -143,8 +145,8 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
             along: args.along,
         };
         report.add_why(case.why(&loaded, asked)?);
-        if let Some(options) = &options {
-            case.add_frequencies(options, &mut report)?;
+        if let Some(modal) = &modal {
+            case.add_frequencies(modal, &mut report)?;
         }
     }
     print(&match args.format {
@@ -170,7 +172,8 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
             return Err(error);
         }
     };
-    let kinematics = hyperstat_assembly::analyse(&case.model).ok();
+    let here = case.here();
+    let kinematics = here.kinematics().ok();
     let (solution, error) = match case.solve() {
         Ok(solution) => {
             let error = case.free_output(&solution);
@@ -180,7 +183,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
     };
     let report = CheckReport::new(
         &case,
-        kinematics.as_ref(),
+        kinematics,
         solution.as_ref(),
         error.as_ref(),
     );

@@ -49,7 +49,7 @@ fn title(args: &args::Plot, case: &Case, of_case: Option<&str>) -> String {
 }
 
 fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
-    let model = &case.model;
+    let model = case.model();
     let solution = case.solve_held()?;
     let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let title = title(args, case, args.case.as_deref());
@@ -65,7 +65,8 @@ fn deformed(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
 
 fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliError> {
     let options = case.modal_options(Some(number), false);
-    let modes = options.as_ref().map(|options| case.modes(options));
+    let modal = options.as_ref().map(|options| case.modal(options));
+    let modes = modal.transpose()?.map(|modal| case.modes(&modal));
     let modes = modes
         .transpose()?
         .map(|found| found.modes)
@@ -77,20 +78,20 @@ fn mode(args: &args::Plot, case: &Case, number: usize) -> Result<Drawing, CliErr
     })?;
     let title = title(args, case, None);
     let scale = magnified(args.scale.as_ref())?;
-    let figure = drawing::mode(&case.model, mode, number, title, scale)
+    let figure = drawing::mode(case.model(), mode, number, title, scale)
         .map_err(|error| case.unsolvable(error))?;
     Ok(Drawing::Deformed(figure))
 }
 
 fn budget(args: &args::Plot, case: &Case) -> Result<Drawing, CliError> {
-    let model = &case.model;
+    let model = case.model();
     let solution = case.solve_held()?;
     let loaded = case.under(&solution, args.case.as_deref(), &args.file)?;
     let asked = Asked {
         case: args.case.as_deref(),
         along: args.along.unwrap_or(Along::Displacement),
     };
-    let budget = crate::report::budget(model, &loaded, asked);
+    let budget = crate::report::budget(&case.here(), &loaded, asked);
     let budget = budget.map_err(|error| case.unsolvable(error))?;
     let budget = budget.ok_or_else(|| PlotError::Free {
         path: args.file.clone(),

@@ -87,7 +87,7 @@ impl CheckReport {
         solution: Option<&Solution>,
         error: Option<&CliError>,
     ) -> Self {
-        let model = &case.model;
+        let model = case.model();
         let mut report = Self {
             name: Some(model.name.clone()),
             job: case.job().map(|(job, _)| job.into()),
@@ -96,7 +96,7 @@ impl CheckReport {
             solvable: error.is_none(),
             mobility: kinematics.map(|kinematics| kinematics.mobility),
             overconstraint: kinematics.map(|kinematics| kinematics.overconstraint),
-            redundant_constraints: redundancies(model),
+            redundant_constraints: redundancies(&case.here()),
             free_motions: kinematics.map_or(Vec::new(), |kinematics| {
                 describe_motions(&kinematics.motions, model)
             }),

@@ -69,7 +69,7 @@ pub(super) fn misfit_effects(
         a_turns.cmp(&b_turns).then(larger_first(a_size, b_size))
     });
     let report = |effect: MisfitEffect| MisfitEffectReport {
-        joint: case.model.joints()[effect.joint.0].name.clone(),
+        joint: case.model().joints()[effect.joint.0].name.clone(),
         direction: effect.direction.name(),
         is_angle: effect.direction.is_rotation(),
         per_unit: effect.per_unit,

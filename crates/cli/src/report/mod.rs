@@ -17,7 +17,7 @@ mod why;
 
 use std::fmt::Write as _;
 
-use hyperstat_assembly::{Model, redundant_constraints};
+use hyperstat_assembly::{Configuration, Model};
 use nalgebra::{Matrix6, Vector6};
 use serde::{Serialize, Serializer};
 
@@ -172,9 +172,9 @@ pub(crate) fn stiffness_table(stiffness: &Rows) -> Table {
 }
 
 /// The redundant constraints of a mechanism: joint directions such as `A1.x`, in groups.
-fn redundancies(model: &Model) -> Vec<Vec<String>> {
-    let redundant = redundant_constraints(model);
-    redundant.iter().map(|group| group.names(model)).collect()
+fn redundancies(here: &Configuration<'_>) -> Vec<Vec<String>> {
+    let redundant = here.redundant_constraints().into_iter();
+    redundant.map(|group| group.names(here.model())).collect()
 }
 
 /// What a model says that can hardly be meant, in words.

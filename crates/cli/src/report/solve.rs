@@ -111,7 +111,7 @@ impl SolveReport {
         solution: &Solution,
         verification: Option<Verification>,
     ) -> Self {
-        let model = &case.model;
+        let model = case.model();
         let nodes = 0..model.nodes().len();
         let joints = model.joints().iter().zip(&solution.joint_wrenches);
         let segments = model.segments().iter().zip(&solution.segments);
@@ -123,7 +123,7 @@ impl SolveReport {
             unknowns: solution.unknowns,
             mobility: solution.mobility,
             overconstraint: solution.overconstraint,
-            redundant_constraints: redundancies(model),
+            redundant_constraints: redundancies(&case.here()),
             idle_modes: solution.idle.len(),
             idle_motions: describe_motions(&solution.idle, model),
             output: OutputReport::new(model, solution),

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    Budget, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution, SolveError,
+    Budget, Configuration, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution, SolveError,
 };
 use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
@@ -113,12 +113,12 @@ struct VirtualWork {
 
 /// The budget of the output of a solved mechanism; `None` where it moves freely.
 pub(crate) fn budget(
-    model: &Model,
+    here: &Configuration<'_>,
     solution: &Solution,
     asked: Asked<'_>,
 ) -> Result<Option<BudgetReport>, SolveError> {
-    let question = Question::new(model, solution, asked);
-    let answer = |question: Question<'_>| Ok(question.budget(&Influence::new(model)?));
+    let question = Question::new(here.model(), solution, asked);
+    let answer = |question: Question<'_>| Ok(question.budget(&here.influence()?));
     question.map(answer).transpose()
 }
 
@@ -198,7 +198,7 @@ impl Why {
         solution: &Solution,
         asked: Asked<'_>,
     ) -> Result<Self, SolveError> {
-        let Some(question) = Question::new(&case.model, solution, asked) else {
+        let Some(question) = Question::new(case.model(), solution, asked) else {
             return Ok(Self {
                 budget: None,
                 measures: None,
@@ -206,7 +206,7 @@ impl Why {
                 misfits: None,
             });
         };
-        let influence = Influence::new(&case.model)?;
+        let influence = case.here().influence()?;
         let relative = |s: &Sensitivity| question.relative(s);
         let sensitivities = SensitivityReport::all(case, &influence, solution, relative)?;
         Ok(Self {
