@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::{
-    BeamMass, BodyId, Configuration, Connection, JointId, ModalOptions, ModalPlan, Model, Modes, Motion,
-    Prepared, Solution, SolveError,
+    BeamMass, BodyId, Configuration, Connection, JointId, ModalOptions, ModalPlan, Model, Modes,
+    Motion, Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Location, Mechanism, PoseError, Registry};

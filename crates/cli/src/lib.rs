@@ -181,12 +181,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
         }
         Err(error) => (None, Some(error)),
     };
-    let report = CheckReport::new(
-        &case,
-        kinematics,
-        solution.as_ref(),
-        error.as_ref(),
-    );
+    let report = CheckReport::new(&case, kinematics, solution.as_ref(), error.as_ref());
     print(&match args.format {
         Format::Text => report.text(),
         Format::Json => json(&report)?,

@@ -123,9 +123,7 @@ impl<'a> Sweep<'a> {
             let prepared = Prepared::new(model);
             let planned = match Planned::modal(&prepared, job) {
                 Ok(modal) => Ok(Planned { prepared, modal }),
-                Err(error) => {
-                    Err(Source::Design(job, &design).unsolvable(&prepared.here(), error))
-                }
+                Err(error) => Err(Source::Design(job, &design).unsolvable(&prepared.here(), error)),
             };
             Ok((number, Ok(Arc::new(planned?))))
         };

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    Budget, Configuration, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution, SolveError,
+    Budget, Configuration, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution,
+    SolveError,
 };
 use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
