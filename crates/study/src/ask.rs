@@ -60,20 +60,22 @@ impl Study {
         let mut report = SolveReport::new(self, &solution, verification);
         if question.all_nodes {
             report
-                .add_inner_displacements(&self.model, &solution)
+                .add_inner_displacements(self.model(), &solution)
                 .map_err(|error| self.unsolvable(error))?;
         }
         let options = self.modal_options(question.modes, question.lumped);
-        let modes = options.as_ref().map(|options| self.modes(options));
+        let modal = options.as_ref().map(|options| self.modal(options));
+        let modal = modal.transpose()?;
+        let modes = modal.as_ref().map(|modal| self.modes_of(modal));
         let modes = modes.transpose()?;
         if let (Some(options), Some(found)) = (&options, &modes) {
-            let (model, wanted) = (&self.model, options.count);
+            let (model, wanted) = (self.model(), options.count);
             report.add_modes(ModesReport::new(model, found, wanted, question.all_nodes));
         }
         if let Some(asked) = &question.why {
             report.add_why(self.why(&loaded, asked)?);
-            if let Some(options) = &options {
-                self.add_frequencies(options, &mut report)?;
+            if let Some(modal) = &modal {
+                self.add_frequencies(modal, &mut report)?;
             }
         }
         drop(loaded);
@@ -87,7 +89,8 @@ impl Study {
     /// Checks the mechanism: its counts, what may be a slip, and whether it can be solved; and the
     /// error that [`Study::answer`] would end with, or that of an output that moves freely.
     pub fn check(&self) -> (CheckReport, Option<StudyError>) {
-        let kinematics = hyperstat_assembly::analyse(&self.model).ok();
+        let here = self.here();
+        let kinematics = here.kinematics().ok();
         let (solution, error) = match self.solve() {
             Ok(solution) => {
                 let error = self.free_output(&solution);
@@ -95,7 +98,7 @@ impl Study {
             }
             Err(error) => (None, Some(error)),
         };
-        let report = CheckReport::new(self, kinematics.as_ref(), solution.as_ref(), error.as_ref());
+        let report = CheckReport::new(self, kinematics, solution.as_ref(), error.as_ref());
         (report, error)
     }
 
@@ -119,7 +122,18 @@ impl Study {
     /// # Errors
     /// There is no mass, or the mechanism is not held.
     pub fn modes(&self, options: &ModalOptions) -> Result<Modes, StudyError> {
-        hyperstat_assembly::modes(&self.model, options).map_err(|error| self.unsolvable(error))
+        self.modes_of(&self.modal(options)?)
+    }
+
+    /// The mechanism made ready for natural frequencies.
+    fn modal(&self, options: &ModalOptions) -> Result<ModalPlan, StudyError> {
+        let modal = self.prepared.modal(options);
+        modal.map_err(|error| self.unsolvable(error))
+    }
+
+    fn modes_of(&self, modal: &ModalPlan) -> Result<Modes, StudyError> {
+        let modes = modal.modes(self.model().geometry());
+        modes.map_err(|error| self.unsolvable(error))
     }
 
     /// What is soft and why: the answer to a question about a solution of this study, or about what
@@ -140,7 +154,7 @@ impl Study {
         solution: &Solution,
         asked: &Asked,
     ) -> Result<Option<BudgetReport>, StudyError> {
-        crate::answer::budget(&self.model, solution, asked).map_err(|error| self.unsolvable(error))
+        crate::answer::budget(&self.here(), solution, asked).map_err(|error| self.unsolvable(error))
     }
 
     /// Compares a solution with the independent solver's.
@@ -148,7 +162,11 @@ impl Study {
     /// # Errors
     /// The independent solver has no result.
     pub fn verify(&self, solution: &Solution) -> Result<Verification, StudyError> {
-        Ok(Verification::new(&self.model, solution, &self.reference()?))
+        Ok(Verification::new(
+            &self.here(),
+            solution,
+            &self.reference()?,
+        ))
     }
 
     /// The independent solver's solution.
@@ -156,7 +174,7 @@ impl Study {
     /// # Errors
     /// It has none.
     pub fn reference(&self) -> Result<ReferenceSolution, StudyError> {
-        hyperstat_reference::solve(&self.model).map_err(StudyError::Unverified)
+        hyperstat_reference::solve(self.model()).map_err(StudyError::Unverified)
     }
 
     /// A solution as a VTU file (XML, for ParaView), with modes where there are some.
@@ -164,18 +182,17 @@ impl Study {
     /// # Errors
     /// A segment that cannot be formed, which no segment of a solved model is.
     pub fn vtu(&self, solution: &Solution, modes: Option<&Modes>) -> Result<String, StudyError> {
-        crate::vtu::vtu(&self.model, solution, modes).map_err(|error| self.unsolvable(error))
+        crate::vtu::vtu(self.model(), solution, modes).map_err(|error| self.unsolvable(error))
     }
 
     /// Adds what changes natural frequencies.
     fn add_frequencies(
         &self,
-        options: &ModalOptions,
+        modal: &ModalPlan,
         report: &mut SolveReport,
     ) -> Result<(), StudyError> {
-        let found = ModalPlan::new(&self.model, options)
-            .and_then(|plan| plan.sensitivities(self.model.geometry()))
-            .map_err(|error| self.unsolvable(error))?;
+        let found = modal.sensitivities(self.model().geometry());
+        let found = found.map_err(|error| self.unsolvable(error))?;
         report.add_frequencies(FrequencyReport::all(self, &found), found.complete);
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Which joints could hold what moves freely.
 
-use hyperstat_assembly::{BodyId, JointId, Model};
+use hyperstat_assembly::{BodyId, Configuration, JointId, Motion};
 use hyperstat_joints::Dof;
 
 /// Most joint directions that are named.
@@ -18,9 +18,11 @@ pub struct MissingDrives {
 
 impl MissingDrives {
     /// Of a body that moves with all drives locked.
-    pub fn of(model: &Model, body: BodyId) -> Self {
-        let mut motions = hyperstat_assembly::analyse(model).map_or(Vec::new(), |k| k.motions);
-        motions.retain(|motion| motion.twists.iter().any(|(moved, _)| *moved == body));
+    pub fn of(here: &Configuration<'_>, body: BodyId) -> Self {
+        let model = here.model();
+        let motions = here.kinematics().map_or(&[][..], |k| &k.motions);
+        let moves = |motion: &&Motion| motion.twists.iter().any(|(moved, _)| *moved == body);
+        let motions: Vec<_> = motions.iter().filter(moves).collect();
         let directions = motions.iter().flat_map(|m| m.free_directions(model));
         let mut directions: Vec<(JointId, Dof)> = directions.collect();
         let to_ground = |joint: JointId| model.joints()[joint.0].between.contains(&None);

@@ -1,6 +1,6 @@
 //! Where the parts of a model are written, for errors with their places.
 
-use hyperstat_assembly::{BodyId, Connection, JointId, Model, SolveError};
+use hyperstat_assembly::{BodyId, Configuration, Connection, JointId, Model, SolveError};
 use hyperstat_mechanisms::{Design, Job, Location, Mechanism};
 
 use crate::drives::MissingDrives;
@@ -19,7 +19,8 @@ pub(crate) enum Source<'a> {
 
 impl Source<'_> {
     /// The error of a model that has no solution, at the place that is to blame.
-    pub(crate) fn unsolvable(&self, model: &Model, error: SolveError) -> StudyError {
+    pub(crate) fn unsolvable(&self, here: &Configuration<'_>, error: SolveError) -> StudyError {
+        let model = here.model();
         let location = match &error {
             SolveError::Unheld { bodies } => {
                 let body = bodies.first().and_then(|name| model.body(name));
@@ -39,7 +40,7 @@ impl Source<'_> {
         };
         let drives = match &error {
             SolveError::LoadOnFreeMotion { body, .. }
-            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(model, *body),
+            | SolveError::PreloadOnFreeMotion { body, .. } => MissingDrives::of(here, *body),
             _ => MissingDrives::default(),
         };
         StudyError::Unsolvable {

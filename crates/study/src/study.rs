@@ -3,7 +3,9 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use hyperstat_assembly::{ModalOptions, Model, Motion, Solution, SolveError};
+use hyperstat_assembly::{
+    Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
+};
 use hyperstat_joints::rigid_motion;
 use hyperstat_mechanisms::{Design, Input, Job, Mechanism, PoseError, Registry};
 
@@ -15,7 +17,7 @@ use crate::title::title;
 /// A mechanism in one configuration, ready to be asked.
 #[derive(Debug)]
 pub struct Study {
-    pub(crate) model: Model,
+    pub(crate) prepared: Prepared,
     /// The file that it is from, else its own name.
     name: String,
     files: Vec<PathBuf>,
@@ -85,7 +87,7 @@ impl Study {
                     return Err(StudyError::NotABatch { what, path });
                 }
                 Ok(Self {
-                    model: mechanism.model.clone(),
+                    prepared: Prepared::new(mechanism.model.clone()),
                     name: path.display().to_string(),
                     files,
                     origin: Origin::Mechanism(Box::new(mechanism)),
@@ -105,7 +107,7 @@ impl Study {
     /// A mechanism in its own configuration.
     pub fn of_mechanism(mechanism: Mechanism) -> Self {
         Self {
-            model: mechanism.model.clone(),
+            prepared: Prepared::new(mechanism.model.clone()),
             name: mechanism.model.name.clone(),
             files: Vec::new(),
             origin: Origin::Mechanism(Box::new(mechanism)),
@@ -136,7 +138,7 @@ impl Study {
         let design = job.design(design)?;
         match design_model(&design, pose) {
             Ok(model) => Ok(Self {
-                model,
+                prepared: Prepared::new(model),
                 name: job.name.clone(),
                 files: Vec::new(),
                 origin: Origin::Job {
@@ -156,7 +158,12 @@ impl Study {
 
     /// The mechanism as data, in its configuration.
     pub fn model(&self) -> &Model {
-        &self.model
+        self.prepared.model()
+    }
+
+    /// The mechanism in its configuration: what is found of it is found once.
+    pub fn here(&self) -> Configuration<'_> {
+        self.prepared.here()
     }
 
     /// All files that were read for it.
@@ -167,8 +174,8 @@ impl Study {
     /// Names values of the model by their paths in the mechanism, as `vary` takes them.
     pub fn name_values(&mut self) {
         match &self.origin {
-            Origin::Mechanism(mechanism) => mechanism.name_values(&mut self.model),
-            Origin::Job { job, design, .. } => job.name_values(design, &mut self.model),
+            Origin::Mechanism(mechanism) => mechanism.name_values(self.prepared.model_mut()),
+            Origin::Job { job, design, .. } => job.name_values(design, self.prepared.model_mut()),
         }
     }
 
@@ -193,7 +200,7 @@ impl Study {
     /// # Errors
     /// It has no solution. What is unrestrained is named, with its place in the file.
     pub fn solve(&self) -> Result<Solution, StudyError> {
-        hyperstat_assembly::solve(&self.model).map_err(|error| self.unsolvable(error))
+        self.here().solve().map_err(|error| self.unsolvable(error))
     }
 
     /// Solves the mechanism, whose output must not move freely.
@@ -232,24 +239,21 @@ impl Study {
 
     /// The error of the mechanism having no such result, with its place in the file.
     pub(crate) fn unsolvable(&self, error: SolveError) -> StudyError {
-        self.source().unsolvable(&self.model, error)
+        self.source().unsolvable(&self.here(), error)
     }
 
     /// Title of a figure of it, under the loads of a case.
     pub fn title(&self, case: Option<&str>) -> String {
         match self.job() {
             Some((job, pose)) => title(job, self.design(), Some(pose), case),
-            None => title(&self.model.name, None, None, case),
+            None => title(&self.model().name, None, None, case),
         }
     }
 
     /// The idle motions, which do not depend on the loads; `None` where there is no solution even
     /// without loads.
     pub(crate) fn idle_motions(&self) -> Option<Vec<Motion>> {
-        let mut unloaded = self.model.clone();
-        unloaded.clear_loads();
-        let solution = hyperstat_assembly::solve(&unloaded).ok()?;
-        Some(solution.idle)
+        self.here().idle_motions().ok()
     }
 
     /// The natural frequencies that its job asks for.
@@ -274,7 +278,7 @@ impl Study {
         if solution.output.free_motions.is_empty() {
             return None;
         }
-        let model = &self.model;
+        let model = self.model();
         let output = model.output()?;
         let body = model.nodes()[output.0].body;
         let origin = model.bodies()[body.0].nodes[0];
@@ -289,7 +293,7 @@ impl Study {
             location: Box::new(self.source().output()),
             output: model.node_name(output),
             motions: solution.output.free_motions.iter().map(in_words).collect(),
-            drives: Box::new(MissingDrives::of(model, body)),
+            drives: Box::new(MissingDrives::of(&self.here(), body)),
         })
     }
 
@@ -298,7 +302,7 @@ impl Study {
     /// # Errors
     /// It has parts that no file can state.
     pub fn mechanism_file(&self, registry: &Registry) -> Result<String, StudyError> {
-        hyperstat_mechanisms::write(&self.model, registry).map_err(|source| StudyError::Export {
+        hyperstat_mechanisms::write(self.model(), registry).map_err(|source| StudyError::Export {
             location: Box::new(self.source().output()),
             source,
         })

@@ -1,6 +1,6 @@
 //! A solution beside that of the independent solver (`solve --verify`).
 
-use hyperstat_assembly::{BodyId, Floor, Model, Solution};
+use hyperstat_assembly::{BodyId, Configuration, Floor, Model, Solution};
 use hyperstat_reference::ReferenceSolution;
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;
@@ -39,9 +39,14 @@ pub struct StateDifferences {
 }
 
 impl Verification {
-    /// Compares `solution` with `reference`, both of `model`.
-    pub fn new(model: &Model, solution: &Solution, reference: &ReferenceSolution) -> Self {
-        let moving = bodies_that_move(model);
+    /// Compares `solution` with `reference`, both of this configuration.
+    pub fn new(
+        here: &Configuration<'_>,
+        solution: &Solution,
+        reference: &ReferenceSolution,
+    ) -> Self {
+        let model = here.model();
+        let moving = bodies_that_move(here);
         let nodes = model.nodes().iter();
         let held: Vec<bool> = nodes.map(|node| !moving.contains(&node.body)).collect();
         let floor = &solution.floor;
@@ -181,10 +186,10 @@ fn disagreements(model: &Model, solution: &Solution, reference: &ReferenceSoluti
 }
 
 /// Bodies that move without energy, drives locked: their displacements are not defined.
-fn bodies_that_move(model: &Model) -> Vec<BodyId> {
-    let motions = hyperstat_assembly::analyse(model).map_or(Vec::new(), |k| k.motions);
-    let twists = motions.into_iter().flat_map(|motion| motion.twists);
-    twists.map(|(body, _)| body).collect()
+fn bodies_that_move(here: &Configuration<'_>) -> Vec<BodyId> {
+    let motions = here.kinematics().map_or(&[][..], |k| &k.motions);
+    let twists = motions.iter().flat_map(|motion| &motion.twists);
+    twists.map(|(body, _)| *body).collect()
 }
 
 /// Largest |Δ_ij| / √(s_i s_j).

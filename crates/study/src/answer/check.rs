@@ -88,7 +88,7 @@ impl CheckReport {
         solution: Option<&Solution>,
         error: Option<&StudyError>,
     ) -> Self {
-        let model = &study.model;
+        let model = study.model();
         let mut report = Self {
             name: Some(model.name.clone()),
             job: study.job().map(|(job, _)| job.into()),
@@ -97,7 +97,7 @@ impl CheckReport {
             solvable: error.is_none(),
             mobility: kinematics.map(|kinematics| kinematics.mobility),
             overconstraint: kinematics.map(|kinematics| kinematics.overconstraint),
-            redundant_constraints: redundancies(model),
+            redundant_constraints: redundancies(&study.here()),
             free_motions: kinematics.map_or(Vec::new(), |kinematics| {
                 describe_motions(&kinematics.motions, model)
             }),

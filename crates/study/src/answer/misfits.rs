@@ -35,7 +35,7 @@ pub(super) fn misfit_effects(
         a_turns.cmp(&b_turns).then(larger_first(a_size, b_size))
     });
     let report = |effect: MisfitEffect| MisfitEffectReport {
-        joint: study.model.joints()[effect.joint.0].name.clone(),
+        joint: study.model().joints()[effect.joint.0].name.clone(),
         direction: effect.direction.name(),
         is_angle: effect.direction.is_rotation(),
         per_unit: effect.per_unit,

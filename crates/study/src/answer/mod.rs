@@ -12,7 +12,7 @@ mod sensitivities;
 mod solve;
 mod why;
 
-use hyperstat_assembly::{Model, redundant_constraints};
+use hyperstat_assembly::{Configuration, Model};
 use nalgebra::{Matrix6, Vector6};
 use serde::{Serialize, Serializer};
 
@@ -84,9 +84,9 @@ fn numbers(vector: &Vector6<f64>) -> [f64; 6] {
 }
 
 /// The redundant constraints of a mechanism: joint directions such as `A1.x`, in groups.
-fn redundancies(model: &Model) -> Vec<Vec<String>> {
-    let redundant = redundant_constraints(model);
-    redundant.iter().map(|group| group.names(model)).collect()
+fn redundancies(here: &Configuration<'_>) -> Vec<Vec<String>> {
+    let redundant = here.redundant_constraints().into_iter();
+    redundant.map(|group| group.names(here.model())).collect()
 }
 
 /// What a model says that can hardly be meant, in words.

@@ -60,7 +60,7 @@ impl SensitivityReport {
     ) -> Result<Vec<Self>, SolveError> {
         let found = influence.sensitivities(solution)?;
         let named = found.iter().map(|s| (s.name.as_deref(), &s.parameter));
-        let names = parameters::names(&study.model, named);
+        let names = parameters::names(study.model(), named);
         let mut all: Vec<Self> = (found.iter().zip(names))
             .map(|(s, parameter)| Self {
                 parameter,
@@ -93,7 +93,7 @@ impl FrequencyReport {
     pub fn all(study: &Study, found: &ModalSensitivities) -> Vec<Self> {
         let named = found.parameters.iter();
         let named = named.map(|s| (s.name.as_deref(), &s.parameter));
-        let names = parameters::names(&study.model, named);
+        let names = parameters::names(study.model(), named);
         let group = |group: &std::ops::Range<usize>| {
             let own = |(s, name): (&FrequencySensitivity, &String)| FrequencySensitivityReport {
                 parameter: name.clone(),

@@ -135,7 +135,7 @@ const UNCOUNTED: &str = "sensitivities of frequencies: not all frequencies could
 impl SolveReport {
     /// Collects what is to be reported of a solution.
     pub fn new(study: &Study, solution: &Solution, verification: Option<Verification>) -> Self {
-        let model = &study.model;
+        let model = study.model();
         let nodes = 0..model.nodes().len();
         let joints = model.joints().iter().zip(&solution.joint_wrenches);
         let segments = model.segments().iter().zip(&solution.segments);
@@ -147,7 +147,7 @@ impl SolveReport {
             unknowns: solution.unknowns,
             mobility: solution.mobility,
             overconstraint: solution.overconstraint,
-            redundant_constraints: redundancies(model),
+            redundant_constraints: redundancies(&study.here()),
             idle_modes: solution.idle.len(),
             idle_motions: describe_motions(&solution.idle, model),
             output: OutputReport::new(model, solution),

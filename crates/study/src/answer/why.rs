@@ -3,7 +3,8 @@
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    Budget, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution, SolveError,
+    Budget, Configuration, Deformation, Influence, Model, Part, PartSource, Sensitivity, Solution,
+    SolveError,
 };
 use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
@@ -146,12 +147,12 @@ pub struct VirtualWork {
 
 /// The budget of the output of a solved mechanism; `None` where it moves freely.
 pub fn budget(
-    model: &Model,
+    here: &Configuration<'_>,
     solution: &Solution,
     asked: &Asked,
 ) -> Result<Option<BudgetReport>, SolveError> {
-    let inquiry = Inquiry::new(model, solution, asked);
-    let answer = |inquiry: Inquiry<'_>| Ok(inquiry.budget(&Influence::new(model)?));
+    let inquiry = Inquiry::new(here.model(), solution, asked);
+    let answer = |inquiry: Inquiry<'_>| Ok(inquiry.budget(&here.influence()?));
     inquiry.map(answer).transpose()
 }
 
@@ -227,7 +228,7 @@ impl<'a> Inquiry<'a> {
 impl Why {
     /// Finds out why the output of a solved mechanism gives along a direction.
     pub fn new(study: &Study, solution: &Solution, asked: &Asked) -> Result<Self, SolveError> {
-        let Some(inquiry) = Inquiry::new(&study.model, solution, asked) else {
+        let Some(inquiry) = Inquiry::new(study.model(), solution, asked) else {
             return Ok(Self {
                 budget: None,
                 measures: None,
@@ -235,7 +236,8 @@ impl Why {
                 misfits: None,
             });
         };
-        let influence = Influence::new(&study.model)?;
+        let here = study.here();
+        let influence = here.influence()?;
         let relative = |s: &Sensitivity| inquiry.relative(s);
         let sensitivities = SensitivityReport::all(study, &influence, solution, relative)?;
         Ok(Self {

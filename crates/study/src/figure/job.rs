@@ -1,6 +1,6 @@
 //! The figures that a job asks for.
 
-use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Solution};
+use hyperstat_assembly::{ModalOptions, Prepared, Solution};
 use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Scale};
 
 use super::budget::budget as budget_figure;
@@ -50,8 +50,9 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
             Figure::Mode { number, .. } if job.varied().is_empty() => {
                 // Where no pose can be reached there is no model, and no figure.
                 if let Ok(model) = job.model() {
-                    ModalPlan::new(&model, &modal_options(job, *number))
-                        .map_err(|error| Source::Job(job).unsolvable(&model, error))?;
+                    let prepared = Prepared::new(model);
+                    let modal = prepared.modal(&modal_options(job, *number));
+                    modal.map_err(|error| Source::Job(job).unsolvable(&prepared.here(), error))?;
                 }
             }
             _ => {}
@@ -116,16 +117,16 @@ pub fn draw(
     }
 }
 
-/// The model at a pose with its solution, under the loads of a case where one is named; `None`
+/// The mechanism at a pose with its solution, under the loads of a case where one is named; `None`
 /// where it has none, or the output moves freely.
-fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Model, Solution)> {
-    let model = job_model(job, pose).ok()?;
-    let mut solution = hyperstat_assembly::solve(&model).ok()?;
+fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Prepared, Solution)> {
+    let prepared = Prepared::new(job_model(job, pose).ok()?);
+    let mut solution = prepared.here().solve().ok()?;
     if let Some(name) = case {
         solution = solution.of_case(name)?;
     }
     let held = solution.output.free_motions.is_empty();
-    held.then_some((model, solution))
+    held.then_some((prepared, solution))
 }
 
 /// Title of a figure of the job's first design that can be.
@@ -140,13 +141,14 @@ fn deformed(
     case: Option<&str>,
     scale: hyperstat_figures::Scale,
 ) -> Option<Drawing> {
-    let (model, solution) = solved(job, pose, case)?;
+    let (prepared, solution) = solved(job, pose, case)?;
+    let model = prepared.model();
     let title = title(job, pose, case);
-    let mut figure = deformed_figure(&model, &solution, title, scale).ok()?;
+    let mut figure = deformed_figure(model, &solution, title, scale).ok()?;
     if case.is_none()
-        && let Ok(reference) = hyperstat_reference::solve(&model)
+        && let Ok(reference) = hyperstat_reference::solve(model)
     {
-        compare(&mut figure, &model, &solution, &reference);
+        compare(&mut figure, model, &solution, &reference);
     }
     Some(Drawing::Deformed(figure))
 }
@@ -173,10 +175,11 @@ fn mode(
 }
 
 fn budget(job: &Job, asked: &Asked, pose: usize) -> Result<Drawing, String> {
-    let (model, solution) = solved(job, pose, asked.case.as_deref()).ok_or(NO_RESULT)?;
-    let budget = crate::answer::budget(&model, &solution, asked)
+    let (prepared, solution) = solved(job, pose, asked.case.as_deref()).ok_or(NO_RESULT)?;
+    let budget = crate::answer::budget(&prepared.here(), &solution, asked)
         .map_err(|error| error.to_string())?
         .ok_or(NO_RESULT)?;
+    let model = prepared.model();
     let output = model.output().map(|node| model.node_name(node));
     let title = title(job, pose, asked.case.as_deref());
     budget_figure(&budget, &output.unwrap_or_default(), title)

@@ -36,11 +36,11 @@ impl Study {
         let solution = self.solve_held()?;
         let loaded = self.under(&solution, case)?;
         let title = look.title.unwrap_or_else(|| self.title(case));
-        let mut figure = deformed(&self.model, &loaded, title, look.scale)
+        let mut figure = deformed(self.model(), &loaded, title, look.scale)
             .map_err(|error| self.unsolvable(error))?;
         if verify {
             let reference = self.reference()?;
-            compare(&mut figure, &self.model, &solution, &reference);
+            compare(&mut figure, self.model(), &solution, &reference);
         }
         Ok(Drawing::Deformed(figure))
     }
@@ -64,7 +64,7 @@ impl Study {
             count: modes.len(),
         })?;
         let title = look.title.unwrap_or_else(|| self.title(None));
-        let figure = mode(&self.model, found, number, title, look.scale);
+        let figure = mode(self.model(), found, number, title, look.scale);
         Ok(Drawing::Deformed(
             figure.map_err(|error| self.unsolvable(error))?,
         ))
@@ -85,7 +85,10 @@ impl Study {
         let loaded = self.under(&solution, case)?;
         let found = self.budget(&loaded, asked)?;
         let found = found.ok_or_else(|| PlotError::Free { path: path.into() })?;
-        let output = self.model.output().map(|node| self.model.node_name(node));
+        let output = self
+            .model()
+            .output()
+            .map(|node| self.model().node_name(node));
         let title = title.unwrap_or_else(|| self.title(case));
         let figure = budget(&found, &output.unwrap_or_default(), title);
         let figure = figure.ok_or_else(|| PlotError::NoShares { path: path.into() })?;

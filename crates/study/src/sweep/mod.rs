@@ -10,7 +10,7 @@ mod threads;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Model, Plan, SolveError};
+use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Prepared, SolveError};
 use hyperstat_mechanisms::{Design, Job};
 
 use crate::error::StudyError;
@@ -49,11 +49,10 @@ pub enum Way {
     OneByOne,
 }
 
-/// A model in some configuration and its plan.
+/// A design made ready.
 #[derive(Debug)]
 struct Planned {
-    model: Model,
-    plan: Plan,
+    prepared: Prepared,
     /// Where natural frequencies are asked for.
     modal: Option<ModalPlan>,
 }
@@ -71,9 +70,11 @@ impl<'a> Sweep<'a> {
                 // No pose in reach is told of its rows.
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
-            let plan = Plan::new(&model).and_then(|plan| Planned::of(plan, model.clone(), job));
-            let planned =
-                plan.map_err(|error| Source::Design(job, &design).unsolvable(&model, error));
+            let prepared = Prepared::new(model);
+            let planned = match Planned::modal(&prepared, job) {
+                Ok(modal) => Ok(Planned { prepared, modal }),
+                Err(error) => Err(Source::Design(job, &design).unsolvable(&prepared.here(), error)),
+            };
             Ok((number, Ok(Arc::new(planned?))))
         };
         let first = job.first_design();
@@ -186,12 +187,12 @@ impl<'a> Sweep<'a> {
             true => planned.clone(),
             false => Planned::new(&design, self.job, planned).map(Arc::new),
         };
-        let ready = planned.map(|planned| {
+        let ready = planned.and_then(|planned| {
             let lanes = match self.way {
-                Way::Lanes => planned.plan.lanes(&planned.model),
-                Way::OneByOne => planned.plan.lanes_one_by_one(&planned.model),
+                Way::Lanes => planned.prepared.lanes()?,
+                Way::OneByOne => planned.prepared.lanes_one_by_one()?,
             };
-            (planned, lanes)
+            Ok((planned, lanes))
         });
         Solver {
             number,
@@ -210,21 +211,19 @@ impl Planned {
         first: &Result<Arc<Self>, Failure>,
     ) -> Result<Self, Failure> {
         let model = design.model()?;
-        let plan = match first {
-            Ok(first) => first.plan.for_design(&model)?,
-            Err(_) => Plan::new(&model)?,
+        let prepared = match first {
+            Ok(first) => first.prepared.for_design(model)?,
+            Err(_) => Prepared::new(model),
         };
-        Ok(Self::of(plan, model, job)?)
+        let modal = Self::modal(&prepared, job)?;
+        Ok(Self { prepared, modal })
     }
 
-    fn of(plan: Plan, model: Model, job: &Job) -> Result<Self, SolveError> {
+    /// What natural frequencies need, where they are asked for; the mechanism has a plan.
+    fn modal(prepared: &Prepared, job: &Job) -> Result<Option<ModalPlan>, SolveError> {
+        prepared.unknowns()?;
         let modal = job.modes.as_ref();
-        let modal = modal.map(|options| ModalPlan::new(&model, options));
-        Ok(Self {
-            modal: modal.transpose()?,
-            plan,
-            model,
-        })
+        modal.map(|options| prepared.modal(options)).transpose()
     }
 
     /// Numbers of a table's further columns in a configuration.
@@ -279,7 +278,7 @@ impl Solver {
                 placed[lane] = Some(design.place(pose, lanes.geometry_mut(lane)));
             }
             let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
-            let mut found = planned.plan.sweep_lanes(&planned.model, lanes, filled);
+            let mut found = planned.prepared.sweep_lanes(lanes, filled);
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
