@@ -40,7 +40,8 @@ enum Origin {
 impl Case {
     /// Loads what the command line names.
     pub(crate) fn load(input: &args::Input, registry: &Registry) -> Result<Self, CliError> {
-        let loaded = hyperstat_mechanisms::load(&input.file, registry)?;
+        let loaded =
+            hyperstat_mechanisms::load(&input.file, &hyperstat_mechanisms::Disk, registry)?;
         let files = loaded.files();
         match loaded {
             Input::Mechanism(mechanism) => {

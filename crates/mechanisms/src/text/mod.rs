@@ -3,6 +3,8 @@
 pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
+#[cfg(feature = "fs")]
+pub(crate) mod disk;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
