@@ -12,6 +12,7 @@ use crate::text::files::Files;
 use crate::text::fragment::Fragment;
 use crate::text::named::{is_batch, mechanism_in};
 use crate::text::source::Source;
+use crate::text::tree::Node;
 
 /// What a file holds.
 #[derive(Debug)]
@@ -115,11 +116,11 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
         }
         _ => {}
     }
-    Mechanism::read(value, registry).map(Input::Mechanism)
+    Mechanism::read(Node::of(value), registry).map(Input::Mechanism)
 }
 
 fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism, LoadError> {
-    Mechanism::read(mechanism_in(source)?, registry)
+    Mechanism::read(Node::of(mechanism_in(source)?), registry)
 }
 
 fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {

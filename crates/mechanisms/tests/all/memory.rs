@@ -127,7 +127,7 @@ fn a_file_that_was_not_handed_in() {
     let error = load_str(batch, Path::new("here/b.ron"), &none, &registry).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "here/b.ron:1:38: cannot read here/sub/portal.ron: no file of this name was handed in"
+        "here/b.ron:1:37: cannot read here/sub/portal.ron: no file of this name was handed in"
     );
     assert_eq!(
         error.help(),
