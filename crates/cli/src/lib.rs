@@ -22,7 +22,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
-use hyperstat_mechanisms::Registry;
+use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::{Asked, CheckReport, Question, Study};
 
 use args::{Cli, Command, Format};
@@ -97,7 +97,12 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
 
 /// The study of what the command line names.
 fn study(input: &args::Input, registry: &Registry) -> Result<Study, CliError> {
-    Ok(Study::open(&input.file, &input.selection(), registry)?)
+    Ok(Study::open(
+        &input.file,
+        &input.selection(),
+        &Disk,
+        registry,
+    )?)
 }
 
 /// `hyperstat solve`
@@ -134,7 +139,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
 
 /// `hyperstat check`
 fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
-    let opened = Study::open(&args.input.file, &args.input.selection(), registry);
+    let opened = Study::open(&args.input.file, &args.input.selection(), &Disk, registry);
     let (mut report, error) = match opened {
         Ok(study) => study.check(),
         // There is nothing to tell in words that the error does not.

@@ -25,7 +25,8 @@ pub(crate) fn run(
     registry: &Registry,
     mut tell: impl FnMut(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
-    let batch = hyperstat_mechanisms::load_batch(&args.file, registry)?;
+    let batch =
+        hyperstat_mechanisms::load_batch(&args.file, &hyperstat_mechanisms::Disk, registry)?;
     let way = match args.one_by_one {
         true => Way::OneByOne,
         false => Way::Lanes,
@@ -227,7 +228,7 @@ const TEMPLATE: &str = "{msg} {wide_bar} {human_pos}/{human_len} poses, {eta} le
 mod tests {
     use std::path::Path;
 
-    use hyperstat_mechanisms::{Registry, batch_from_str};
+    use hyperstat_mechanisms::{Disk, Registry, batch_from_str};
     use indicatif::{ProgressBar, ProgressStyle};
 
     use super::{Threads, Way, prepare, run_job};
@@ -247,7 +248,7 @@ mod tests {
 
     #[test]
     fn the_bar_ends_at_the_number_of_poses() {
-        let batch = batch_from_str(BATCH, Path::new("."), &Registry::builtin()).unwrap();
+        let batch = batch_from_str(BATCH, Path::new("."), &Disk, &Registry::builtin()).unwrap();
         let sweeps = prepare(&batch, Way::Lanes).unwrap();
         let out = std::env::temp_dir().join(format!("hyperstat-bar-{}", std::process::id()));
         std::fs::create_dir_all(&out).unwrap();

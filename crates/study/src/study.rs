@@ -7,7 +7,7 @@ use hyperstat_assembly::{
     Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Design, Input, Job, Mechanism, PoseError, Registry};
+use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Registry};
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
@@ -65,13 +65,14 @@ impl Study {
     /// # Errors
     /// The file cannot be read, with the place of what is wrong in it; it holds no such job, design
     /// or pose; the pose is out of reach.
-    #[cfg(feature = "fs")]
     pub fn open(
         path: &Path,
         selection: &Selection,
+        files: &dyn Files,
         registry: &Registry,
     ) -> Result<Self, StudyError> {
-        Self::of(hyperstat_mechanisms::load(path, registry)?, path, selection)
+        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
+        Self::of(loaded, path, selection)
     }
 
     /// The same of what is loaded already, from the file of this name.

@@ -1,7 +1,7 @@
 //! Figures of a mechanism, solved as by `hyperstat solve`: deformed, in a natural mode, and what its
 //! deflection comes from.
 
-use hyperstat_mechanisms::{Along, Registry};
+use hyperstat_mechanisms::{Along, Disk, Registry};
 use hyperstat_study::figure::Look;
 use hyperstat_study::{Asked, Selection, Study};
 
@@ -17,7 +17,7 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
         design: args.design,
         pose: args.pose,
     };
-    let study = Study::open(&args.file, &selection, registry)?;
+    let study = Study::open(&args.file, &selection, &Disk, registry)?;
     let name = study
         .job()
         .map_or_else(|| stem(&args.file), |(job, _)| job.into());

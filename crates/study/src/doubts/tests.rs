@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::Model;
-use hyperstat_mechanisms::{Input, Registry, load_str, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Input, Registry, load_str, mechanism_from_str};
 
 use super::{number, of_model, of_solution};
 use crate::study::job_model;
@@ -43,7 +43,7 @@ fn changed(changes: &[(&str, &str)]) -> Vec<String> {
         assert!(text.contains(from), "no `{from}`");
         text = text.replace(from, to);
     }
-    let mechanism = mechanism_from_str(&text, Path::new("arm.ron"), &Registry::builtin());
+    let mechanism = mechanism_from_str(&text, Path::new("arm.ron"), &Disk, &Registry::builtin());
     told(&mechanism.unwrap_or_else(|error| panic!("{error}")).model)
 }
 
@@ -184,7 +184,7 @@ fn what_lies_at_one_place_may_move_too_far() {
         loads: [(on: ("carriage", "A"), force: (1000.0, 0.0, 0.0))],
         output: ("carriage", "A"),
     )"#;
-    let mechanism = mechanism_from_str(text, Path::new("m.ron"), &Registry::builtin());
+    let mechanism = mechanism_from_str(text, Path::new("m.ron"), &Disk, &Registry::builtin());
     // 1000 N on 2000 N/m: 0.5 m.
     let told = told(&mechanism.unwrap().model);
     says(&told, &["moves by 0.5 m", "at one place"]);
@@ -313,7 +313,7 @@ fn nothing_is_told_of_the_examples_the_references_and_the_book() {
                 wrong += &format!("{} {name}: {line}\n", path.display());
             }
         };
-        match load_str(&text, &path, &registry) {
+        match load_str(&text, &path, &Disk, &registry) {
             Ok(Input::Mechanism(mechanism)) => see(&mechanism.model, ""),
             Ok(Input::Batch(batch)) => {
                 for job in &batch.jobs {
