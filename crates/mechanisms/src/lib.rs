@@ -30,5 +30,8 @@ pub use load::{
 };
 pub use prebuilt::PoseError;
 pub use text::files;
+#[cfg(feature = "fs")]
+pub use text::files::Disk;
+pub use text::files::{Files, MemoryFiles};
 pub use text::names::nearest;
 pub use write::{WriteError, write};

@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Plan, Solution, SolveError,
+    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Prepared, Solution, SolveError,
     Tapering, solve,
 };
 use hyperstat_elements::{Beam, Section, SectionShape, element_frame, rotate_matrix12};
 use hyperstat_joints::{DofSet, Fixed, Revolute, frame_from_axis};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::agreement::{
     compliances_agree, nearly_singular, stiffnesses_agree, wrenches_agree,
 };
@@ -342,16 +342,15 @@ fn a_beams_stiffness_makes_the_same_link_in_every_configuration() {
         &solve(&flexible).expect("a solution"),
         &solve(&beams).expect("a solution"),
     );
-    let plans = [&beams, &flexible].map(|model| Plan::new(model).expect("a plan"));
+    let plans = [&beams, &flexible].map(|model| Prepared::new(model.clone()));
     // Elastic joints are absorbed in both, loads inside them included.
     assert_eq!(plans[1].unknowns(), plans[0].unknowns());
     for (shoulder, elbow) in [(0.4, 0.0), (-1.1, 0.7), (2.0, -1.3)] {
         let [expected, found] =
-            [(&plans[0], &beams), (&plans[1], &flexible)].map(|(plan, model)| {
+            [(&plans[0], &beams), (&plans[1], &flexible)].map(|(prepared, model)| {
                 let geometry = turned_arm(model, shoulder, elbow);
-                let mut workspace = plan.workspace();
-                plan.sweep(model, &geometry, &mut workspace)
-                    .expect("a result")
+                let mut workspace = prepared.workspace().expect("a plan");
+                prepared.sweep(&geometry, &mut workspace).expect("a result")
             });
         let [k, expected_k] = [&found, &expected].map(|r| r.stiffness.expect("a stiffness"));
         let difference = stiffness_difference(&k, &expected_k);
@@ -384,7 +383,7 @@ fn the_flexible_example_is_its_beam() {
         .expect("the arm");
     let (_, after) = flexible.split_once('\n').expect("a line");
     let [found, expected] = [text.clone(), format!("{before}{after}")].map(|text| {
-        let mechanism = mechanism_from_str(&text, &path, &Registry::builtin());
+        let mechanism = mechanism_from_str(&text, &path, &Disk, &Registry::builtin());
         solve(&mechanism.expect("a mechanism").model).expect("a solution")
     });
     assert_same(&found, &expected);

@@ -5,10 +5,10 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    Influence, JointId, LANES, LoadSet, Model, NodeId, Plan, Solution, SolveError, solve,
+    JointId, LANES, LoadSet, Model, NodeId, Prepared, Solution, SolveError, solve,
 };
 use hyperstat_joints::Dof;
-use hyperstat_mechanisms::{Registry, load_mechanism, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, load_mechanism, mechanism_from_str};
 use hyperstat_reference::ReferenceError;
 use hyperstat_tests::agreement::agrees_with_reference;
 use hyperstat_tests::prebuilt::{legs, links};
@@ -27,7 +27,7 @@ const FLOORS: [f64; 2] = [1e-5, 1.0];
 /// A reference mechanism without its loads.
 fn unloaded(name: &str) -> Model {
     let path = reference_folder().join(format!("{name}.ron"));
-    let mechanism = load_mechanism(&path, &Registry::builtin()).expect("a valid file");
+    let mechanism = load_mechanism(&path, &Disk, &Registry::builtin()).expect("a valid file");
     let mut model = mechanism.model;
     model.clear_loads();
     model
@@ -244,9 +244,9 @@ fn a_misfit_does_what_the_joints_force_under_a_unit_load_says() {
         let model = unloaded(name);
         let output = model.output().expect("an output");
         let units = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
-        let plan = Plan::new(&model).expect("a plan");
-        let responses = plan.respond(&model, &units).expect("responses");
-        let influence = Influence::new(&model).expect("unit states");
+        let prepared = Prepared::new(model.clone());
+        let responses = prepared.here().respond(&units).expect("responses");
+        let influence = prepared.here().influence().expect("unit states");
         let effects: Vec<_> = (0..6)
             .map(|k| influence.misfit_effects(&Vector6::ith(k, 1.0)))
             .collect();
@@ -387,7 +387,8 @@ const FLOATING: &str = r#"(
 #[test]
 fn a_floating_mechanism_keeps_the_digits_of_its_own_forces() {
     let file = Path::new("floating.ron");
-    let mechanism = mechanism_from_str(FLOATING, file, &Registry::builtin()).expect("a file");
+    let mechanism =
+        mechanism_from_str(FLOATING, file, &Disk, &Registry::builtin()).expect("a file");
     let found = solve(&mechanism.model).expect("a solution");
     assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     assert_eq!(found.output.free_motions.len(), 6);
@@ -404,10 +405,10 @@ fn lanes_leave_misfits_to_the_numeric_pass() {
     let mut model = unloaded("delta_elastic_joints");
     let misfit = Vector6::ith(0, 1e-4);
     model.set_misfit(JointId(2), &misfit).expect("a misfit");
-    let plan = Plan::new(&model).expect("a plan");
-    let mut lanes = plan.lanes(&model);
-    let together = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
-    let alone = plan.sweep(&model, model.geometry(), &mut plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let mut lanes = prepared.lanes().expect("a plan");
+    let together = prepared.sweep_lanes(&mut lanes, [true; LANES]);
+    let alone = prepared.sweep(model.geometry(), &mut prepared.workspace().expect("a plan"));
     for result in together {
         assert_eq!(result.as_ref(), Some(&alone));
     }

@@ -2,10 +2,10 @@
 //! depends on the unit of length. The unit of mass is N s² over that of length.
 
 use hyperstat_assembly::{
-    Influence, ModalOptions, ModalPlan, ModalSensitivities, Sensitivity, Solution, solve,
+    ModalOptions, ModalPlan, ModalSensitivities, Prepared, Sensitivity, Solution, solve,
 };
 use hyperstat_elements::{MassShape, RotaryInertia};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::{reference_folder, reference_text};
 use nalgebra::Matrix6;
 
@@ -66,12 +66,13 @@ struct Results {
 }
 
 fn results(text: &str) -> Results {
-    let read = mechanism_from_str(text, &reference_folder(), &Registry::builtin());
+    let read = mechanism_from_str(text, &reference_folder(), &Disk, &Registry::builtin());
     let mechanism = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut model = mechanism.model.clone();
     mechanism.name_values(&mut model);
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let options = ModalOptions {
         shape: MassShape::Exact,
         rotary_inertia: RotaryInertia::Included,

@@ -2,6 +2,7 @@
 
 use std::collections::HashSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use hyperstat_model::{BodyId, JointId, Model};
 use nalgebra::Point3;
@@ -10,13 +11,14 @@ use super::home::Home;
 use super::loads::Acting;
 use super::registry::Registry;
 use super::through::{Tables, check_name};
-use super::value_names::{Given, Replaced};
+use super::value_names::Given;
 use crate::error::{LoadError, Location};
 use crate::file::{bodies, joints, loads, materials, nodes, value_names};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
 use crate::text::table::Table;
+use crate::text::tree::{Node, Steps};
 
 /// A mechanism read from a file: its model, and the place of every part of it.
 #[derive(Debug, Clone)]
@@ -27,8 +29,8 @@ pub struct Mechanism {
     joints: Vec<Place>,
     loads: Vec<Place>,
     output: Place,
-    /// The file's text.
-    root: Place,
+    /// The file's value.
+    root: Arc<Node>,
     /// What the segments are given by.
     given: Vec<Given>,
     /// Whether the masses are the file's own.
@@ -38,7 +40,9 @@ pub struct Mechanism {
 
 impl Mechanism {
     /// Reads the value of a mechanism file.
-    pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
+    pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
+        let root = Arc::new(root);
+        let fragment = Fragment::of_node(&root);
         let known = [
             "name",
             "materials",
@@ -92,7 +96,7 @@ impl Mechanism {
             joints,
             loads,
             output: output.place(),
-            root: fragment.place(),
+            root: Arc::clone(&root),
             given,
             own_masses: true,
             unused_points,
@@ -121,10 +125,9 @@ impl Mechanism {
         self.name_others(&[], model);
     }
 
-    /// The same where something stands in for parts of the text.
-    pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
-        let root = Fragment::at(&self.root);
-        value_names::of_file(root, replaced, &self.given, self.own_masses, model);
+    /// The same where some values are varied.
+    pub(crate) fn name_others(&self, varied: &[Steps], model: &mut Model) {
+        value_names::of_file(&self.root, varied, &self.given, self.own_masses, model);
     }
 
     /// The points of the file that no body runs through, in its order.

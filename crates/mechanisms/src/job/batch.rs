@@ -1,6 +1,5 @@
 //! A batch: jobs, each a mechanism in one or many poses.
 
-use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -21,7 +20,6 @@ use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
-use crate::text::overlay::Overlay;
 use crate::text::source::Place;
 
 /// The jobs of a batch file, in its order, all of them checked.
@@ -139,12 +137,7 @@ impl Job {
         registry: &Registry,
     ) -> Result<Self, LoadError> {
         let recipe = Recipe::find(fields, registry)?;
-        let known = RefCell::default();
-        let learning = Overlay::learning(&known);
-        let written = match fields.get("vary") {
-            Some(_) => recipe.read(recipe.root().under(&learning))?,
-            None => recipe.read(recipe.root())?,
-        };
+        let written = recipe.read(recipe.root())?;
         let poses = written.poses(fields)?;
         let mut first = recipe.load(written, &poses, None)?;
         let cases = recipe.cases(&first)?;
@@ -163,7 +156,7 @@ impl Job {
         let mut first_design = 0;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
-                let designs = Designs::new(variation, known.into_inner());
+                let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
                 Some(designs)
             }
@@ -264,13 +257,13 @@ impl Job {
     /// them ([`Model::name_value`]): of a file as [`Mechanism::name_values`], of a prebuilt one those
     /// that stand in the model as they are written.
     pub fn name_values(&self, design: &Design, model: &mut Model) {
-        let replaced = match &self.designs {
-            Some(designs) => designs.replaced(design.number),
-            None => Vec::new(),
+        let (varied, tree) = match &self.designs {
+            Some(designs) => (designs.steps(), &designs.tree(design.number, &self.recipe)),
+            None => (Vec::new(), self.recipe.root()),
         };
         match design.mechanism() {
-            Some(mechanism) => mechanism.name_others(&replaced, model),
-            None => value_names::of_prebuilt(&self.recipe, &replaced, &design.subject, model),
+            Some(mechanism) => mechanism.name_others(&varied, model),
+            None => value_names::of_prebuilt(tree, &varied, &design.subject, model),
         }
     }
 

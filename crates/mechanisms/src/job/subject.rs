@@ -1,6 +1,6 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_model::{Geometry, Model, NodeId};
+use hyperstat_model::{Geometry, Model, NodeId, ValuePlace};
 use nalgebra::{Rotation3, Vector3};
 
 use super::mover::Mover;
@@ -17,14 +17,14 @@ use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
-use crate::text::source::Place;
+use crate::text::tree::Node;
 use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug)]
 pub(crate) struct Recipe {
-    /// Where the mechanism stands: the value of its file, or the prebuilt one in the job.
-    root: Place,
+    /// The mechanism: the value of its file, or the prebuilt one in the job.
+    root: Node,
     /// Kind of a prebuilt mechanism; `None` is a file.
     kind: Option<&'static Kind>,
     acting: Acting,
@@ -72,7 +72,7 @@ impl Recipe {
             let expected = "one path, `File(\"file.ron\")`";
             let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
             let [path] = arguments.array(expected)?;
-            (named::mechanism_at(path)?, None)
+            (Node::at(&named::mechanism_at(path)?), None)
         } else {
             let Some(kind) = parameters::find(name.text()) else {
                 let known = parameters::KINDS.iter().map(|kind| kind.name);
@@ -81,7 +81,7 @@ impl Recipe {
                     .error(format!("unknown mechanism `{}`", name.text()))
                     .with_help(names::help(name.text(), "mechanisms", known)));
             };
-            (whole.place(), Some(kind))
+            (Node::of(whole), Some(kind))
         };
         Ok(Self {
             root,
@@ -92,8 +92,8 @@ impl Recipe {
     }
 
     /// The mechanism as it is written.
-    pub(crate) fn root(&self) -> Fragment<'_> {
-        Fragment::at(&self.root)
+    pub(crate) fn root(&self) -> &Node {
+        &self.root
     }
 
     /// Names of the cases, which do not depend on what varies; `subject` is any design.
@@ -106,15 +106,16 @@ impl Recipe {
         Ok(self.acting.cases()?.unwrap_or_else(of_file))
     }
 
-    /// Reads and checks the mechanism: [`Recipe::root`], or what an overlay makes of it.
-    pub(crate) fn read(&self, root: Fragment<'_>) -> Result<Checked, LoadError> {
+    /// Reads and checks the mechanism: [`Recipe::root`], or that with other values in some places.
+    pub(crate) fn read(&self, root: &Node) -> Result<Checked, LoadError> {
         match self.kind {
             None => {
-                let mut mechanism = Mechanism::read(root, &self.registry)?;
+                let mut mechanism = Mechanism::read(root.clone(), &self.registry)?;
                 mechanism.replace(&self.acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
             Some(kind) => {
+                let root = Fragment::of_node(root);
                 let (_, arguments) = root.variant("a prebuilt mechanism")?;
                 parameters::read(kind, root, arguments).map(Checked::Prebuilt)
             }
@@ -204,17 +205,18 @@ impl Subject {
         }
     }
 
-    /// The model that another prebuilt mechanism of the same kind has in the pose of this one's
-    /// own; `None` where it has none there.
-    pub(crate) fn model_like(&self, other: &Checked) -> Option<Model> {
-        match (self, other) {
-            (Self::Prebuilt { template, .. }, Checked::Prebuilt(other)) => {
-                let pose = template.as_ref().ok()?.pose;
-                let (target, count) = given(other.as_ref(), &pose);
-                other.model(&target[..count]).ok()
-            }
-            _ => None,
-        }
+    /// Which parameter every value of a prebuilt mechanism's model comes from; nothing is known of one
+    /// that reaches no pose, and of a file here.
+    pub(crate) fn origins(&self) -> Vec<(ValuePlace, String)> {
+        let Self::Prebuilt {
+            mechanism,
+            template: Ok(template),
+        } = self
+        else {
+            return Vec::new();
+        };
+        let (target, count) = given(mechanism.as_ref(), &template.pose);
+        mechanism.origins(&target[..count]).unwrap_or_default()
     }
 
     /// The coordinates of pose `number` (from 0) that are known of every design before it is reached:

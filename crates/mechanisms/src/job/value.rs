@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::text::fragment::Fragment;
-use crate::text::source::Place;
+use crate::text::tree::Node;
 
 /// What varies from design to design of a job.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,9 +25,9 @@ pub enum Value {
 }
 
 impl Value {
-    /// The value that stands at a place.
-    pub(crate) fn at(place: &Place) -> Self {
-        let value = Fragment::at(place);
+    /// The value of a tree.
+    pub(crate) fn of(node: &Node) -> Self {
+        let value = Fragment::of_node(node);
         match (value.number(), value.string()) {
             (Ok(number), _) => Self::Number(number),
             (_, Ok(text)) => Self::Text(text),

@@ -93,7 +93,7 @@ mod zero_torsion;
 use std::fmt::Debug;
 
 use hyperstat_elements::{Material, Section};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 
 pub use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 pub use crate::prebuilt::error::{ParameterError, PoseError};
@@ -132,6 +132,16 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// A parameter out of its range, a pose of another number of coordinates, not finite, out
     /// of reach or singular.
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError>;
+
+    /// Which parameter each value of the model at `pose` comes from, by the path that it has in a
+    /// batch file, such as `rod.section.diameter`. By these sensitivities and budgets name what they
+    /// are about. Values that are not a parameter as it is written have no origin; none by default.
+    ///
+    /// # Errors
+    /// As [`Prebuilt::model`].
+    fn origins(&self, _pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(Vec::new())
+    }
 
     /// Brings `geometry`, which has the numbering of [`Prebuilt::model`]'s, to `pose`, and
     /// returns the whole pose x y z (m) rx ry rz (rad) of the output. Allocates nothing unless

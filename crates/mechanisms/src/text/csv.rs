@@ -279,6 +279,7 @@ mod tests {
 
     use super::*;
     use crate::prebuilt::PoseCoordinate;
+    use crate::text::files::MemoryFiles;
 
     const DELTA: Given<'_> = Given {
         kind: "Delta",
@@ -286,7 +287,7 @@ mod tests {
     };
 
     fn table(text: &str) -> Result<Vec<[f64; 6]>, String> {
-        let source = Source::new(Path::new("p.csv"), text);
+        let source = Source::new(Path::new("p.csv"), text, &MemoryFiles::new());
         read(&source, &DELTA).map_err(|error| error.to_string())
     }
 

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::{LoadError, Location};
-use crate::text::files;
+use crate::text::files::{self, Files};
 
 /// A text file: its name in messages and its text.
 #[derive(Debug)]
@@ -23,8 +23,10 @@ pub(crate) struct Source {
 }
 
 /// What the file that was asked for and the files that it names have in common.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Family {
+    /// Where files are read from.
+    files: Box<dyn Files>,
     /// Folder of the file that was asked for; `None` where it is in none.
     folder: Option<PathBuf>,
     /// All files that were read.
@@ -33,34 +35,35 @@ struct Family {
 
 impl Family {
     /// Of a file that is asked for.
-    fn of(path: &Path) -> Arc<Self> {
+    fn of(path: &Path, files: &dyn Files) -> Arc<Self> {
         Arc::new(Self {
-            folder: folder(path),
+            files: files.clone_box(),
+            folder: folder(path, files),
             read: Mutex::default(),
         })
     }
 
     /// Whether a file lies in the folder, or in one below it.
     fn holds(&self, path: &Path) -> bool {
-        let place = path.canonicalize().ok();
+        let place = self.files.resolve(path).ok();
         let of_both = place.as_ref().zip(self.folder.as_ref());
         of_both.is_some_and(|(place, folder)| place.starts_with(folder))
     }
 }
 
 /// The folder that a file is in, without links.
-fn folder(path: &Path) -> Option<PathBuf> {
+fn folder(path: &Path, files: &dyn Files) -> Option<PathBuf> {
     let parent = path.parent()?;
     let here = parent.as_os_str().is_empty();
     let parent = if here { Path::new(".") } else { parent };
-    parent.canonicalize().ok()
+    files.resolve(parent).ok()
 }
 
 impl Source {
     /// `text`, which messages call `path`; a byte order mark is dropped, and carriage returns that
-    /// alone end lines are read as line feeds.
-    pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
-        Self::of(path, text, Family::of(path), true)
+    /// alone end lines are read as line feeds. Files that it names are read from `files`.
+    pub(crate) fn new(path: &Path, text: &str, files: &dyn Files) -> Arc<Self> {
+        Self::of(path, text, Family::of(path, files), true)
     }
 
     fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
@@ -90,8 +93,8 @@ impl Source {
     }
 
     /// Reads a file that is asked for.
-    pub(crate) fn read(path: &Path) -> Result<Arc<Self>, LoadError> {
-        Self::read_into(path, Family::of(path), true)
+    pub(crate) fn read(path: &Path, files: &dyn Files) -> Result<Arc<Self>, LoadError> {
+        Self::read_into(path, Family::of(path, files), true)
     }
 
     /// Reads a file that this one names. Messages show its text where it lies in the folder of the
@@ -101,7 +104,8 @@ impl Source {
     }
 
     fn read_into(path: &Path, family: Arc<Family>, shown: bool) -> Result<Arc<Self>, LoadError> {
-        let bytes = files::read(path).map_err(|source| LoadError::Read {
+        let read = files::read_from(family.files.as_ref(), path);
+        let bytes = read.map_err(|source| LoadError::Read {
             path: path.into(),
             source,
         })?;
@@ -238,9 +242,10 @@ const NOT_SHOWN: &str = "this is not understood; the text is not shown, for the 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::text::files::MemoryFiles;
 
     fn locate(text: &str, span: Range<usize>) -> (usize, usize, usize, String) {
-        let source = Source::new(Path::new("f.ron"), text);
+        let source = Source::new(Path::new("f.ron"), text, &MemoryFiles::new());
         let place = Place { source, span };
         let at = place.location();
         (at.line, at.column, at.width, at.text)
@@ -264,7 +269,7 @@ mod tests {
 
     #[test]
     fn offset_is_the_inverse_of_location() {
-        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx");
+        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx", &MemoryFiles::new());
         for (k, _) in source.text().char_indices() {
             let at = source.locate(&(k..k));
             assert_eq!(source.offset(at.line, at.column), k);

@@ -2,11 +2,11 @@
 //! there: a carriage on a rail against Euler–Bernoulli's beam clamped at both ends, a crank given by
 //! its stiffness against the same crank as a beam; and a joint past which neither body can slide.
 
-use hyperstat_assembly::{Geometry, Model, Plan};
+use hyperstat_assembly::{Geometry, Model, Prepared};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
 use hyperstat_elements::{Beam, Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, Revolute, frame_from_axis, rigid_motion};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use nalgebra::{DMatrix, Matrix6, Point3, Vector3};
 
 const YOUNG: f64 = 2.1e11;
@@ -14,7 +14,7 @@ const POISSON: f64 = 0.3;
 const DIAMETER: f64 = 0.02;
 
 fn model(text: &str) -> Model {
-    let read = mechanism_from_str(text, "test.ron".as_ref(), &Registry::builtin());
+    let read = mechanism_from_str(text, "test.ron".as_ref(), &Disk, &Registry::builtin());
     read.expect("a mechanism").model
 }
 
@@ -27,8 +27,8 @@ fn moved(model: &Model, target: &Target<'_>) -> Result<Geometry, ClosureError> {
 }
 
 fn stiffness(model: &Model, geometry: &Geometry) -> Matrix6<f64> {
-    let plan = Plan::new(model).expect("a plan");
-    let found = plan.sweep(model, geometry, &mut plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let found = prepared.sweep(geometry, &mut prepared.workspace().expect("a plan"));
     found.expect("a result").stiffness.expect("a stiffness")
 }
 
