@@ -1,7 +1,7 @@
 //! Poses in SIMD lanes beside joints of any stiffness, from next to free to next to rigid: what the
 //! lanes answer is what a sweep finds; what they cannot vouch for goes one by one.
 
-use hyperstat_assembly::{LANES, Plan, PoseResult};
+use hyperstat_assembly::{LANES, PoseResult, Prepared, SolveError};
 use hyperstat_mechanisms::prebuilt::{
     Delta, Exechon, Hexapod, LinearDelta, Orthoglide, PlanarThreeRrr, Prebuilt, SphericalThreeRrr,
     ThreePrs, ThreeRps, Tricept, Tripteron,
@@ -97,8 +97,9 @@ fn compared((number, stiffness, drive, units): Draw) -> Option<(Vec<[f64; 2]>, u
     let case = in_reach(mechanism);
     case.mechanism.model(&case.poses[0]).ok()?;
     let model = loaded(&*case.mechanism, &case.poses[0]);
-    let plan = Plan::new(&model).expect("a plan");
-    let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+    let prepared = Prepared::new(model);
+    let mut lanes = prepared.lanes().expect("a plan");
+    let mut workspace = prepared.workspace().expect("a plan");
     for (lane, unit) in units.iter().enumerate() {
         let placed = case
             .mechanism
@@ -106,10 +107,10 @@ fn compared((number, stiffness, drive, units): Draw) -> Option<(Vec<[f64; 2]>, u
         placed.expect("in reach");
     }
     let poses: [_; LANES] = std::array::from_fn(|lane| lanes.geometry_mut(lane).clone());
-    let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
     let mut both = Vec::new();
     for (found, pose) in found.iter().zip(&poses) {
-        if let (Some(Ok(found)), Ok(one)) = (found, plan.sweep(&model, pose, &mut workspace)) {
+        if let (Some(Ok(found)), Ok(one)) = (found, prepared.sweep(pose, &mut workspace)) {
             both.extend(errors(found, &one));
         }
     }
@@ -145,4 +146,39 @@ fn joints_of_any_stiffness_take_no_digits_in_silence() {
         errors.len()
     );
     assert!(2 * handed_on < errors.len() as u64, "{handed_on} handed on");
+}
+
+/// Drives that are nothing beside the joints (K along the axes is that of the drives, to 1e-12 at 1e-3
+/// N/m, and is nothing but the rounding of the joints' energy below 1e-24): a pose is right, or refused.
+#[test]
+fn drives_of_next_to_nothing_are_right_or_refused() {
+    let stiffness = [Some(1e8), Some(1e9), Some(1e8), Some(1e6), None, Some(1e6)];
+    let (mut answered, mut refused) = (0, 0);
+    for exponent in 3..40 {
+        let drive = 10.0_f64.powi(-exponent);
+        let tripteron = Tripteron {
+            joint_stiffness: stiffness,
+            drive_stiffness: Some(drive),
+            ..links::tripteron()
+        };
+        let model = loaded(&tripteron, &[0.02, 0.01, 0.03]);
+        let pose = model.geometry().clone();
+        let prepared = Prepared::new(model);
+        match prepared.sweep(&pose, &mut prepared.workspace().expect("a plan")) {
+            Ok(found) => {
+                let stiffness = found.stiffness.expect("a stiffness");
+                for k in 0..3 {
+                    let off = stiffness[(k, k)] / drive - 1.0;
+                    assert!(off.abs() < 0.5, "{drive:e}: {k} is {off:e} off");
+                }
+                answered += 1;
+            }
+            Err(SolveError::Singular) => refused += 1,
+            Err(other) => panic!("{drive:e}: {other}"),
+        }
+    }
+    assert!(
+        answered > 15 && refused > 10,
+        "{answered} answered, {refused} refused"
+    );
 }
