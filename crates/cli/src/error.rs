@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use hyperstat_figures::FigureError;
 use hyperstat_mechanisms::{LoadError, Location};
-use hyperstat_study::table::PlotError;
+use hyperstat_study::PlotError;
 use hyperstat_study::{Problem, StudyError};
 use thiserror::Error;
 
