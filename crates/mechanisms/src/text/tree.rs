@@ -237,7 +237,7 @@ pub(super) fn starts_with(path: &str, name: &str) -> bool {
 }
 
 /// The shortest number that reads back to the same double; whole ones as what counts is written.
-fn written(number: f64) -> String {
+pub(crate) fn written(number: f64) -> String {
     /// Whole numbers up to here are written without a point.
     const LARGEST: f64 = 1e15;
     if number.fract() == 0.0 && number.abs() < LARGEST {
