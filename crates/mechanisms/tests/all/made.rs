@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use hyperstat_joints::Dof;
 use hyperstat_mechanisms::{
     Disk, Drive, Job, JobLoad, JobMechanism, JobPoses, LoadError, Mechanism, PoseError, Registry,
     Target, Value, batch_from_str, load_mechanism, mechanism_from_str,
 };
-use hyperstat_joints::Dof;
 use hyperstat_model::JointId;
 
 const PARAMETERS: [(&str, &str); 9] = [
@@ -433,7 +433,12 @@ fn a_mistake_elsewhere_is_told_at_the_value() {
     let batch = Path::new("../../examples/batch.ron");
     let design = batch_from_str(&text, batch, &Disk, &Registry::builtin()).unwrap_err();
     assert_eq!(design.message(), format!("design 0, {}", error.message()));
-    assert!(error.message().starts_with("`points.A` = (0.0, 0.3, 0.2): "), "{error}");
+    assert!(
+        error
+            .message()
+            .starts_with("`points.A` = (0.0, 0.3, 0.2): "),
+        "{error}"
+    );
 }
 
 /// By closure as by the job of the file, and back.
