@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use hyperstat_assembly::Plan;
+use hyperstat_assembly::Prepared;
 use hyperstat_tests::gripper::gripper;
 use hyperstat_tests::lattice::lattice;
 
@@ -39,7 +39,7 @@ fn sizes(c: &mut Criterion) {
     let count = if large { GRIPPERS.len() } else { 2 };
     for layers in GRIPPERS.into_iter().take(count) {
         let model = gripper(layers);
-        let unknowns = Plan::new(&model).expect("a plan").unknowns();
+        let unknowns = Prepared::new(model.clone()).unknowns().expect("a plan");
         group.bench_function(format!("gripper, {unknowns} unknowns"), |b| {
             b.iter(|| hyperstat_assembly::solve(black_box(&model)));
         });

@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use hyperstat_assembly::Plan;
+use hyperstat_assembly::Prepared;
 use hyperstat_benches::mechanism;
 
 fn single(c: &mut Criterion) {
@@ -16,7 +16,9 @@ fn single(c: &mut Criterion) {
             .sample_size(10)
             .warm_up_time(Duration::from_millis(500))
             .measurement_time(Duration::from_secs(2));
-        group.bench_function("plan", |b| b.iter(|| Plan::new(black_box(&model))));
+        group.bench_function("plan", |b| {
+            b.iter(|| Prepared::new(black_box(&model).clone()).unknowns())
+        });
         group.bench_function("solve, with diagnosis and all wrenches", |b| {
             b.iter(|| hyperstat_assembly::solve(black_box(&model)));
         });

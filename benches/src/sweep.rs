@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Plan, Workspace};
+use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Prepared, Workspace};
 use hyperstat_mechanisms::Job;
 use hyperstat_reference::{TraditionalForm, TraditionalOptions, traditional};
 
@@ -20,7 +20,7 @@ const SPRINGS: TraditionalOptions = TraditionalOptions {
 pub struct Sweep<'a> {
     job: &'a Job,
     model: Model,
-    plan: Plan,
+    prepared: Prepared,
     geometry: Geometry,
     workspace: Workspace,
     lanes: Lanes,
@@ -33,20 +33,20 @@ impl<'a> Sweep<'a> {
     /// Where the job has no model or no plan.
     pub fn new(job: &'a Job) -> Self {
         let model = job.model().expect("a pose within reach");
-        let plan = Plan::new(&model).expect("a plan");
+        let prepared = Prepared::new(model.clone());
         Self {
             job,
             geometry: model.geometry().clone(),
-            workspace: plan.workspace(),
-            lanes: plan.lanes(&model),
+            workspace: prepared.workspace().expect("a plan"),
+            lanes: prepared.lanes().expect("a plan"),
             model,
-            plan,
+            prepared,
         }
     }
 
     /// Number of independent coordinates.
     pub fn unknowns(&self) -> usize {
-        self.plan.unknowns()
+        self.prepared.unknowns().expect("a plan")
     }
 
     /// Multiplications with an addition of the factorization of a pose in the lanes; zero where
@@ -67,7 +67,7 @@ impl<'a> Sweep<'a> {
         self.lanes.one_by_one() - before
     }
 
-    /// [`LANES`] poses from `first` on together, by `Plan::sweep_lanes`.
+    /// [`LANES`] poses from `first` on together, by `Prepared::sweep_lanes`.
     ///
     /// # Panics
     /// Where a pose has no result.
@@ -92,24 +92,20 @@ impl<'a> Sweep<'a> {
     /// # Panics
     /// As there.
     pub fn solve_lanes(&mut self) {
-        let results = self
-            .plan
-            .sweep_lanes(&self.model, &mut self.lanes, [true; LANES]);
+        let results = self.prepared.sweep_lanes(&mut self.lanes, [true; LANES]);
         for result in results {
             black_box(result.expect("a filled lane").expect("a result"));
         }
     }
 
-    /// One pose by `Plan::sweep`, faer's sparse Cholesky in it.
+    /// One pose by `Prepared::sweep`, faer's sparse Cholesky in it.
     ///
     /// # Panics
     /// Where the pose has no result.
     pub fn one_by_one(&mut self, pose: usize) {
         let placed = self.job.place(pose, &mut self.geometry);
         black_box(placed.expect("a pose within reach"));
-        let found = self
-            .plan
-            .sweep(&self.model, &self.geometry, &mut self.workspace);
+        let found = self.prepared.sweep(&self.geometry, &mut self.workspace);
         black_box(found.expect("a result"));
     }
 

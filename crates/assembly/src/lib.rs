@@ -4,19 +4,23 @@
 //!
 //! # The way through
 //!
-//! [`Model`] (plain data) → [`Plan`] (once a topology: which joints are absorbed in subassemblies,
+//! [`Model`] (plain data) → [`Prepared`] (once a topology: which joints are absorbed in subassemblies,
 //! spanning trees of the others, numbering of the IDCs, sparsity pattern, symbolic factorization) →
-//! one numeric pass a pose (joint mappings N, the mapping H of every carrier, elements, assembled
-//! stiffness, factor, condensation to the output) → [`PoseResult`] in a sweep, [`Solution`] in a
-//! full solve, which also refines, recovers and diagnoses.
+//! [`Configuration`] (one numeric pass: joint mappings N, the mapping H of every carrier, elements,
+//! assembled stiffness, factor, condensation to the output) → [`Solution`], and by the same
+//! factorization whatever else is asked of it; or in a sweep [`PoseResult`] a pose, without
+//! refinement, recovery and diagnosis.
 
 mod answer;
+mod configuration;
 mod error;
 mod kinematics;
 mod lanes;
 mod modal;
 mod plan;
 mod pose;
+mod posture;
+mod prepared;
 mod rank;
 mod response;
 mod room;
@@ -28,22 +32,22 @@ pub use answer::measures;
 pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
 pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations};
+pub use configuration::Configuration;
 pub use error::SolveError;
 pub use hyperstat_model::{
     Axes, BeamMass, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry,
     JointId, JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, ModalOptions,
     Model, ModelError, Node, NodeId, NodeMass, Segment, SegmentId, Tapering, ValuePlace,
 };
+pub use kinematics::Kinematics;
 pub use kinematics::motion::{Motion, describe_motions};
-pub use kinematics::redundancy::{Redundancy, redundant_constraints};
-pub use kinematics::{Kinematics, analyse};
+pub use kinematics::redundancy::Redundancy;
 pub use lanes::{LANES, Lanes};
-pub use modal::{FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes, modes};
-pub use plan::Plan;
+pub use modal::{FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
+pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};
 pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};
 pub use response::influence::Influence;
 pub use response::parameters::Parameter;
 pub use response::sensitivity::Sensitivity;
-pub use solve::solve;
 pub use state::floor::Floor;

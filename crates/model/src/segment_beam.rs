@@ -11,7 +11,7 @@ use crate::parts::{Geometry, SegmentId};
 
 /// The beam of a segment.
 #[allow(clippy::large_enum_variant)] // In a box, each pose would allocate.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum SegmentBeam {
     /// Of one section.
     Prismatic(Beam),

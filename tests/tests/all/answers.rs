@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    Budget, Deformation, Influence, JointStiffness, Model, Parameter, PartSource, solve,
+    Budget, Deformation, JointStiffness, Model, Parameter, PartSource, Prepared, solve,
 };
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::{DofSet, Revolute};
@@ -48,7 +48,8 @@ fn shares_add_up_on_every_reference_mechanism() {
     for name in MECHANISMS {
         let model = model(name);
         let solution = solve(&model).expect("a solution");
-        let influence = Influence::new(&model).expect("a held output");
+        let prepared = Prepared::new(model.clone());
+        let influence = prepared.here().influence().expect("a held output");
         for component in 0..6 {
             let budget = influence.budget(&solution, &Vector6::ith(component, 1.0));
             let size: f64 = budget.parts.iter().map(|p| p.displacement.abs()).sum();
@@ -103,7 +104,8 @@ fn parts_of_a_bar_on_an_elastic_hinge() {
     let load = Vector6::new(200.0, 30.0, force, torque, 0.0, 0.0);
     model.add_load(tip, load).expect("a load");
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let part = |along: usize, deformation: Deformation| {
         let budget = influence.budget(&solution, &Vector6::ith(along, 1.0));
         let parts = budget.parts.iter();
@@ -158,7 +160,8 @@ fn shares_of_the_delta_agree_with_the_independent_solver() {
     assert!(text.contains(steel));
     let model = read(&text);
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let along = Budget::direction_of(&solution.output.displacement).expect("it moves");
     let budget = influence.budget(&solution, &along);
     for body in ["arm1", "wrist3", "roda2"] {
@@ -232,7 +235,8 @@ fn sensitivities_agree_with_differences_of_the_independent_solver() {
     for (name, text, parameters) in cases {
         let model = read(&text);
         let solution = solve(&model).expect("a solution");
-        let influence = Influence::new(&model).expect("a held output");
+        let prepared = Prepared::new(model.clone());
+        let influence = prepared.here().influence().expect("a held output");
         let sensitivities = influence.sensitivities(&solution).expect("derivatives");
         for (parameter, written) in parameters {
             assert!(text.contains(written), "{name}: {written}");
@@ -305,7 +309,8 @@ fn sensitivities_to_all_stiffness_add_to_minus_one() {
         }
         let model = model(name);
         let solution = solve(&model).expect("a solution");
-        let influence = Influence::new(&model).expect("a held output");
+        let prepared = Prepared::new(model.clone());
+        let influence = prepared.here().influence().expect("a held output");
         let sensitivities = influence.sensitivities(&solution).expect("derivatives");
         let sum: Vector6<f64> = (sensitivities.iter())
             .filter(|s| match &s.parameter {
@@ -343,7 +348,8 @@ fn sensitivities_of_a_tapered_console() {
     };
     let model = read(&text(0.04, 0.03));
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let sensitivities = influence.sensitivities(&solution).expect("derivatives");
     for at_second in [false, true] {
         let value = if at_second { 0.03 } else { 0.04 };

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Plan, Solution, SolveError,
+    BodyKind, Geometry, JointStiffness, Member, Model, NodeId, Prepared, Solution, SolveError,
     Tapering, solve,
 };
 use hyperstat_elements::{Beam, Section, SectionShape, element_frame, rotate_matrix12};
@@ -342,16 +342,15 @@ fn a_beams_stiffness_makes_the_same_link_in_every_configuration() {
         &solve(&flexible).expect("a solution"),
         &solve(&beams).expect("a solution"),
     );
-    let plans = [&beams, &flexible].map(|model| Plan::new(model).expect("a plan"));
+    let plans = [&beams, &flexible].map(|model| Prepared::new(model.clone()));
     // Elastic joints are absorbed in both, loads inside them included.
     assert_eq!(plans[1].unknowns(), plans[0].unknowns());
     for (shoulder, elbow) in [(0.4, 0.0), (-1.1, 0.7), (2.0, -1.3)] {
         let [expected, found] =
-            [(&plans[0], &beams), (&plans[1], &flexible)].map(|(plan, model)| {
+            [(&plans[0], &beams), (&plans[1], &flexible)].map(|(prepared, model)| {
                 let geometry = turned_arm(model, shoulder, elbow);
-                let mut workspace = plan.workspace();
-                plan.sweep(model, &geometry, &mut workspace)
-                    .expect("a result")
+                let mut workspace = prepared.workspace().expect("a plan");
+                prepared.sweep(&geometry, &mut workspace).expect("a result")
             });
         let [k, expected_k] = [&found, &expected].map(|r| r.stiffness.expect("a stiffness"));
         let difference = stiffness_difference(&k, &expected_k);

@@ -1,7 +1,7 @@
 //! Poses side by side in SIMD lanes give what they give one by one, over all prebuilt mechanisms
 //! and random poses, whatever stands in the lanes beside them.
 
-use hyperstat_assembly::{Geometry, LANES, Lanes, Model, NodeId, Plan, PoseResult, SolveError};
+use hyperstat_assembly::{Geometry, LANES, Lanes, Model, NodeId, PoseResult, Prepared, SolveError};
 use hyperstat_mechanisms::prebuilt::{Delta, Elbow, Prebuilt, RodEnds, SingleFreedom};
 use hyperstat_tests::prebuilt::{BEARINGS, Case, legs, links, loaded};
 use hyperstat_tests::{stiffness_difference, vector_differences};
@@ -110,12 +110,12 @@ fn fill(lanes: &mut Lanes, poses: &[Option<&Geometry>; LANES]) -> [bool; LANES] 
 }
 
 /// A pose by itself in the first lane of fresh ones.
-fn alone(plan: &Plan, model: &Model, pose: &Geometry) -> Result {
-    let mut lanes = plan.lanes(model);
+fn alone(prepared: &Prepared, pose: &Geometry) -> Result {
+    let mut lanes = prepared.lanes().expect("a plan");
     let mut poses = [None; LANES];
     poses[0] = Some(pose);
     let filled = fill(&mut lanes, &poses);
-    let [found, rest @ ..] = plan.sweep_lanes(model, &mut lanes, filled);
+    let [found, rest @ ..] = prepared.sweep_lanes(&mut lanes, filled);
     assert!(
         rest.iter().all(Option::is_none),
         "lanes that are not filled"
@@ -165,8 +165,11 @@ fn bits(result: &Result) -> Vec<u64> {
 fn check(case: &Case, everywhere: bool) -> [u64; 2] {
     let what = case.what(&case.poses[0]);
     let model = model(case, everywhere);
-    let plan = Plan::new(&model).expect(&what);
-    let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let (mut lanes, mut workspace) = (
+        prepared.lanes().expect("a plan"),
+        prepared.workspace().expect("a plan"),
+    );
     let mut random = Random::new();
     let mut compared = 0;
     for batch in 0..POSES / LANES {
@@ -176,11 +179,11 @@ fn check(case: &Case, everywhere: bool) -> [u64; 2] {
         let filled: [bool; LANES] = std::array::from_fn(lane_is_filled);
         let chosen = std::array::from_fn(|k| filled[k].then_some(&poses[k]));
         let filled = fill(&mut lanes, &chosen);
-        let found = plan.sweep_lanes(&model, &mut lanes, filled);
+        let found = prepared.sweep_lanes(&mut lanes, filled);
         for (lane, found) in found.iter().enumerate() {
             assert_eq!(found.is_some(), filled[lane], "{what}, lane {lane}");
             let Some(found) = found else { continue };
-            let expected = plan.sweep(&model, &poses[lane], &mut workspace);
+            let expected = prepared.sweep(&poses[lane], &mut workspace);
             assert!(expected.is_ok(), "{what}: {expected:?}");
             assert_agree(
                 &format!("{what}, batch {batch}, lane {lane}"),
@@ -235,11 +238,11 @@ fn moments_on_idle_motions_are_refused_as_in_a_sweep() {
             let mut model = unloaded.clone();
             let moment = Vector6::new(0.0, 0.0, 0.0, 2.0, -3.0, 1.0);
             model.add_load(NodeId(node), moment).expect("a finite load");
-            let plan = Plan::new(&model).expect(&what);
+            let prepared = Prepared::new(model.clone());
             let mut random = Random::new();
             let pose = random.geometry(&case, model.geometry());
-            let found = alone(&plan, &model, &pose);
-            let expected = plan.sweep(&model, &pose, &mut plan.workspace());
+            let found = alone(&prepared, &pose);
+            let expected = prepared.sweep(&pose, &mut prepared.workspace().expect("a plan"));
             refused += usize::from(expected.is_err());
             assert_agree(&format!("{what}, node {node}"), &found, &expected);
         }
@@ -254,7 +257,7 @@ fn idle_motions_that_are_none_any_more_are_not_left_out() {
     for case in cases() {
         let what = case.what(&case.poses[0]);
         let model = model(&case, false);
-        let plan = Plan::new(&model).expect(&what);
+        let prepared = Prepared::new(model.clone());
         let mut random = Random::new();
         for size in [1e-3, 1e-6] {
             let mut pose = random.geometry(&case, model.geometry());
@@ -268,8 +271,8 @@ fn idle_motions_that_are_none_any_more_are_not_left_out() {
                     point + Vector3::new(random.unit(), random.unit(), random.unit()) * size
                 };
             }
-            let found = alone(&plan, &model, &pose);
-            let expected = plan.sweep(&model, &pose, &mut plan.workspace());
+            let found = alone(&prepared, &pose);
+            let expected = prepared.sweep(&pose, &mut prepared.workspace().expect("a plan"));
             assert_agree(&format!("{what}, {size}"), &found, &expected);
         }
     }
@@ -282,12 +285,10 @@ fn a_pose_does_not_depend_on_its_neighbours() {
     for case in cases() {
         let what = case.what(&case.poses[0]);
         let model = model(&case, true);
-        let plan = Plan::new(&model).expect(&what);
+        let prepared = Prepared::new(model.clone());
         let mut random = Random::new();
         let poses: [_; LANES] = std::array::from_fn(|_| random.geometry(&case, model.geometry()));
-        let expected = poses
-            .each_ref()
-            .map(|pose| bits(&alone(&plan, &model, pose)));
+        let expected = poses.each_ref().map(|pose| bits(&alone(&prepared, pose)));
         assert!(expected.iter().all(|bits| !bits.is_empty()), "{what}");
         let spoilt = [0.0, f64::NAN, 1e300].map(|value| {
             let mut geometry = model.geometry().clone();
@@ -295,7 +296,7 @@ fn a_pose_does_not_depend_on_its_neighbours() {
             geometry
         });
 
-        let mut lanes = plan.lanes(&model);
+        let mut lanes = prepared.lanes().expect("a plan");
         for turn in 0..2 * LANES {
             let spoil = turn >= LANES;
             let number = |lane: usize| (lane + turn) % LANES;
@@ -305,7 +306,7 @@ fn a_pose_does_not_depend_on_its_neighbours() {
                 (_, k) => Some(&poses[k]),
             });
             let filled = fill(&mut lanes, &chosen);
-            let found = plan.sweep_lanes(&model, &mut lanes, filled);
+            let found = prepared.sweep_lanes(&mut lanes, filled);
             for (lane, found) in found.iter().enumerate() {
                 if spoil && number(lane) <= 3 {
                     continue;
@@ -326,8 +327,8 @@ fn a_pose_does_not_depend_on_its_neighbours() {
 fn poses_out_of_reach_leave_the_others_as_they_are() {
     let delta = Delta::paper();
     let model = loaded(&delta, &[0.0, 0.0, 0.5]);
-    let plan = Plan::new(&model).expect("a plan");
-    let mut lanes = plan.lanes(&model);
+    let prepared = Prepared::new(model.clone());
+    let mut lanes = prepared.lanes().expect("a plan");
     let heights: [f64; LANES] = std::array::from_fn(|k| 0.45 + 0.1 * k as f64);
     let filled = std::array::from_fn(|lane| {
         let placed = delta.place(&[0.0, 0.05, heights[lane]], lanes.geometry_mut(lane));
@@ -338,12 +339,12 @@ fn poses_out_of_reach_leave_the_others_as_they_are() {
         5,
         "{filled:?}"
     );
-    let found = plan.sweep_lanes(&model, &mut lanes, filled);
+    let found = prepared.sweep_lanes(&mut lanes, filled);
     for (lane, found) in found.iter().enumerate() {
         assert_eq!(found.is_some(), filled[lane]);
         let Some(found) = found else { continue };
         let pose = delta.model(&[0.0, 0.05, heights[lane]]).expect("in reach");
-        let expected = alone(&plan, &model, pose.geometry());
+        let expected = alone(&prepared, pose.geometry());
         assert_eq!(bits(found), bits(&expected), "lane {lane}");
     }
 }

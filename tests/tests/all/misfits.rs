@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{
-    Influence, JointId, LANES, LoadSet, Model, NodeId, Plan, Solution, SolveError, solve,
+    JointId, LANES, LoadSet, Model, NodeId, Prepared, Solution, SolveError, solve,
 };
 use hyperstat_joints::Dof;
 use hyperstat_mechanisms::{Disk, Registry, load_mechanism, mechanism_from_str};
@@ -244,9 +244,9 @@ fn a_misfit_does_what_the_joints_force_under_a_unit_load_says() {
         let model = unloaded(name);
         let output = model.output().expect("an output");
         let units = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
-        let plan = Plan::new(&model).expect("a plan");
-        let responses = plan.respond(&model, &units).expect("responses");
-        let influence = Influence::new(&model).expect("unit states");
+        let prepared = Prepared::new(model.clone());
+        let responses = prepared.here().respond(&units).expect("responses");
+        let influence = prepared.here().influence().expect("unit states");
         let effects: Vec<_> = (0..6)
             .map(|k| influence.misfit_effects(&Vector6::ith(k, 1.0)))
             .collect();
@@ -405,10 +405,10 @@ fn lanes_leave_misfits_to_the_numeric_pass() {
     let mut model = unloaded("delta_elastic_joints");
     let misfit = Vector6::ith(0, 1e-4);
     model.set_misfit(JointId(2), &misfit).expect("a misfit");
-    let plan = Plan::new(&model).expect("a plan");
-    let mut lanes = plan.lanes(&model);
-    let together = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
-    let alone = plan.sweep(&model, model.geometry(), &mut plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let mut lanes = prepared.lanes().expect("a plan");
+    let together = prepared.sweep_lanes(&mut lanes, [true; LANES]);
+    let alone = prepared.sweep(model.geometry(), &mut prepared.workspace().expect("a plan"));
     for result in together {
         assert_eq!(result.as_ref(), Some(&alone));
     }

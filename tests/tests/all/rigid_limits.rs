@@ -14,7 +14,9 @@
 //! difference is within these bounds, from 1e12 on, where the joint is a thousand times stiffer than
 //! all around it, it is `Wᵀ a⁻¹ W / k`, and from where that is below rounding on it stays there.
 
-use hyperstat_assembly::{Floor, JointStiffness, LANES, LoadSet, Model, NodeId, Plan, Solution};
+use hyperstat_assembly::{
+    Floor, JointStiffness, LANES, LoadSet, Model, NodeId, Prepared, Solution,
+};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
     Universal, frame_from_axes, frame_from_axis,
@@ -234,8 +236,8 @@ fn model(kind: usize, grounded: bool, case: &Case, k: Option<f64>) -> Option<Mod
 fn forces(model: &Model, case: &Case, stiff: DofSet, output: NodeId) -> DMatrix<f64> {
     let basis = model.joints()[0].joint.basis();
     let units = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
-    let plan = Plan::new(model).expect("a plan");
-    let states = plan.respond(model, &units).expect("solved");
+    let prepared = Prepared::new(model.clone());
+    let states = prepared.here().respond(&units).expect("solved");
     let mut forces = DMatrix::zeros(stiff.len(), 6);
     for (column, state) in states.iter().enumerate() {
         let wrench = state.joint_wrenches[0].expect("determined");
@@ -260,11 +262,13 @@ fn solved(model: &Model) -> Result<(Solution, Matrix6<f64>, Matrix6<f64>), TestC
 
 /// The sweep's two ways through give the same stiffness.
 fn swept(model: &Model, stiffness: &Matrix6<f64>) -> Result<(), TestCaseError> {
-    let plan = Plan::new(model).map_err(|error| TestCaseError::fail(error.to_string()))?;
-    let one = plan.sweep(model, model.geometry(), &mut plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let planned = prepared.unknowns();
+    planned.map_err(|error| TestCaseError::fail(error.to_string()))?;
+    let one = prepared.sweep(model.geometry(), &mut prepared.workspace().expect("a plan"));
     let mut filled = [false; LANES];
     filled[0] = true;
-    let lane = plan.sweep_lanes(model, &mut plan.lanes(model), filled)[0].take();
+    let lane = prepared.sweep_lanes(&mut prepared.lanes().expect("a plan"), filled)[0].take();
     for found in [Some(one), lane].into_iter().flatten() {
         let found = found.map_err(|error| TestCaseError::fail(error.to_string()))?;
         let difference = stiffness_difference(&found.stiffness.expect("a stiffness"), stiffness);

@@ -1,6 +1,6 @@
 //! The paper's trajectory (Eq. 65) by the prebuilt delta and one plan, against the reference.
 
-use hyperstat_assembly::{Plan, solve};
+use hyperstat_assembly::{Prepared, solve};
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt};
 use hyperstat_tests::{reference_text, stiffness, stiffness_difference, vector_differences};
 use nalgebra::{Matrix6, Vector6};
@@ -44,17 +44,15 @@ fn compare(delta: &Delta, file: &str) {
     model
         .add_load(output, Vector6::new(-20.0, 10.0, 100.0, 5.0, 5.0, 8.0))
         .expect("a finite load");
-    let plan = Plan::new(&model).expect("a plan");
-    assert_eq!(plan.unknowns(), 114);
-    let mut workspace = plan.workspace();
+    let prepared = Prepared::new(model.clone());
+    assert_eq!(prepared.unknowns().expect("a plan"), 114);
+    let mut workspace = prepared.workspace().expect("a plan");
     let mut geometry = model.geometry().clone();
     for row in &rows {
         delta
             .place(&row.pose, &mut geometry)
             .expect("a reachable pose");
-        let swept = plan
-            .sweep(&model, &geometry, &mut workspace)
-            .expect("a result");
+        let swept = prepared.sweep(&geometry, &mut workspace).expect("a result");
         let k = swept.stiffness.expect("a stiffness");
         assert!(
             stiffness_difference(&k, &row.stiffness) < AGREEMENT,

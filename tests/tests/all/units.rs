@@ -2,7 +2,7 @@
 //! depends on the unit of length. The unit of mass is N s² over that of length.
 
 use hyperstat_assembly::{
-    Influence, ModalOptions, ModalPlan, ModalSensitivities, Sensitivity, Solution, solve,
+    ModalOptions, ModalPlan, ModalSensitivities, Prepared, Sensitivity, Solution, solve,
 };
 use hyperstat_elements::{MassShape, RotaryInertia};
 use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
@@ -71,7 +71,8 @@ fn results(text: &str) -> Results {
     let mut model = mechanism.model.clone();
     mechanism.name_values(&mut model);
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let options = ModalOptions {
         shape: MassShape::Exact,
         rotary_inertia: RotaryInertia::Included,

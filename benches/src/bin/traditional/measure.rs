@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, Plan};
+use hyperstat_assembly::{Connection, JointStiffness, Model, Prepared};
 use hyperstat_benches::POSE;
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt, SingleFreedom};
 use hyperstat_reference::{ReferenceError, TraditionalForm, TraditionalOptions, traditional};
@@ -47,7 +47,7 @@ pub struct Row {
     pub ours: f64,
     /// [`hyperstat_assembly::solve`].
     pub solve_time: Duration,
-    /// [`Plan::sweep`] with a plan that is there already.
+    /// [`Prepared::sweep`] with a plan that is there already.
     pub pose_time: Duration,
 }
 
@@ -155,8 +155,8 @@ fn case(
         };
         let solution = hyperstat_assembly::solve(&model).expect("a mechanism that is held");
         unknowns = solution.unknowns;
-        let plan = Plan::new(&model).expect("a plan");
-        let mut workspace = plan.workspace();
+        let prepared = Prepared::new(model.clone());
+        let mut workspace = prepared.workspace().expect("a plan");
         Row {
             exponent,
             traditional: errors(TraditionalForm::Penalty, 0.0),
@@ -166,7 +166,7 @@ fn case(
             lagrange_time: shortest(|| by_springs(TraditionalForm::Lagrange, FREE_STIFFNESS)),
             ours: difference(&stiffness(&solution), &same_springs),
             solve_time: shortest(|| hyperstat_assembly::solve(&model)),
-            pose_time: shortest(|| plan.sweep(&model, model.geometry(), &mut workspace)),
+            pose_time: shortest(|| prepared.sweep(model.geometry(), &mut workspace)),
         }
     });
     Case {

@@ -4,14 +4,12 @@
 //! with complete pivoting, a large one by sparse rows.
 
 use hyperstat_joints::{Dof, rigid_motion};
-use hyperstat_model::{
-    BodyId, Connection, Directions, Geometry, JointId, Model, characteristic_length,
-    condition_rows, to_directions,
-};
+use hyperstat_model::{BodyId, Connection, Directions, JointId, Model, condition_rows};
 use nalgebra::{DMatrix, DVector, Matrix6, RowVector6, Vector6};
 
 use super::motion::Motion;
 use crate::error::SolveError;
+use crate::posture::Posture;
 use crate::rank::dense::Elimination;
 use crate::rank::echelon::echelon;
 use crate::rank::sparse::{SparseElimination, SparseVector};
@@ -22,6 +20,7 @@ const SMALL: usize = 40;
 const FEW: usize = 8;
 
 /// Conditions on the scaled twists of all bodies, sparse by rows.
+#[derive(Debug)]
 pub(crate) struct Jacobian {
     bodies: usize,
     /// Length that translations are divided by (m).
@@ -34,6 +33,7 @@ pub(crate) struct Jacobian {
 }
 
 /// Conditions eliminated.
+#[derive(Debug)]
 pub(crate) enum Eliminated {
     /// With complete pivoting.
     Dense(Elimination),
@@ -61,32 +61,30 @@ impl Eliminated {
 
 impl Jacobian {
     /// Rows of the directions that every joint constrains, drives released.
-    pub fn released(model: &Model, geometry: &Geometry) -> Self {
-        Self::new(model, geometry, released_rows, is_large(model))
+    pub fn released(at: &Posture<'_>) -> Self {
+        Self::new(at, released_rows, is_large(at.model))
     }
 
     /// Rows of the rigid and elastic directions of every joint.
-    pub fn held(model: &Model, geometry: &Geometry) -> Self {
-        Self::new(model, geometry, held_rows, is_large(model))
+    pub fn held(at: &Posture<'_>) -> Self {
+        Self::new(at, held_rows, is_large(at.model))
     }
 
     /// Rows of every joint by `conditions`, which gets the joint, the map from a relative twist to
     /// its directions, and the length that translations are divided by.
     fn new(
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         conditions: impl Fn(&Connection, &Matrix6<f64>, f64) -> Vec<(Dof, RowVector6<f64>)>,
         large: bool,
     ) -> Self {
-        let size = if large {
-            arm_length(model, geometry)
-        } else {
-            characteristic_length(geometry)
-        };
+        let Posture {
+            model, geometry, ..
+        } = *at;
+        let size = if large { arm_length(at) } else { at.size };
         let mut rows = Vec::new();
         let mut directions = Vec::new();
         for (k, joint) in model.joints().iter().enumerate() {
-            let local = to_directions(&joint.joint.basis(), &geometry.frames[k]);
+            let local = at.to_directions(JointId(k));
             for (dof, condition) in conditions(joint, &local, size) {
                 let mut row = Vec::with_capacity(2);
                 for (node, sign) in joint.between.iter().zip([1.0, -1.0]) {
@@ -137,6 +135,7 @@ impl Jacobian {
     }
 
     /// Whether they are too many for complete pivoting.
+    #[cfg(test)]
     pub fn is_large(&self) -> bool {
         self.large
     }
@@ -151,7 +150,7 @@ impl Jacobian {
     }
 
     /// Elimination by sparse rows.
-    pub fn sparsely_eliminated(&self) -> SparseElimination {
+    fn sparsely_eliminated(&self) -> SparseElimination {
         SparseElimination::new(self.sparse(), 6 * self.bodies)
     }
 
@@ -269,7 +268,10 @@ fn is_large(model: &Model) -> bool {
 /// Mean length of the arms from the bodies' first nodes to their joints (m), which keeps the
 /// conditions of a small part of a large mechanism far from zero; the mechanism's size where
 /// there are none.
-fn arm_length(model: &Model, geometry: &Geometry) -> f64 {
+fn arm_length(at: &Posture<'_>) -> f64 {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let nodes = model.joints().iter().flat_map(|joint| joint.between);
     let arms = nodes.flatten().map(|node| {
         let origin = model.bodies()[model.nodes()[node.0].body.0].nodes[0];
@@ -278,11 +280,7 @@ fn arm_length(model: &Model, geometry: &Geometry) -> f64 {
     let (sum, count) = arms
         .filter(|arm| *arm > 0.0)
         .fold((0.0, 0.0), |(sum, count), arm| (sum + arm, count + 1.0));
-    if sum > 0.0 {
-        sum / count
-    } else {
-        characteristic_length(geometry)
-    }
+    if sum > 0.0 { sum / count } else { at.size }
 }
 
 fn entries(vector: &DVector<f64>) -> SparseVector {

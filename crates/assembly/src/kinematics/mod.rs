@@ -4,18 +4,15 @@
 //! mechanism's size and every condition is a unit row, so that zero and not zero are far apart
 //! (measured: zeros stay below 1e-15, non-zeros above 1e-4) and one tolerance serves all counts.
 
+pub(crate) mod diagnosis;
 pub(crate) mod jacobian;
 pub(crate) mod motion;
 pub(crate) mod redundancy;
 
 use hyperstat_joints::Dof;
-use hyperstat_model::{
-    Directions, Geometry, JointId, Model, NodeId, characteristic_length, to_directions,
-};
+use hyperstat_model::{Directions, JointId, Model, NodeId, characteristic_length, to_directions};
 use nalgebra::Vector6;
 
-use crate::error::SolveError;
-use crate::kinematics::jacobian::Jacobian;
 use crate::kinematics::motion::{Motion, describe, node_twist};
 use crate::rank::dense::RANK_TOLERANCE;
 
@@ -39,43 +36,10 @@ pub struct Kinematics {
     pub nearly_free: Option<Motion>,
 }
 
-/// Mobility, over-constraint and motions without energy of a model as it stands.
-///
-/// # Errors
-/// [`SolveError::TooLarge`]: motions too many, of too many bodies each.
-pub fn analyse(model: &Model) -> Result<Kinematics, SolveError> {
-    analyse_at(model, model.geometry())
-}
-
-/// [`analyse`] in another configuration.
-pub(crate) fn analyse_at(model: &Model, geometry: &Geometry) -> Result<Kinematics, SolveError> {
-    let constraints = Jacobian::released(model, geometry);
-    let released = constraints.eliminated();
-    let conditions = Jacobian::held(model, geometry);
-    let held = conditions.eliminated();
-    let size = characteristic_length(geometry);
-    let nearly_free = match held.doubtful() {
-        Some(_) => conditions.nearly_free(size)?,
-        None => None,
-    };
-    let motions = conditions.motions(&held, size)?;
-    Ok(Kinematics {
-        mobility: 6 * model.bodies().len() - released.rank(),
-        overconstraint: constraints.directions.len() - released.rank(),
-        motions,
-        doubtful: held.doubtful().or(released.doubtful()),
-        nearly_free,
-    })
-}
-
 impl Motion {
     /// The motion in words, such as "`rod3` turns about (0, 0.6, 0.8) through rod3.B".
     pub fn describe(&self, model: &Model) -> String {
-        self.describe_at(model, model.geometry())
-    }
-
-    /// The motion in words, of the model in another configuration than its own.
-    pub(crate) fn describe_at(&self, model: &Model, geometry: &Geometry) -> String {
+        let geometry = model.geometry();
         describe(self, model, geometry, characteristic_length(geometry))
     }
 

@@ -3,9 +3,10 @@
 use hyperstat_joints::Dof;
 use hyperstat_model::{JointId, Model};
 
-use super::jacobian::Jacobian;
+use super::jacobian::{Eliminated, Jacobian};
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::rank::echelon::echelon;
+use crate::rank::sparse::SparseElimination;
 
 /// Constraints of which one is too many: every body rigid, drives released.
 ///
@@ -33,25 +34,25 @@ impl Redundancy {
 /// Most redundancies of a large mechanism that are found one by one: more than are read.
 const MOST: usize = 1000;
 
-/// The redundant constraints of a model as it stands: as many as its degree of over-constraint
-/// ([`Kinematics::overconstraint`](crate::Kinematics::overconstraint)), each with as few
-/// directions as elimination finds. Of a mechanism of more than 40 bodies or joints, the first
-/// 1000.
-pub fn redundant_constraints(model: &Model) -> Vec<Redundancy> {
-    let constraints = Jacobian::released(model, model.geometry());
+/// The redundant constraints, which elimination left out, each with as few directions as it finds. Of
+/// a large mechanism, the first 1000.
+pub(crate) fn redundancies(constraints: &Jacobian, eliminated: &Eliminated) -> Vec<Redundancy> {
     // Forces that balance: λᵀ J = 0.
-    if constraints.is_large() {
-        return sparsely_redundant(&constraints, MOST);
+    if let Eliminated::Sparse(eliminated) = eliminated {
+        return sparsely_redundant(constraints, eliminated, MOST);
     }
     let balanced = Elimination::new(constraints.dense().transpose(), 0).null_space();
     let balanced = echelon(balanced);
     let shares = balanced.iter().map(|v| v.iter().copied().enumerate());
-    shares.map(|v| redundancy(&constraints, v)).collect()
+    shares.map(|v| redundancy(constraints, v)).collect()
 }
 
 /// The first `most` redundancies by elimination of sparse rows.
-fn sparsely_redundant(constraints: &Jacobian, most: usize) -> Vec<Redundancy> {
-    let eliminated = constraints.sparsely_eliminated();
+fn sparsely_redundant(
+    constraints: &Jacobian,
+    eliminated: &SparseElimination,
+    most: usize,
+) -> Vec<Redundancy> {
     let rows = eliminated.redundant.iter().take(most);
     rows.map(|row| {
         let mut shares = eliminated.dependence(*row);
@@ -86,7 +87,10 @@ mod tests {
     use nalgebra::{DMatrix, Point3, Vector3};
 
     use super::*;
-    use crate::kinematics::analyse;
+    use crate::error::SolveError;
+    use crate::kinematics::Kinematics;
+    use crate::kinematics::diagnosis::Diagnosis;
+    use crate::posture::Posture;
     use hyperstat_model::{Connection, JointStiffness};
 
     /// A parallelogram in the x-y plane: three rigid bars and the ground, four hinges about z.
@@ -133,6 +137,18 @@ mod tests {
         }
     }
 
+    fn at(model: &Model) -> Posture<'_> {
+        Posture::new(model, model.geometry())
+    }
+
+    fn redundant_constraints(model: &Model) -> Vec<Redundancy> {
+        Diagnosis::default().redundancies(&at(model))
+    }
+
+    fn analyse(model: &Model) -> Result<Kinematics, SolveError> {
+        Diagnosis::default().kinematics(&at(model)).cloned()
+    }
+
     #[test]
     fn a_plane_loop_is_redundant_out_of_its_plane_only() {
         let model = parallelogram();
@@ -154,7 +170,7 @@ mod tests {
     #[test]
     fn freeing_any_direction_of_a_redundancy_takes_it_away_and_frees_nothing() {
         let model = parallelogram();
-        let whole = Jacobian::released(&model, model.geometry());
+        let whole = Jacobian::released(&at(&model));
         let rank = whole.eliminated().rank();
         for redundancy in redundant_constraints(&model) {
             assert!(redundancy.directions.iter().any(|d| d.2.abs() == 1.0));
@@ -183,7 +199,7 @@ mod tests {
             for k in 0..count {
                 add_parallelogram(&mut model, &format!("-{k}"));
             }
-            let constraints = Jacobian::released(&model, model.geometry());
+            let constraints = Jacobian::released(&at(&model));
             assert_eq!(constraints.is_large(), count > 1);
             let redundant = redundant_constraints(&model);
             assert_eq!(redundant.len(), 3 * count);

@@ -4,7 +4,7 @@
 //! is then the same for every pose, so as many poses as a SIMD register holds go through it
 //! together ([`pass`]): AVX-512, AVX2 or NEON where the machine has it, one by one elsewhere. A
 //! pose that the lanes cannot vouch for (an estimate of its error too large, a pivot that is none)
-//! goes through [`Plan::sweep`], which refines; so does every pose of a mechanism that the lanes do
+//! goes through `Plan::sweep`, which refines; so does every pose of a mechanism that the lanes do
 //! not take. No pose's result depends on its neighbours.
 
 // Loops over registers are written by index: an iterator's closure, or a call of memcpy, would not
@@ -30,14 +30,14 @@ use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;
 
-/// Poses that are handed to [`Plan::sweep_lanes`] together.
+/// Poses that are handed to [`Prepared::sweep_lanes`](crate::Prepared::sweep_lanes) together.
 pub const LANES: usize = 8;
 
 /// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
 /// promised: of 160 000 poses of random mechanisms the largest error below this was 7e-12.
 const TRUSTED: f64 = 5e-13;
 
-/// One thread's poses and buffers; made by [`Plan::lanes`].
+/// One thread's poses and buffers; made by [`Prepared::lanes`](crate::Prepared::lanes).
 #[derive(Debug)]
 pub struct Lanes {
     /// The plan and the model that they were made for.
@@ -73,12 +73,12 @@ impl Plan {
     /// Poses and buffers for one thread, for a model of the topology that the plan was made for; one
     /// that is not goes nowhere ([`SolveError::ForeignModel`] at every pose). The poses are in the
     /// model's configuration.
-    pub fn lanes(&self, model: &Model) -> Lanes {
+    pub(crate) fn lanes(&self, model: &Model) -> Lanes {
         self.lanes_on(model, Arch::new())
     }
 
-    /// The same for poses that all go through [`Plan::sweep`], one by one.
-    pub fn lanes_one_by_one(&self, model: &Model) -> Lanes {
+    /// The same for poses that all go through `Plan::sweep`, one by one.
+    pub(crate) fn lanes_one_by_one(&self, model: &Model) -> Lanes {
         self.lanes_with(model, Arch::new(), None)
     }
 
@@ -109,11 +109,11 @@ impl Plan {
     }
 
     /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
-    /// where `filled` says so: what [`Plan::sweep`] finds, to 1e-11 of the stiffness's scale
+    /// where `filled` says so: what `Plan::sweep` finds, to 1e-11 of the stiffness's scale
     /// (`√(K_ii K_jj)`) and of the largest component of the displacement, its components times
     /// `√K_ii`. `lanes` were made by this plan for `model`, as it is now; the nodes of a joint stay at
     /// one point; anything else is an error.
-    pub fn sweep_lanes(
+    pub(crate) fn sweep_lanes(
         &self,
         model: &Model,
         lanes: &mut Lanes,

@@ -14,6 +14,7 @@ mod system;
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
+use crate::kinematics::diagnosis::Diagnosis;
 use crate::modal::lanczos::lowest;
 use crate::modal::mass::{MassPlan, Masses};
 pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
@@ -23,6 +24,7 @@ use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
 use crate::pose::evaluate;
 use crate::pose::restraint::Restraint;
+use crate::posture::Posture;
 use crate::room;
 use crate::room::MOST_NUMBERS;
 use hyperstat_model::ModalOptions;
@@ -80,14 +82,6 @@ pub struct Modes {
     pub complete: bool,
 }
 
-/// Natural frequencies and modes of a model in its own configuration.
-///
-/// # Errors
-/// As [`ModalPlan::new`] and [`ModalPlan::modes`].
-pub fn modes(model: &Model, options: &ModalOptions) -> Result<Modes, SolveError> {
-    ModalPlan::new(model, options)?.modes(model.geometry())
-}
-
 /// A topology made ready for natural frequencies: one plan serves every pose of a mechanism.
 #[derive(Debug)]
 pub struct ModalPlan {
@@ -107,7 +101,8 @@ struct Ready {
 
 impl Ready {
     fn new(divided: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
-        let plan = Plan::absorbing(divided, geometry, false)?;
+        let at = Posture::new(divided, geometry);
+        let plan = Plan::absorbing(&at, false, &Diagnosis::default())?;
         let masses = MassPlan::new(&plan, divided)?;
         Ok(Self { plan, masses })
     }
@@ -129,7 +124,7 @@ impl ModalPlan {
     /// own configuration.
     ///
     /// # Errors
-    /// As [`Plan::new`]; [`SolveError::NoDensity`]; [`SolveError::TooLarge`] for more than 200 000
+    /// As [`Prepared::unknowns`](crate::Prepared::unknowns); [`SolveError::NoDensity`]; [`SolveError::TooLarge`] for more than 200 000
     /// elements; [`SolveError::SingularCompliance`] for a joint that only a subassembly could take
     /// in, since none is absorbed here.
     pub fn new(model: &Model, options: &ModalOptions) -> Result<Self, SolveError> {
@@ -229,16 +224,17 @@ impl ModalPlan {
         self.model
             .check_geometry(geometry, self.ready.plan.one_point)?;
         let geometry = self.model.divided_geometry(geometry)?;
+        let at = Posture::new(&self.divided, &geometry);
         let mut workspace = self.ready.plan.workspace();
         let mut changed = None;
         let mut ready = &self.ready;
-        match evaluate(&ready.plan, &self.divided, &geometry, &[], &mut workspace) {
+        match evaluate(&ready.plan, &at, &[], &mut workspace) {
             Ok(()) => {}
             Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 ready = changed.insert(Ready::new(&self.divided, &geometry)?);
                 workspace = ready.plan.workspace();
-                let again = evaluate(&ready.plan, &self.divided, &geometry, &[], &mut workspace);
+                let again = evaluate(&ready.plan, &at, &[], &mut workspace);
                 again.map_err(|fault| match fault {
                     Fault::Error(error) => error,
                     Fault::Changed => SolveError::Singular,
@@ -259,17 +255,13 @@ impl ModalPlan {
             return Err(SolveError::NoMass);
         }
         let system = |restraint: Option<&Restraint>| {
-            let restraint = restraint.map(|r| (r, &self.divided, &geometry));
+            let restraint = restraint.map(|r| (r, &at));
             System::new(plan, workspace, &ready.masses, &masses, restraint)
         };
         let held = (!diagnose && !plan.has_idle).then(|| system(None));
         let mut system = match held {
             Some(Ok(system)) => system,
-            _ => system(Some(&Restraint::new(
-                &self.divided,
-                &geometry,
-                plan.output,
-            )?))?,
+            _ => system(Some(&Restraint::of(&at, plan.output)?))?,
         };
         let mut modes: Vec<Found> = system.moving().take(count).map(Found::at_rest).collect();
         let mut complete = true;

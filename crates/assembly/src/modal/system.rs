@@ -1,6 +1,5 @@
 //! Stiffness and mass over the independent displacement coordinates of one configuration.
 
-use hyperstat_model::{Geometry, Model, characteristic_length};
 use nalgebra::DVector;
 
 use super::lanczos::BLOCK;
@@ -13,6 +12,7 @@ use crate::plan::elements::ElementPlan;
 use crate::plan::sparse::Factor;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::{Restraint, largest_minor, scaled};
+use crate::posture::Posture;
 use crate::rank::dense::RANK_TOLERANCE;
 use crate::room;
 use crate::room::MOST_NUMBERS;
@@ -72,7 +72,7 @@ impl<'a> System<'a> {
         workspace: &'a Workspace,
         masses: &'a MassPlan,
         elements: &Masses,
-        restraint: Option<(&Restraint, &Model, &Geometry)>,
+        restraint: Option<(&Restraint, &Posture<'_>)>,
     ) -> Result<Self, SolveError> {
         let mut system = Self {
             plan,
@@ -87,11 +87,11 @@ impl<'a> System<'a> {
             free: Vec::new(),
             idle: 0,
         };
-        if let Some((restraint, model, geometry)) = restraint {
+        if let Some((restraint, at)) = restraint {
             let motions = restraint.idle.len() + restraint.moving.len();
             let numbers = room::matrix(motions, plan.unknowns);
             room::check("its motions without energy", numbers, MOST_NUMBERS)?;
-            system.release(restraint, model, geometry);
+            system.release(restraint, at);
         }
         let mut held = system.stiffness.clone();
         for &pin in &system.pins {
@@ -105,8 +105,13 @@ impl<'a> System<'a> {
     }
 
     /// Takes in the motions without energy.
-    fn release(&mut self, restraint: &Restraint, model: &Model, geometry: &Geometry) {
-        let size = characteristic_length(geometry);
+    fn release(&mut self, restraint: &Restraint, at: &Posture<'_>) {
+        let Posture {
+            model,
+            geometry,
+            size,
+            ..
+        } = *at;
         let coordinates = |motion: &Motion, over: f64| -> Vec<f64> {
             let identities = self.workspace.identities.iter();
             identities

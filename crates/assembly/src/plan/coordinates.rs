@@ -5,12 +5,13 @@
 //! the topology, which global component each coordinate is may change from pose to pose.
 
 use hyperstat_joints::{Dof, JointError};
-use hyperstat_model::{Geometry, Model, NodeId, condition_rows, to_directions};
+use hyperstat_model::{NodeId, condition_rows};
 use nalgebra::{DMatrix, Matrix6};
 
 use super::blocks::{read, shift, write};
 use super::topology::Topology;
 use super::trees::Component;
+use crate::posture::Posture;
 use crate::rank::dense::Elimination;
 
 /// Blocks over the tree coordinates, before loops are closed.
@@ -40,12 +41,10 @@ impl TreeBlocks {
     }
 
     /// Fills the blocks for a configuration.
-    pub fn evaluate(
-        &mut self,
-        topology: &Topology,
-        model: &Model,
-        geometry: &Geometry,
-    ) -> Result<(), JointError> {
+    pub fn evaluate(&mut self, topology: &Topology, at: &Posture<'_>) -> Result<(), JointError> {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         for component in &topology.components {
             if let Some(root) = component.root {
                 let carrier = &topology.carriers[root];
@@ -88,12 +87,11 @@ impl TreeBlocks {
         &self,
         component: &Component,
         topology: &Topology,
-        model: &Model,
-        geometry: &Geometry,
-        size: f64,
+        at: &Posture<'_>,
         spared: usize,
     ) -> Elimination {
-        let conditions = self.closing_conditions(component, topology, model, geometry, size);
+        let conditions = self.closing_conditions(component, topology, at);
+        let size = at.size;
         let first = component.coordinates.start;
         let scale = |coordinate| self.scale(coordinate, size);
         let mut solved = Elimination::new(conditions, spared);
@@ -119,16 +117,20 @@ impl TreeBlocks {
         &self,
         component: &Component,
         topology: &Topology,
-        model: &Model,
-        geometry: &Geometry,
-        size: f64,
+        at: &Posture<'_>,
     ) -> DMatrix<f64> {
+        let Posture {
+            model,
+            geometry,
+            size,
+            ..
+        } = *at;
         let first = component.coordinates.start;
         let count = component.coordinates.len();
         let (mut rows, mut height) = (Vec::new(), 0);
         for joint in &component.closings {
             let entry = &model.joints()[joint.0];
-            let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
+            let local = at.to_directions(*joint);
             let rigid = topology.joints[joint.0].moving.complement();
             for condition in condition_rows(&local, rigid, size) {
                 let mut row = vec![0.0; count];

@@ -18,26 +18,25 @@ use std::sync::Arc;
 
 use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::{Dof, DofSet};
-use hyperstat_model::{
-    BodyId, Directions, Geometry, JointId, Model, NodeId, characteristic_length, fresh_revision,
-};
+use hyperstat_model::{BodyId, Directions, JointId, Model, NodeId, fresh_revision};
 use nalgebra::{Matrix6, Vector3};
 
 use crate::error::SolveError;
-use crate::kinematics::jacobian::Jacobian;
+use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::elements::{ElementPlan, elements, places};
 use crate::plan::form::Form;
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
 use crate::plan::workspace::{LOADS, Workspace};
+use crate::posture::Posture;
 use crate::rank::dense::Elimination;
 use crate::room;
 use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};
 
 /// A topology made ready: one plan serves every pose of a mechanism.
 #[derive(Debug)]
-pub struct Plan {
+pub(crate) struct Plan {
     /// A number that no other plan has.
     pub(crate) id: u64,
     /// What the plan is made for, and the [revision](Model) of the model that it was made from.
@@ -82,27 +81,30 @@ pub(crate) struct Closed {
 }
 
 impl Plan {
-    /// Plan of a model in its own configuration.
+    /// Plan of a model in its own configuration, of which nothing else is asked.
+    ///
+    /// # Errors
+    /// As [`Plan::absorbing`].
+    pub(crate) fn new(model: &Model) -> Result<Self, SolveError> {
+        let at = Posture::new(model, model.geometry());
+        Self::absorbing(&at, true, &Diagnosis::default())
+    }
+
+    /// Plan of a model in some configuration, with (`absorbs`) or without elastic joints inside
+    /// subassemblies.
     ///
     /// # Errors
     /// No output, a model that is not one whole ([`Model::check`]), bodies that no chain of joints
     /// connects to the ground or the output, a segment or joint that cannot be formed, a model too
     /// large for memory.
-    pub fn new(model: &Model) -> Result<Self, SolveError> {
-        Self::at(model, model.geometry())
-    }
-
-    /// Plan of a model in another configuration.
-    pub(crate) fn at(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
-        Self::absorbing(model, geometry, true)
-    }
-
-    /// [`Self::at`] with (`absorbs`) or without elastic joints inside subassemblies.
     pub(crate) fn absorbing(
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         absorbs: bool,
+        diagnosis: &Diagnosis,
     ) -> Result<Self, SolveError> {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         let output = model.output().ok_or(SolveError::NoOutput)?;
         model.check()?;
         let one_point = model.one_point();
@@ -112,8 +114,7 @@ impl Plan {
         check_stiffness(model, &topology)?;
         check_loops(&topology)?;
         let mut tree = TreeBlocks::new(&topology);
-        tree.evaluate(&topology, model, geometry)?;
-        let size = characteristic_length(geometry);
+        tree.evaluate(&topology, at)?;
 
         let output_carrier = topology.carrier_of[output.0];
         let mut eliminations: Vec<Option<Elimination>> = Vec::new();
@@ -125,7 +126,7 @@ impl Plan {
             }
             eliminations.push((!component.closings.is_empty()).then(|| {
                 let spared = if holds_output { 6 } else { 0 };
-                tree.close(component, &topology, model, geometry, size, spared)
+                tree.close(component, &topology, at, spared)
             }));
         }
         let output_free = match &eliminations[output_component] {
@@ -234,8 +235,7 @@ impl Plan {
             columns,
             reduced_starts,
             reduced_len,
-            has_idle: Jacobian::held(model, geometry).eliminated().rank()
-                < 6 * model.bodies().len(),
+            has_idle: diagnosis.is_loose(at),
             unknowns,
             inner,
             elements,
@@ -253,7 +253,7 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::new`].
-    pub fn for_design(&self, model: &Model) -> Result<Self, SolveError> {
+    pub(crate) fn for_design(&self, model: &Model) -> Result<Self, SolveError> {
         if model.output() != Some(self.output) || !self.closed.is_empty() {
             return Self::new(model);
         }
@@ -264,7 +264,8 @@ impl Plan {
             return Self::new(model);
         }
         check_stiffness(model, &topology)?;
-        TreeBlocks::new(&topology).evaluate(&topology, model, geometry)?;
+        let at = Posture::new(model, geometry);
+        TreeBlocks::new(&topology).evaluate(&topology, &at)?;
         Ok(Self {
             id: fresh_revision(),
             form: Form::of(model),
@@ -288,12 +289,12 @@ impl Plan {
     }
 
     /// Number of independent displacement coordinates, after loop elimination.
-    pub fn unknowns(&self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 
     /// Buffers for one thread.
-    pub fn workspace(&self) -> Workspace {
+    pub(crate) fn workspace(&self) -> Workspace {
         let last = self.elements.last();
         let triangle = |e: &ElementPlan| e.rows * e.rows;
         let clusters = self.topology.clusters.iter();
@@ -350,7 +351,7 @@ impl Plan {
         }
         let width = |e: &ElementPlan| e.rows * e.columns.len().max(columns);
         let widest = self.elements.iter().map(width).max().unwrap_or(0);
-        workspace.factor = self.pattern.factor_buffers(columns);
+        self.pattern.make_room(&mut workspace.factor, columns);
         for (buffer, length) in [
             (&mut workspace.initial, sets * self.deformations),
             (&mut workspace.loads, columns * self.unknowns),

@@ -160,19 +160,25 @@ impl Pattern {
 
     /// Buffers for one thread and up to `columns` right-hand sides.
     pub fn factor_buffers(&self, columns: usize) -> Factor {
-        let Some(symbolic) = &self.symbolic else {
-            return Factor {
-                values: Vec::new(),
-                scratch: MemBuffer::new(faer::dyn_stack::StackReq::EMPTY),
-            };
-        };
-        let need = symbolic
-            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
-            .or(symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq));
+        let length = self.symbolic.as_ref().map_or(0, |s| s.len_val());
         Factor {
-            values: vec![0.0; symbolic.len_val()],
-            scratch: MemBuffer::new(need),
+            values: vec![0.0; length],
+            scratch: self.scratch(columns),
         }
+    }
+
+    /// Makes room for up to `columns` right-hand sides; what is factored stays.
+    pub fn make_room(&self, factor: &mut Factor, columns: usize) {
+        factor.scratch = self.scratch(columns);
+    }
+
+    fn scratch(&self, columns: usize) -> MemBuffer {
+        MemBuffer::new(match &self.symbolic {
+            None => faer::dyn_stack::StackReq::EMPTY,
+            Some(symbolic) => symbolic
+                .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
+                .or(symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)),
+        })
     }
 
     /// Cholesky factorization of `values`.

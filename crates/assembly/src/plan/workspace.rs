@@ -8,7 +8,7 @@ use super::coordinates::TreeBlocks;
 use super::sparse::Factor;
 use hyperstat_model::NodeId;
 
-/// Buffers of one thread; made by [`Plan::workspace`](crate::Plan::workspace).
+/// Buffers of one thread; made by [`Prepared::workspace`](crate::Prepared::workspace).
 #[derive(Debug)]
 pub struct Workspace {
     /// The plan that it was made by.

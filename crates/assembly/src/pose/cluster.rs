@@ -4,7 +4,7 @@
 use hyperstat_elements::subassembly::{ElasticJoint, StiffSegment, absorb_joints, chain_stiffness};
 use hyperstat_elements::{element_frame, rotate_matrix6, rotate_vector6};
 use hyperstat_joints::rigid_motion;
-use hyperstat_model::{Geometry, JointId, Model, NodeId, segment_beam};
+use hyperstat_model::{Geometry, JointId, NodeId};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 
 use crate::error::SolveError;
@@ -13,6 +13,7 @@ use crate::plan::blocks::{read, shift};
 use crate::plan::clusters::{Cluster, LONGEST_CLUSTER};
 use crate::plan::elements::ElementPlan;
 use crate::plan::workspace::Workspace;
+use crate::posture::{PlacedBeam, Posture};
 use crate::state::acting::Acting;
 use crate::state::offsets::offset;
 use crate::state::preload::{along, spring_misfit, standing};
@@ -31,12 +32,10 @@ pub(crate) fn cluster_frame(
 }
 
 /// An absorbed joint: its compliance in its own frame, and that frame in global axes.
-pub(crate) fn absorbed_joint(
-    plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
-    joint: JointId,
-) -> ElasticJoint {
+pub(crate) fn absorbed_joint(plan: &Plan, at: &Posture<'_>, joint: JointId) -> ElasticJoint {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let own = plan.topology.joints[joint.0].compliance;
     let basis = model.joints()[joint.0].joint.basis();
     ElasticJoint {
@@ -73,16 +72,14 @@ pub(crate) fn cluster_initial(
     plan: &Plan,
     element: &ElementPlan,
     cluster: &Cluster,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     acting: &[Acting],
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
+    let Posture { geometry, .. } = *at;
     let to_local = place_cluster(cluster, geometry, workspace)?;
     if !workspace.offsets.is_empty() {
-        add_misfits(
-            plan, element, cluster, model, geometry, &to_local, workspace,
-        );
+        add_misfits(plan, element, cluster, at, &to_local, workspace);
     }
     for (set, acting) in acting.iter().enumerate() {
         let start = set * plan.deformations + element.initial_start;
@@ -91,7 +88,7 @@ pub(crate) fn cluster_initial(
             let Some(joint) = joint else { continue };
             let load = acting.on_node(cluster.nodes[r]);
             if load != Vector6::zeros() {
-                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                let elastic = absorbed_joint(plan, at, *joint);
                 let give = elastic.turned_compliance() * load;
                 add_deformation(initial, r, &give, &workspace.arms, &to_local);
             }
@@ -100,11 +97,12 @@ pub(crate) fn cluster_initial(
             let Some(load) = acting.on_segment(*id) else {
                 continue;
             };
-            let (beam, own, span) = segment_beam(model, geometry, *id)?;
-            let mut free = -rotate_vector6(&beam.straight().free_end(load), &own);
+            let placed = at.beam(*id)?;
+            let free_end = placed.beam.straight().free_end(load);
+            let mut free = -rotate_vector6(&free_end, &placed.frame);
             if *reversed {
                 // With the second node held instead: δ seen from there, carried to the first.
-                free = -(rigid_motion(&-span) * free);
+                free = -(rigid_motion(&-placed.span) * free);
             }
             for (k, node) in cluster.nodes[1..].iter().enumerate().skip(r) {
                 let carried = shift(geometry, cluster.nodes[r + 1], *node) * free;
@@ -120,15 +118,15 @@ fn add_misfits(
     plan: &Plan,
     element: &ElementPlan,
     cluster: &Cluster,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     to_local: &Rotation3<f64>,
     workspace: &mut Workspace,
 ) {
+    let Posture { geometry, .. } = *at;
     for (r, (node, joint)) in cluster.nodes.iter().zip(&cluster.joints).enumerate() {
         let mut moved = offset(plan, geometry, workspace, *node);
         if let Some(joint) = joint {
-            moved += misfit_inside(plan, model, geometry, *joint, *node);
+            moved += misfit_inside(plan, at, *joint, *node);
         }
         for state in workspace.initial.chunks_exact_mut(plan.deformations) {
             let start = &mut state[element.initial_start..element.initial_start + element.rows];
@@ -140,18 +138,18 @@ fn add_misfits(
 /// What the misfit of an absorbed joint displaces the body's own node by, global axes.
 pub(crate) fn misfit_inside(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     joint: JointId,
     node: NodeId,
 ) -> Vector6<f64> {
+    let Posture { model, .. } = *at;
     let Some(entry) = model.misfit(joint) else {
         return Vector6::zeros();
     };
     let role = &plan.topology.joints[joint.0];
     let inside = role.directions.elastic.difference(role.springs);
     let misfit = along(&spring_misfit(&role.directions, entry), inside);
-    let apart = standing(model, geometry, joint, &misfit);
+    let apart = standing(at, joint, &misfit);
     if model.joints()[joint.0].between[1] == Some(node) {
         apart
     } else {
@@ -164,15 +162,13 @@ pub(crate) fn cluster_element(
     plan: &Plan,
     element: &ElementPlan,
     cluster: &Cluster,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
+    let Posture { geometry, .. } = *at;
     let to_local = place_cluster(cluster, geometry, workspace)?;
     operator(plan, element, &to_local, workspace);
-    stiffness(
-        plan, element, cluster, &to_local, model, geometry, workspace,
-    )
+    stiffness(plan, element, cluster, &to_local, at, workspace)
 }
 
 /// The stiffness of a cluster's element; the workspace has the arms.
@@ -181,10 +177,10 @@ fn stiffness(
     element: &ElementPlan,
     cluster: &Cluster,
     to_local: &Rotation3<f64>,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
+    let Posture { model, .. } = *at;
     let rows = element.rows;
     let start = element.stiffness_start;
     let stiffness = &mut workspace.stiffnesses[start..start + rows * rows];
@@ -193,12 +189,12 @@ fn stiffness(
             let held = model.flexibles()[id.0].element.held_stiffness();
             stiffness.copy_from_slice(held.as_slice());
         }
-        None => run_stiffness(cluster, to_local, model, geometry, stiffness)?,
+        None => run_stiffness(cluster, to_local, at, stiffness)?,
     }
     if cluster.joints.iter().all(Option::is_none) {
         return Ok(());
     }
-    absorb(plan, element, cluster, to_local, model, geometry, workspace)
+    absorb(plan, element, cluster, to_local, at, workspace)
 }
 
 /// D: displacements of the nodes after the first relative to it, in the cluster's axes.
@@ -243,16 +239,15 @@ fn add_deformation(
 fn run_stiffness(
     cluster: &Cluster,
     to_local: &Rotation3<f64>,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     stiffness: &mut [f64],
 ) -> Result<(), SolveError> {
     if let ([(id, _)], true) = (
         cluster.segments.as_slice(),
         cluster.joints.iter().all(Option::is_none),
     ) {
-        let (beam, _, _) = segment_beam(model, geometry, *id)?;
-        stiffness.copy_from_slice(beam.cantilever_stiffness().as_slice());
+        let held = at.beam(*id)?.beam.cantilever_stiffness();
+        stiffness.copy_from_slice(held.as_slice());
         return Ok(());
     }
     let mut segments = [StiffSegment {
@@ -260,11 +255,12 @@ fn run_stiffness(
         span: Vector3::zeros(),
     }; LONGEST_CLUSTER];
     for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
-        let (beam, own, span) = segment_beam(model, geometry, *id)?;
+        let placed = at.beam(*id)?;
+        let PlacedBeam { beam, frame, span } = &*placed;
         let (held, turned, span) = if *reversed {
-            (beam.reversed_stiffness(), own * half_turn(), -span)
+            (beam.reversed_stiffness(), frame * half_turn(), -span)
         } else {
-            (beam.cantilever_stiffness(), own, span)
+            (beam.cantilever_stiffness(), *frame, *span)
         };
         segments[k] = StiffSegment {
             stiffness: rotate_matrix6(&held, &(to_local * turned)),
@@ -286,15 +282,14 @@ fn absorb(
     element: &ElementPlan,
     cluster: &Cluster,
     to_local: &Rotation3<f64>,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
     let rows = element.rows;
     let mut absorbed = 0;
     for (r, joint) in cluster.joints.iter().enumerate() {
         let Some(joint) = joint else { continue };
-        let elastic = absorbed_joint(plan, model, geometry, *joint);
+        let elastic = absorbed_joint(plan, at, *joint);
         let local = seen_from(to_local, &elastic);
         workspace.factors[absorbed].node = r;
         workspace.factors[absorbed].factor = local.factor();

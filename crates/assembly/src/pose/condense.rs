@@ -26,22 +26,41 @@ const TRUSTED: f64 = 1e-6;
 pub(crate) const UNITS: Range<usize> = 0..LOADS;
 
 impl Plan {
-    /// Factors the inner stiffness with `pins` held and finds all columns of the solutions,
-    /// refining until a correction is below `enough` of the solution or no longer shrinks;
-    /// returns the relative size of the last correction. Fails where it does not settle.
+    /// [Factors](Self::factor) the inner stiffness and [finds](Self::find) all columns.
     pub(crate) fn condense(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         enough: f64,
     ) -> Result<f64, SolveError> {
+        self.factor(workspace, pins)?;
+        self.find(workspace, pins, enough)
+    }
+
+    /// Factors the inner stiffness with `pins` held.
+    pub(crate) fn factor(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+    ) -> Result<(), SolveError> {
         for &pin in pins {
             let scale = self.pattern.diagonal(pin, &workspace.values).max(1.0);
             self.pattern.pin(pin, scale, &mut workspace.values);
         }
         self.pattern
             .factorize(&workspace.values, &mut workspace.factor)
-            .map_err(|_| SolveError::Singular)?;
+            .map_err(|_| SolveError::Singular)
+    }
+
+    /// Finds all columns of the solutions by what is factored, refining until a correction is below
+    /// `enough` of the solution or no longer shrinks; returns the relative size of the last
+    /// correction. Fails where it does not settle.
+    pub(crate) fn find(
+        &self,
+        workspace: &mut Workspace,
+        pins: &[usize],
+        enough: f64,
+    ) -> Result<f64, SolveError> {
         workspace.solutions.fill(0.0);
         if self.output_is_independent() {
             for k in 0..6 {

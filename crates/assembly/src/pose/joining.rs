@@ -7,7 +7,7 @@
 //! out by `Δw = k r`, k being the stiffness of segment and joints together, and `C Δw` at each joint.
 
 use hyperstat_elements::rotate_vector6;
-use hyperstat_model::{Geometry, Model, SegmentBeam, SegmentId, segment_beam};
+use hyperstat_model::{SegmentBeam, SegmentId};
 use nalgebra::{Matrix6, Vector6};
 
 use super::cluster::{absorbed_joint, cluster_frame};
@@ -17,6 +17,7 @@ use crate::plan::Plan;
 use crate::plan::blocks::shift;
 use crate::plan::elements::Source;
 use crate::plan::workspace::Workspace;
+use crate::posture::Posture;
 
 /// Last bits of what is taken off each other, below which nothing is left.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
@@ -28,13 +29,13 @@ const CORRECTIONS: usize = 2;
 /// returns the largest wrench (forces, moments over the mechanism's `size`) that they were off by.
 pub(crate) fn join(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &Workspace,
     segments: &[Option<SegmentForces>],
     displacements: &mut [Vector6<f64>],
     size: f64,
 ) -> Result<f64, SolveError> {
+    let Posture { geometry, .. } = *at;
     let mut off = 0.0_f64;
     for element in &plan.elements {
         let Source::Cluster(cluster) = element.source else {
@@ -56,7 +57,7 @@ pub(crate) fn join(
         let k = Matrix6::from_column_slice(k);
         let carry = shift(geometry, *first, *second);
         for correction in 0..CORRECTIONS {
-            let Some(mut left) = gap(model, geometry, *id, forces, displacements)? else {
+            let Some(mut left) = gap(at, *id, forces, displacements)? else {
                 break;
             };
             if *reversed {
@@ -73,7 +74,7 @@ pub(crate) fn join(
             let ends = [(*first, at_first), (*second, wrench)];
             for ((node, wrench), joint) in ends.iter().zip(&cluster.joints) {
                 if let Some(joint) = joint {
-                    let elastic = absorbed_joint(plan, model, geometry, *joint);
+                    let elastic = absorbed_joint(plan, at, *joint);
                     displacements[node.0] -= elastic.turned_compliance() * wrench;
                 }
             }
@@ -85,20 +86,23 @@ pub(crate) fn join(
 /// How far the second end of a segment is from where its elastic curve ends, from the first end
 /// on; `None` where that is rounding.
 fn gap(
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     id: SegmentId,
     forces: &SegmentForces,
     displacements: &[Vector6<f64>],
 ) -> Result<Option<Vector6<f64>>, SolveError> {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let [first, second] = model.segments()[id.0].ends;
-    let (beam, own, _) = segment_beam(model, geometry, id)?;
-    let compliance = match &beam {
+    let placed = at.beam(id)?;
+    let (beam, own) = (&placed.beam, &placed.frame);
+    let compliance = match beam {
         SegmentBeam::Prismatic(beam) => beam.cantilever_compliance(),
         SegmentBeam::Tapered(beam) => beam.cantilever_compliance(),
     };
     let bent = compliance * forces.ends[1] + beam.straight().free_end(&forces.load);
-    let bent = rotate_vector6(&bent, &own);
+    let bent = rotate_vector6(&bent, own);
     let carry = shift(geometry, first, second);
     let gap = displacements[second.0] - carry * displacements[first.0] - bent;
     let size = displacements[second.0].abs() + carry.abs() * displacements[first.0].abs();

@@ -10,7 +10,7 @@ pub(crate) mod restraint;
 pub(crate) mod spread;
 pub(crate) mod spring;
 
-use hyperstat_model::{Geometry, Model, NodeId, characteristic_length};
+use hyperstat_model::{Geometry, NodeId};
 use nalgebra::Vector6;
 
 use crate::plan::Plan;
@@ -21,6 +21,7 @@ use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::cluster::{cluster_element, cluster_initial};
 use crate::pose::loads::load;
 use crate::pose::spring::{spring_element, spring_initial};
+use crate::posture::Posture;
 use crate::state::acting::Acting;
 use crate::state::offsets::offsets;
 
@@ -28,23 +29,49 @@ use crate::state::offsets::offsets;
 /// in each state.
 pub(crate) fn evaluate(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     acting: &[Acting],
     workspace: &mut Workspace,
 ) -> Result<(), Fault> {
-    plan.check_sets(model, acting.len())?;
-    plan.make_room(workspace, acting.len());
+    plan.check_sets(at.model, acting.len())?;
+    form(plan, at, workspace)?;
+    act(plan, at, acting, workspace)
+}
+
+/// Brings blocks, elements and stiffness of `workspace` to a configuration.
+pub(crate) fn form(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> Result<(), Fault> {
     workspace.doubtful = None;
-    workspace.tree.evaluate(&plan.topology, model, geometry)?;
+    workspace.tree.evaluate(&plan.topology, at)?;
     for (coordinate, idc) in plan.idc_of.iter().enumerate() {
         if let Some(idc) = idc {
             workspace.identities[*idc] = workspace.tree.identities[coordinate];
         }
     }
-    close_loops(plan, model, geometry, workspace)?;
+    close_loops(plan, at, workspace)?;
+    for element in &plan.elements {
+        match element.source {
+            Source::Cluster(k) => {
+                let cluster = &plan.topology.clusters[k];
+                cluster_element(plan, element, cluster, at, workspace)?;
+            }
+            Source::Spring(joint) => spring_element(plan, element, joint, at, workspace),
+        }
+    }
+    assemble(plan, workspace);
+    Ok(())
+}
+
+/// Brings the loads of a `workspace` that is [formed](form), and what its elements start from, to what
+/// acts in each state.
+pub(crate) fn act(
+    plan: &Plan,
+    at: &Posture<'_>,
+    acting: &[Acting],
+    workspace: &mut Workspace,
+) -> Result<(), Fault> {
+    plan.make_room(workspace, acting.len());
     workspace.offsets = if acting.iter().any(|a| a.misfits) {
-        offsets(plan, model, geometry, &workspace.tree)?
+        offsets(plan, at, &workspace.tree)?
     } else {
         Vec::new()
     };
@@ -53,44 +80,26 @@ pub(crate) fn evaluate(
         match element.source {
             Source::Cluster(k) => {
                 let cluster = &plan.topology.clusters[k];
-                cluster_initial(plan, element, cluster, model, geometry, acting, workspace)?;
-                cluster_element(plan, element, cluster, model, geometry, workspace)?;
+                cluster_initial(plan, element, cluster, at, acting, workspace)?;
             }
             Source::Spring(joint) => {
-                spring_element(plan, element, joint, model, geometry, workspace);
                 if !workspace.offsets.is_empty() {
-                    spring_initial(plan, element, joint, model, geometry, workspace);
+                    spring_initial(plan, element, joint, at, workspace);
                 }
             }
         }
     }
-    assemble(plan, workspace);
-    load(plan, geometry, acting, workspace);
+    load(plan, at.geometry, acting, workspace);
     Ok(())
 }
 
 /// Blocks of the components whose loops are closed by elimination.
-fn close_loops(
-    plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
-    workspace: &mut Workspace,
-) -> Result<(), Fault> {
-    if plan.closed.is_empty() {
-        return Ok(());
-    }
-    let size = characteristic_length(geometry);
+fn close_loops(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> Result<(), Fault> {
     for closed in &plan.closed {
         let component = &plan.topology.components[closed.component];
         let first = component.coordinates.start;
-        let solved = workspace.tree.close(
-            component,
-            &plan.topology,
-            model,
-            geometry,
-            size,
-            closed.spared,
-        );
+        let topology = &plan.topology;
+        let solved = workspace.tree.close(component, topology, at, closed.spared);
         workspace.doubtful = workspace.doubtful.or(solved.doubtful);
         let spared = solved
             .independent

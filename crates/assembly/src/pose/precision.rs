@@ -8,7 +8,6 @@
 //! up in them: δd of the displacements of the nodes that D takes off each other, δf of `|k| |d|`
 //! (the book, "Refinement").
 
-use hyperstat_model::{Geometry, Model, to_directions};
 use nalgebra::{Matrix6, Vector6};
 
 use super::cluster::cluster_frame;
@@ -19,6 +18,7 @@ use crate::plan::Plan;
 use crate::plan::blocks::{multiply, read, shift};
 use crate::plan::elements::{ElementPlan, Source};
 use crate::plan::workspace::{LOADS, Workspace};
+use crate::posture::Posture;
 
 /// Last bits by which a sum of a few products is off, with room to spare: measured on random
 /// mechanisms against 32 digits (`tests`, `precision.rs`).
@@ -45,8 +45,7 @@ impl Plan {
     /// states by the largest of their kind: an estimate.
     pub(crate) fn lost(
         &self,
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         workspace: &Workspace,
         output: &Output,
         states: &[State],
@@ -73,7 +72,7 @@ impl Plan {
         let mut moved = [[0.0; 6]; 6];
         let mut given = vec![[0.0; 6]; 6 + sets];
         for element in &self.elements {
-            let sizes = self.operand_sizes(element, model, geometry, workspace)?;
+            let sizes = self.operand_sizes(element, at, workspace)?;
             let [motions, forces, loaded] = groups
                 .each_ref()
                 .map(|columns| self.parts(element, &sizes, workspace, columns));
@@ -153,10 +152,10 @@ impl Plan {
     pub(crate) fn operand_sizes(
         &self,
         element: &ElementPlan,
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         workspace: &Workspace,
     ) -> Result<Vec<f64>, SolveError> {
+        let geometry = at.geometry;
         let rows = element.rows;
         let mut sizes = vec![0.0; rows * element.columns.len()];
         for (r, (node, places)) in element.nodes.iter().enumerate() {
@@ -165,8 +164,7 @@ impl Plan {
             let column = |k: usize| read(block, 6 * k).abs();
             match element.source {
                 Source::Spring(joint) => {
-                    let basis = model.joints()[joint.0].joint.basis();
-                    let local = to_directions(&basis, &geometry.frames[joint.0]).abs();
+                    let local = at.to_directions(joint).abs();
                     let reference = self.topology.carriers[carrier].reference;
                     let to_node = local * shift(geometry, reference, *node).abs();
                     let springs = self.topology.joints[joint.0].springs;

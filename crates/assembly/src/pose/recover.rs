@@ -2,9 +2,7 @@
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
-use hyperstat_model::{
-    Geometry, Model, NodeId, characteristic_length, rotation6, segment_beam, to_directions,
-};
+use hyperstat_model::{JointId, Model, NodeId, rotation6, to_directions};
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
 use super::cluster::{absorbed_joint, cluster_frame, misfit_inside};
@@ -16,6 +14,7 @@ use crate::plan::blocks::{multiply, shift};
 use crate::plan::elements::Source;
 use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::{node_displacement, node_motion};
+use crate::posture::Posture;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::room;
 use crate::room::MOST_ELIMINATED;
@@ -36,13 +35,15 @@ pub(crate) struct Recovered {
 /// displacement of the output is known. What is rounding beside what acts is zero.
 pub(crate) fn recover(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &Workspace,
     set: usize,
     (acting, floor): (&Acting, &Floor),
     mut output: Vector6<f64>,
 ) -> Result<Recovered, SolveError> {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let column = LOADS + set;
     let mut displacements: Vec<Vector6<f64>> = (0..model.nodes().len())
         .map(|n| node_displacement(plan, geometry, workspace, column, NodeId(n)))
@@ -81,7 +82,8 @@ pub(crate) fn recover(
             through += at_node;
             let before = cluster.nodes[r - 1];
             let (id, reversed) = cluster.segments[r - 1];
-            let (_, own, span) = segment_beam(model, geometry, id)?;
+            let placed = at.beam(id)?;
+            let (own, length) = (placed.frame, placed.span.norm());
             let at_before = shift(geometry, before, node).transpose() * through;
             let to_own = own.inverse();
             let (far, near) = (
@@ -89,7 +91,6 @@ pub(crate) fn recover(
                 -rotate_vector6(&at_before, &to_own),
             );
             let mut ends = if reversed { [far, near] } else { [near, far] };
-            let length = span.norm();
             let load = acting.on_segment(id).copied();
             if let Some(load) = &load {
                 ends[0] -= load.resultant(length);
@@ -108,18 +109,17 @@ pub(crate) fn recover(
         for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
             if let Some(joint) = joint {
                 let wrench = demand[node.0] - loads[node.0];
-                let elastic = absorbed_joint(plan, model, geometry, *joint);
+                let elastic = absorbed_joint(plan, at, *joint);
                 displacements[node.0] -= elastic.turned_compliance() * wrench;
                 if acting.misfits {
-                    displacements[node.0] += misfit_inside(plan, model, geometry, *joint, *node);
+                    displacements[node.0] += misfit_inside(plan, at, *joint, *node);
                 }
             }
         }
     }
     let off = join(
         plan,
-        model,
-        geometry,
+        at,
         workspace,
         &segments,
         &mut displacements,
@@ -128,8 +128,7 @@ pub(crate) fn recover(
     for (wrench, load) in demand.iter_mut().zip(&loads) {
         *wrench -= load;
     }
-    let (mut joint_wrenches, doubtful) =
-        joint_wrenches(plan, model, geometry, &all_forces, &demand);
+    let (mut joint_wrenches, doubtful) = joint_wrenches(plan, at, &all_forces, &demand);
     if acting.misfits {
         for entry in model.misfits() {
             if let Some(wrench) = &mut joint_wrenches[entry.joint.0] {
@@ -226,11 +225,16 @@ fn node_loads(model: &Model, acting: &Acting) -> Vec<Vector6<f64>> {
 /// node.
 fn joint_wrenches(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     element_forces: &[Vec<f64>],
     demand: &[Vector6<f64>],
 ) -> (Vec<Option<Vector6<f64>>>, Option<f64>) {
+    let Posture {
+        model,
+        geometry,
+        size,
+        ..
+    } = *at;
     let count = model.joints().len();
     let mut springs = vec![Vector6::zeros(); count];
     for (element, forces) in plan.elements.iter().zip(element_forces) {
@@ -243,7 +247,7 @@ fn joint_wrenches(
     }
     let joints: Vec<JointForces> = (0..count)
         .map(|k| {
-            let local = to_directions(&model.joints()[k].joint.basis(), &geometry.frames[k]);
+            let local = at.to_directions(JointId(k));
             let role = &plan.topology.joints[k];
             JointForces {
                 basis: local.transpose(),
@@ -282,7 +286,6 @@ fn joint_wrenches(
         }
     }
 
-    let size = characteristic_length(geometry);
     let mut forces: Vec<Option<Vector6<f64>>> = joints.iter().map(|j| Some(j.known)).collect();
     let mut doubtful = None;
     // Only forces that equilibrium must find tie carriers together.

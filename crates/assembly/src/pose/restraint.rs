@@ -2,14 +2,16 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use hyperstat_model::{BodyId, Geometry, Model, NodeId, characteristic_length};
+use hyperstat_model::{BodyId, Geometry, Model, NodeId};
 use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
 
 use crate::error::SolveError;
-use crate::kinematics::motion::{Motion, node_twist};
-use crate::kinematics::{Kinematics, analyse_at};
+use crate::kinematics::Kinematics;
+use crate::kinematics::diagnosis::Diagnosis;
+use crate::kinematics::motion::{Motion, describe, node_twist};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
+use crate::posture::Posture;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::rank::echelon::echelon;
 use crate::rank::sparse::SparseElimination;
@@ -25,7 +27,6 @@ const MANY: usize = 32;
 /// What the drives, constraints and springs of a configuration leave without resistance.
 #[derive(Debug, Clone)]
 pub(crate) struct Restraint {
-    pub kinematics: Kinematics,
     /// Motions that leave the output where it is.
     pub idle: Vec<Motion>,
     /// Motions that move the output, one for each of its free twists.
@@ -36,11 +37,23 @@ pub(crate) struct Restraint {
 }
 
 impl Restraint {
+    /// That of a configuration which nothing else is asked of.
+    ///
     /// # Errors
     /// Motions too many and too long for memory.
-    pub fn new(model: &Model, geometry: &Geometry, output: NodeId) -> Result<Self, SolveError> {
-        let kinematics = analyse_at(model, geometry)?;
-        let size = characteristic_length(geometry);
+    pub fn of(at: &Posture<'_>, output: NodeId) -> Result<Self, SolveError> {
+        let diagnosis = Diagnosis::default();
+        Ok(Self::new(at, diagnosis.kinematics(at)?, output))
+    }
+
+    /// That of a configuration whose motions are known.
+    pub fn new(at: &Posture<'_>, kinematics: &Kinematics, output: NodeId) -> Self {
+        let Posture {
+            model,
+            geometry,
+            size,
+            ..
+        } = *at;
         let (idle, moving) = split(&kinematics.motions, size, |motion| {
             scaled(&node_twist(motion, model, geometry, output.0), size)
         });
@@ -48,35 +61,26 @@ impl Restraint {
             .iter()
             .map(|m| scaled(&node_twist(m, model, geometry, output.0), size));
         let free_twists = orthonormal(twists.collect());
-        Ok(Self {
-            kinematics,
+        Self {
             idle,
             moving,
             free_twists,
             size,
-        })
+        }
     }
 
     /// Refuses loads that work on a motion that nothing resists.
-    pub fn check_loads(
-        &self,
-        model: &Model,
-        geometry: &Geometry,
-        acting: &[Acting],
-    ) -> Result<(), SolveError> {
+    pub fn check_loads(&self, at: &Posture<'_>, acting: &[Acting]) -> Result<(), SolveError> {
         acting
             .iter()
             .enumerate()
-            .try_for_each(|(set, acting)| self.check_state(model, geometry, set, acting))
+            .try_for_each(|(set, acting)| self.check_state(at, set, acting))
     }
 
-    fn check_state(
-        &self,
-        model: &Model,
-        geometry: &Geometry,
-        set: usize,
-        acting: &Acting,
-    ) -> Result<(), SolveError> {
+    fn check_state(&self, at: &Posture<'_>, set: usize, acting: &Acting) -> Result<(), SolveError> {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         let mut loads_on: HashMap<BodyId, Vec<usize>> = HashMap::new();
         for (k, (node, _)) in acting.nodes.iter().enumerate() {
             let body = model.nodes()[node.0].body;
@@ -88,7 +92,7 @@ impl Restraint {
             if let Some(largest) = working(motion, model, geometry, self.size, wrenches) {
                 let (node, _) = acting.nodes[largest];
                 let body = model.nodes()[node.0].body;
-                let motion = motion.describe_at(model, geometry);
+                let motion = describe(motion, model, geometry, self.size);
                 return Err(match acting.preloaded(largest) {
                     Some(joint) => SolveError::PreloadOnFreeMotion {
                         joint: model.joints()[joint.0].name.clone(),
@@ -109,13 +113,10 @@ impl Restraint {
 
     /// One inner coordinate a motion without energy, to be held at zero: the coordinates with
     /// the largest minor, by complete pivoting.
-    pub fn pins(
-        &self,
-        plan: &Plan,
-        model: &Model,
-        geometry: &Geometry,
-        workspace: &Workspace,
-    ) -> Vec<usize> {
+    pub fn pins(&self, plan: &Plan, at: &Posture<'_>, workspace: &Workspace) -> Vec<usize> {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         let moving = if plan.output_is_independent() {
             &[][..]
         } else {

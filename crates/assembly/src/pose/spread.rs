@@ -6,7 +6,7 @@
 //! and what they do is solved and recovered as a state of its own, a few times (the book,
 //! "Refinement").
 
-use hyperstat_model::{Geometry, Model, NodeId};
+use hyperstat_model::NodeId;
 use nalgebra::{Matrix6, Vector6};
 
 use super::precision::{BITS, Columns};
@@ -16,6 +16,7 @@ use crate::error::SolveError;
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, read, shift};
 use crate::plan::workspace::{LOADS, Workspace};
+use crate::posture::Posture;
 use crate::state::acting::Acting;
 
 /// Random choices of the signs.
@@ -34,8 +35,7 @@ impl Plan {
     /// independent. Leaves the sets' columns of the workspace spent.
     pub(crate) fn spread(
         &self,
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         workspace: &mut Workspace,
         (pins, compliance): (&[usize], Option<&Matrix6<f64>>),
         states: &[State],
@@ -45,11 +45,11 @@ impl Plan {
             return Ok(0.0);
         }
         let scales: Vec<Scales> = states.iter().map(Scales::of).collect();
-        let mut lost = self.summed_up(model, geometry, workspace, &scales);
+        let mut lost = self.summed_up(at, workspace, &scales);
         // Sizes of what rounds in deformations and in forces: by elements, then states.
         let mut roundings = Vec::with_capacity(self.elements.len());
         for element in &self.elements {
-            let sizes = self.operand_sizes(element, model, geometry, workspace)?;
+            let sizes = self.operand_sizes(element, at, workspace)?;
             let loaded = Columns {
                 values: &workspace.solutions[n * LOADS..],
                 initial: Some(&workspace.initial),
@@ -93,15 +93,7 @@ impl Plan {
                 self.find_remainder(workspace, pins, compliance, column);
                 let (acting, floor) = (&nothing, &state.floor.of_nothing());
                 let output = Vector6::zeros();
-                let moved = recover(
-                    self,
-                    model,
-                    geometry,
-                    workspace,
-                    set,
-                    (acting, floor),
-                    output,
-                )?;
+                let moved = recover(self, at, workspace, set, (acting, floor), output)?;
                 lost = lost.max(scales.share(&moved.state));
             }
         }
@@ -109,13 +101,10 @@ impl Plan {
     }
 
     /// The rounding of displacements summed up from those of the IDCs.
-    fn summed_up(
-        &self,
-        model: &Model,
-        geometry: &Geometry,
-        workspace: &Workspace,
-        scales: &[Scales],
-    ) -> f64 {
+    fn summed_up(&self, at: &Posture<'_>, workspace: &Workspace, scales: &[Scales]) -> f64 {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         let n = self.unknowns;
         let mut lost = 0.0_f64;
         for (set, scales) in scales.iter().enumerate() {

@@ -1,12 +1,13 @@
 //! Springs: elastic directions that no subassembly absorbs.
 
-use hyperstat_model::{Geometry, JointId, Model, to_directions};
+use hyperstat_model::JointId;
 use nalgebra::Vector6;
 
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
 use crate::plan::elements::ElementPlan;
 use crate::plan::workspace::Workspace;
+use crate::posture::Posture;
 use crate::state::offsets::offset;
 use crate::state::preload::spring_misfit;
 
@@ -14,13 +15,15 @@ pub(crate) fn spring_element(
     plan: &Plan,
     element: &ElementPlan,
     joint: JointId,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &mut Workspace,
 ) {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let entry = &model.joints()[joint.0];
     let role = &plan.topology.joints[joint.0];
-    let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
+    let local = at.to_directions(joint);
     let rows = element.rows;
     let start = element.operator_start;
     workspace.operators[start..start + rows * element.columns.len()].fill(0.0);
@@ -53,10 +56,12 @@ pub(crate) fn spring_initial(
     plan: &Plan,
     element: &ElementPlan,
     joint: JointId,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     workspace: &mut Workspace,
 ) {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let entry = &model.joints()[joint.0];
     let role = &plan.topology.joints[joint.0];
     let own = model.misfit(joint);
@@ -66,7 +71,7 @@ pub(crate) fn spring_initial(
         let Some(node) = node else { continue };
         relative += offset(plan, geometry, workspace, *node) * sign;
     }
-    let local = to_directions(&entry.joint.basis(), &geometry.frames[joint.0]);
+    let local = at.to_directions(joint);
     start += local * relative;
     for state in workspace.initial.chunks_exact_mut(plan.deformations) {
         let rows = &mut state[element.initial_start..element.initial_start + element.rows];

@@ -1,16 +1,16 @@
 //! The states of unit loads on the output, and the work that a state's forces do on another's
 //! deformations: what budgets and sensitivities are made of.
 
-use hyperstat_elements::{BeamLoad, ElementError, rotate_vector6};
-use hyperstat_joints::{Dof, DofSet};
-use hyperstat_model::{
-    Directions, JointId, LoadSet, Model, SegmentBeam, SegmentId, segment_beam, to_directions,
-};
-use nalgebra::{DVector, Matrix6, Rotation3, Vector6};
+use std::sync::Arc;
 
-use crate::answer::solution::{SegmentForces, Solution};
+use hyperstat_elements::{BeamLoad, rotate_vector6};
+use hyperstat_joints::{Dof, DofSet};
+use hyperstat_model::{Directions, Geometry, JointId, LoadSet, Model, NodeId, SegmentId};
+use nalgebra::{DVector, Matrix6, Vector6};
+
+use crate::answer::solution::{SegmentForces, Solution, State as Displaced};
 use crate::error::SolveError;
-use crate::plan::Plan;
+use crate::posture::{PlacedBeam, Posture};
 use crate::state::preload::along;
 
 /// The states of a model under a unit of each component of a wrench on its output (N, N·m, global
@@ -21,12 +21,13 @@ use crate::state::preload::along;
 #[derive(Debug)]
 pub struct Influence<'m> {
     pub(crate) model: &'m Model,
+    pub(crate) geometry: &'m Geometry,
+    /// The mechanism's size (m).
+    pub(crate) size: f64,
     pub(crate) units: [State; 6],
     /// Displacement of every node in each of them, global axes.
     pub(crate) displacements: [Vec<Vector6<f64>>; 6],
-    pub(crate) beams: Vec<SegmentBeam>,
-    /// Frame of every segment.
-    pub(crate) frames: Vec<Rotation3<f64>>,
+    pub(crate) beams: Arc<[PlacedBeam]>,
     pub(crate) joints: Vec<ElasticDirections>,
 }
 
@@ -56,40 +57,34 @@ pub(crate) struct ElasticDirections {
 }
 
 impl<'m> Influence<'m> {
-    /// Solves the unit states of a model in its own configuration.
-    ///
-    /// # Errors
-    /// As [`Plan::solve`]; a wrench on an output that moves freely is a load on a free motion.
-    pub fn new(model: &'m Model) -> Result<Self, SolveError> {
-        let plan = Plan::new(model)?;
-        let output = model.output().ok_or(SolveError::NoOutput)?;
-        let beams = (0..model.segments().len())
-            .map(|k| segment_beam(model, model.geometry(), SegmentId(k)))
-            .collect::<Result<Vec<_>, ElementError>>()?;
-        let (beams, frames) = (beams.into_iter())
-            .map(|(beam, frame, _)| (beam, frame))
-            .unzip();
-        let joints = model.joints().iter().zip(&model.geometry().frames);
-        let joints = joints
-            .map(|(joint, frame)| {
-                let basis = joint.joint.basis();
-                ElasticDirections {
-                    directions: Directions::of(joint),
-                    to_directions: to_directions(&basis, frame),
-                    basis,
-                }
-            })
-            .collect();
+    /// The loads whose states it is made of: a unit of each component of a wrench on the output.
+    pub(crate) fn units(output: NodeId) -> [LoadSet; 6] {
+        [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)))
+    }
+
+    /// From the states under [those loads](Self::units).
+    pub(crate) fn new(
+        model: &'m Model,
+        geometry: &'m Geometry,
+        at: &Posture<'_>,
+        states: Vec<Displaced>,
+    ) -> Result<Self, SolveError> {
+        let joints = model.joints().iter().enumerate();
+        let joints = joints.map(|(k, joint)| ElasticDirections {
+            directions: Directions::of(joint),
+            basis: joint.joint.basis(),
+            to_directions: at.to_directions(JointId(k)),
+        });
         let mut influence = Self {
             model,
+            geometry,
+            size: at.size,
             units: std::array::from_fn(|_| State::empty()),
             displacements: std::array::from_fn(|_| Vec::new()),
-            beams,
-            frames,
-            joints,
+            beams: at.beams()?,
+            joints: joints.collect(),
         };
-        let sets = [0, 1, 2, 3, 4, 5].map(|k| LoadSet::on(output, Vector6::ith(k, 1.0)));
-        for (k, state) in plan.respond(model, &sets)?.into_iter().enumerate() {
+        for (k, state) in states.into_iter().enumerate() {
             influence.units[k] =
                 influence.state_of(&state.displacements, &state.joint_wrenches, &state.segments);
             influence.displacements[k] = state.displacements;
@@ -139,10 +134,10 @@ impl<'m> Influence<'m> {
         let joints = (0..model.joints().len())
             .map(|k| self.joint_state(JointId(k), displacements, wrenches))
             .collect();
-        let displacement = |node: hyperstat_model::NodeId| displacements[node.0];
+        let displacement = |node: NodeId| displacements[node.0];
         let flexibles = (model.flexibles().iter().enumerate())
             .map(|(k, flexible)| {
-                let geometry = model.geometry();
+                let geometry = self.geometry;
                 let nodes = &model.bodies()[flexible.body.0].nodes;
                 let to_body = geometry.rotations[k].inverse();
                 let first = displacement(nodes[0]);
@@ -213,7 +208,7 @@ impl<'m> Influence<'m> {
     ) -> Vector6<f64> {
         let load = state.load(segment);
         let (end, virtual_end) = (&state.ends[segment.0], &unit.ends[segment.0]);
-        let beam = self.beams[segment.0].straight();
+        let beam = self.beams[segment.0].beam.straight();
         beam.elastic_work(end, &load, virtual_end, weight)
     }
 
@@ -227,7 +222,7 @@ impl<'m> Influence<'m> {
         let elastic = self.segment_work(segment, state, unit, &|_| Vector6::repeat(1.0));
         let load = state.load(segment);
         let (end, virtual_end) = (&state.ends[segment.0], &unit.ends[segment.0]);
-        let beam = self.beams[segment.0].straight();
+        let beam = self.beams[segment.0].beam.straight();
         let whole = beam.virtual_work(end, &load, virtual_end);
         (elastic, (whole - elastic).sum())
     }

@@ -5,7 +5,7 @@
 //! displacement δ of the free end, `Rᵀ u₁ + f₂ᵀ δ`, with u₁ and f₂ those of the unit wrench.
 
 use hyperstat_elements::rotate_vector6;
-use hyperstat_model::{NodeId, SegmentId, characteristic_length};
+use hyperstat_model::{NodeId, SegmentId};
 use nalgebra::Vector6;
 
 use super::influence::Influence;
@@ -40,11 +40,12 @@ impl Influence<'_> {
             change.wrenches.push((model.masses()[mass].node, force));
         }
         for (id, own) in &varied.segments {
-            let (segment, frame) = (&model.segments()[id.0], &self.frames[id.0]);
+            let placed = &self.beams[id.0];
+            let (segment, frame) = (&model.segments()[id.0], &placed.frame);
             let temperature = model.bodies()[segment.body.0].temperature;
             let load = own.load(segment, &(frame.inverse() * gravity), temperature)?;
             let Some(load) = load else { continue };
-            let beam = self.beams[id.0].straight();
+            let beam = placed.beam.straight();
             let resultant = rotate_vector6(&load.resultant(beam.length()), frame);
             change.wrenches.push((segment.ends[0], resultant));
             change.free_ends.push((*id, beam.free_end(&load)));
@@ -70,8 +71,7 @@ impl Influence<'_> {
     /// Whether it works on one of these motions, which nothing resists: with any more of the
     /// parameter the mechanism is in balance no longer.
     pub(crate) fn unbalances(&self, change: &LoadChange, motions: &[Motion]) -> bool {
-        let geometry = self.model.geometry();
-        let size = characteristic_length(geometry);
+        let (geometry, size) = (self.geometry, self.size);
         let wrenches = || change.wrenches.iter().enumerate();
         (motions.iter())
             .any(|motion| working(motion, self.model, geometry, size, wrenches()).is_some())

@@ -5,14 +5,13 @@
 //! deformation that the segment starts from, less the free end's displacement δ: the wrench on its
 //! second node is k (u₂ − M u₁ − δ), that on its first follows from equilibrium.
 
-use hyperstat_elements::{
-    BeamLoad, LineMass, Taper, TemperatureChange, element_frame, rotate_vector6,
-};
-use hyperstat_model::{Geometry, JointId, LoadSet, Model, NodeId, SegmentId};
-use nalgebra::{Rotation3, Vector3, Vector6};
+use hyperstat_elements::{BeamLoad, LineMass, Taper, TemperatureChange, rotate_vector6};
+use hyperstat_model::{JointId, LoadSet, NodeId, SegmentId};
+use nalgebra::{Vector3, Vector6};
 
 use super::preload::preloads;
 use crate::error::SolveError;
+use crate::posture::Posture;
 
 /// What acts in one state.
 #[derive(Debug, Clone)]
@@ -30,12 +29,13 @@ pub(crate) struct Acting {
 
 impl Acting {
     /// The states of a model: its own loads, then its cases, each with what acts in all of them.
-    pub fn of_model(model: &Model, geometry: &Geometry) -> Result<Vec<Self>, SolveError> {
-        let always = Self::always(model, geometry)?;
+    pub fn of_model(at: &Posture<'_>) -> Result<Vec<Self>, SolveError> {
+        let Posture { model, .. } = *at;
+        let always = Self::always(at)?;
         let cases = model.cases().iter().map(|case| &case.loads);
         std::iter::once(model.load_set())
             .chain(cases)
-            .map(|set| Ok(Self::new(model, geometry, set)?.with(&always)))
+            .map(|set| Ok(Self::new(at, set)?.with(&always)))
             .collect()
     }
 
@@ -50,7 +50,7 @@ impl Acting {
     }
 
     /// A set of loads alone.
-    pub fn new(model: &Model, geometry: &Geometry, set: &LoadSet) -> Result<Self, SolveError> {
+    pub fn new(at: &Posture<'_>, set: &LoadSet) -> Result<Self, SolveError> {
         let mut acting = Self {
             nodes: Vec::with_capacity(set.nodes.len()),
             preloaded: (0, Vec::new()),
@@ -58,24 +58,25 @@ impl Acting {
             misfits: false,
         };
         for load in &set.nodes {
-            let rotation = load.axes.rotation(model, geometry)?;
+            let rotation = load.axes.rotation(at.model, at.geometry)?;
             let wrench = rotate_vector6(&load.wrench, &rotation);
             acting.nodes.push((load.node, wrench));
         }
         let mut along = Vec::with_capacity(set.lines.len());
         for load in &set.lines {
-            let frame = segment_frame(model, geometry, load.segment)?;
-            let turn = frame.inverse() * load.axes.rotation(model, geometry)?;
+            let frame = at.segment_frame(load.segment)?;
+            let turn = frame.inverse() * load.axes.rotation(at.model, at.geometry)?;
             let [first, second] = load.ends.map(|end| rotate_vector6(&end, &turn));
             along.push((load.segment, BeamLoad::linear(first, second)));
         }
-        acting.add_along(model, geometry, along)?;
+        acting.add_along(at, along)?;
         Ok(acting)
     }
 
     /// What acts in every state: misfits and preloads, weight and temperatures.
-    fn always(model: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
-        let (joints, nodes) = preloads(model, geometry).into_iter().unzip();
+    fn always(at: &Posture<'_>) -> Result<Self, SolveError> {
+        let Posture { model, .. } = *at;
+        let (joints, nodes) = preloads(at).into_iter().unzip();
         let mut acting = Self {
             nodes,
             preloaded: (0, joints),
@@ -104,7 +105,7 @@ impl Acting {
                 along.push((id, BeamLoad::temperature(expansion, &change)));
             }
             if heavy {
-                let frame = segment_frame(model, geometry, id)?;
+                let frame = at.segment_frame(id)?;
                 let density = segment.material.density();
                 let density = density.ok_or_else(|| SolveError::NoDensity {
                     body: model.bodies()[segment.body.0].name.clone(),
@@ -117,22 +118,24 @@ impl Acting {
                 along.push((id, mass.weight(&(frame.inverse() * gravity))));
             }
         }
-        acting.add_along(model, geometry, along)?;
+        acting.add_along(at, along)?;
         Ok(acting)
     }
 
     /// Adds loads along segments, element frames, and their resultants at first nodes.
     fn add_along(
         &mut self,
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         mut along: Vec<(SegmentId, BeamLoad)>,
     ) -> Result<(), SolveError> {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         along.sort_by_key(|(segment, _)| *segment);
         for (segment, load) in &along {
             let [a, b] = model.segments()[segment.0].ends;
             let length = (geometry.positions[b.0] - geometry.positions[a.0]).norm();
-            let frame = segment_frame(model, geometry, *segment)?;
+            let frame = at.segment_frame(*segment)?;
             let resultant = load.resultant(length);
             if resultant != Vector6::zeros() {
                 self.nodes.push((a, rotate_vector6(&resultant, &frame)));
@@ -186,15 +189,4 @@ impl Acting {
         let on_node = self.nodes.iter().filter(|(n, _)| *n == node);
         on_node.map(|(_, wrench)| wrench).sum()
     }
-}
-
-/// Frame of a segment.
-fn segment_frame(
-    model: &Model,
-    geometry: &Geometry,
-    segment: SegmentId,
-) -> Result<Rotation3<f64>, SolveError> {
-    let [a, b] = model.segments()[segment.0].ends;
-    let span = geometry.positions[b.0] - geometry.positions[a.0];
-    Ok(element_frame(&span, geometry.y_axes[segment.0].as_ref())?)
 }

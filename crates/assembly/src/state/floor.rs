@@ -6,12 +6,13 @@
 //! loads, preloads, misfits and heat could make of them: the solver tells results from rounding
 //! by it, and all comparisons with another solver have their floor from it.
 
-use hyperstat_model::{Directions, Geometry, Model, characteristic_length};
+use hyperstat_model::{Directions, Model};
 use nalgebra::{Matrix6, Vector6};
 
 use super::acting::Acting;
 use super::preload::spring_misfit;
 use crate::error::SolveError;
+use crate::posture::Posture;
 
 /// Numbers below this share of what acts are rounding: some tens of a double's last bit.
 pub(crate) const ROUNDING: f64 = 1e-14;
@@ -44,18 +45,17 @@ impl Floor {
     /// # Errors
     /// Loads in axes that are not known, a weight without density.
     pub fn of(model: &Model) -> Result<Self, SolveError> {
-        let geometry = model.geometry();
-        let acting = Acting::of_model(model, geometry)?;
+        let at = Posture::new(model, model.geometry());
+        let acting = Acting::of_model(&at)?;
         let own = acting.first().ok_or(SolveError::NoOutput)?;
-        Ok(Self::at_rest(model, geometry).under(model, geometry, own))
+        Ok(Self::at_rest(&at).under(&at, own))
     }
 
     /// Of a model on which nothing acts.
-    pub(crate) fn at_rest(model: &Model, geometry: &Geometry) -> Self {
-        let size = characteristic_length(geometry);
+    pub(crate) fn at_rest(at: &Posture<'_>) -> Self {
         Self {
-            size,
-            stiffness: stiffest(model, geometry, size),
+            size: at.size,
+            stiffness: stiffest(at),
             displacement: 0.0,
             force: 0.0,
         }
@@ -71,7 +71,10 @@ impl Floor {
     }
 
     /// With what acts in a state.
-    pub(crate) fn under(mut self, model: &Model, geometry: &Geometry, acting: &Acting) -> Self {
+    pub(crate) fn under(mut self, at: &Posture<'_>, acting: &Acting) -> Self {
+        let Posture {
+            model, geometry, ..
+        } = *at;
         for (_, wrench) in &acting.nodes {
             self.add_force(self.as_force(wrench));
         }
@@ -237,7 +240,13 @@ fn clear(vector: &mut Vector6<f64>, below: [f64; 2]) {
 
 /// Stiffness of the stiffest elastic body of a mechanism \[N/m\], of the stiffest spring where it has
 /// none.
-fn stiffest(model: &Model, geometry: &Geometry, size: f64) -> f64 {
+fn stiffest(at: &Posture<'_>) -> f64 {
+    let Posture {
+        model,
+        geometry,
+        size,
+        ..
+    } = *at;
     let beams = model.segments().iter().map(|segment| {
         let [a, b] = segment.ends.map(|node| geometry.positions[node.0]);
         segment.material.young() * segment.section.area() / (b - a).norm()

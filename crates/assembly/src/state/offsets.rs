@@ -7,9 +7,7 @@
 //! (the book, "Loads and states").
 
 use hyperstat_joints::JointError;
-use hyperstat_model::{
-    Geometry, JointId, Model, NodeId, characteristic_length, condition_rows, to_directions,
-};
+use hyperstat_model::{Geometry, JointId, NodeId, condition_rows};
 use nalgebra::{DVector, Vector6};
 
 use super::preload::{along, standing};
@@ -19,6 +17,7 @@ use crate::plan::coordinates::TreeBlocks;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
 use crate::plan::{Closed, Plan};
+use crate::posture::Posture;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 
 /// Misfits that leave a larger share of the largest open in a loop do not fit it: the conditions
@@ -31,27 +30,21 @@ const FITS: f64 = RANK_TOLERANCE;
 /// Misfits that do not fit loops of rigid bodies and joints.
 pub(crate) fn offsets(
     plan: &Plan,
-    model: &Model,
-    geometry: &Geometry,
+    at: &Posture<'_>,
     tree: &TreeBlocks,
 ) -> Result<Vec<Vector6<f64>>, Fault> {
+    let model = at.model;
     let rigid: Vec<(JointId, Vector6<f64>)> = (model.misfits().iter())
         .map(|entry| {
             let own = along(
                 &entry.misfit,
                 plan.topology.joints[entry.joint.0].directions.rigid,
             );
-            (entry.joint, standing(model, geometry, entry.joint, &own))
+            (entry.joint, standing(at, entry.joint, &own))
         })
         .filter(|(_, apart)| *apart != Vector6::zeros())
         .collect();
-    let pass = Pass {
-        plan,
-        model,
-        geometry,
-        tree,
-        size: characteristic_length(geometry),
-    };
+    let pass = Pass { plan, at, tree };
     let mut offsets = pass.along_trees(&rigid)?;
     for closed in &plan.closed {
         let Gap { particular, open } = pass.close(closed, &rigid, &offsets);
@@ -78,10 +71,8 @@ pub(crate) fn offsets(
 /// second bodies from first ones along rigid directions, global axes, in the joints' order.
 struct Pass<'a> {
     plan: &'a Plan,
-    model: &'a Model,
-    geometry: &'a Geometry,
+    at: &'a Posture<'a>,
     tree: &'a TreeBlocks,
-    size: f64,
 }
 
 /// How a loop's closing joints take misfits.
@@ -102,17 +93,17 @@ impl Pass<'_> {
         let mut offsets = vec![Vector6::zeros(); topology.carriers.len()];
         for tie in topology.components.iter().flat_map(|c| &c.ties) {
             let mut stands = self.apart(misfits, tie.joint);
-            let connection = &self.model.joints()[tie.joint.0];
+            let connection = &self.at.model.joints()[tie.joint.0];
             if connection.between[1] != Some(tie.child_node) {
                 stands = -stands;
             }
             if let (Some(parent), Some(node)) = (tie.parent, tie.parent_node) {
                 let reference = topology.carriers[parent].reference;
-                stands += shift(self.geometry, reference, node) * offsets[parent];
+                stands += shift(self.at.geometry, reference, node) * offsets[parent];
             }
             if stands != Vector6::zeros() {
                 let moving = topology.joints[tie.joint.0].moving;
-                let frame = &self.geometry.frames[tie.joint.0];
+                let frame = &self.at.geometry.frames[tie.joint.0];
                 offsets[tie.child] = connection.joint.mapping(frame, moving)?.n_j() * stands;
             }
         }
@@ -130,38 +121,31 @@ impl Pass<'_> {
         let component = &topology.components[closed.component];
         let over_size = |mut u: Vector6<f64>| {
             for k in 0..3 {
-                u[k] /= self.size;
+                u[k] /= self.at.size;
             }
             u
         };
         let mut right_side = Vec::new();
         let mut largest = 0.0_f64;
         for joint in &component.closings {
-            let connection = &self.model.joints()[joint.0];
+            let connection = &self.at.model.joints()[joint.0];
             let mut asked = -over_size(self.apart(misfits, *joint));
             largest = largest.max(asked.amax());
             for (node, sign) in connection.between.iter().zip([-1.0, 1.0]) {
                 let Some(node) = node else { continue };
                 let carrier = topology.carrier_of[node.0];
                 let reference = topology.carriers[carrier].reference;
-                let own = over_size(shift(self.geometry, reference, *node) * offsets[carrier]);
+                let own = over_size(shift(self.at.geometry, reference, *node) * offsets[carrier]);
                 largest = largest.max(own.amax());
                 asked += own * sign;
             }
-            let frame = &self.geometry.frames[joint.0];
-            let local = to_directions(&connection.joint.basis(), frame);
+            let local = self.at.to_directions(*joint);
             let rigid = topology.joints[joint.0].moving.complement();
-            let rows = condition_rows(&local, rigid, self.size);
+            let rows = condition_rows(&local, rigid, self.at.size);
             right_side.extend(rows.map(|condition| (condition * asked)[0]));
         }
-        let Self {
-            plan,
-            model,
-            geometry,
-            tree,
-            size,
-        } = *self;
-        let conditions = tree.closing_conditions(component, &plan.topology, model, geometry, size);
+        let (tree, size) = (self.tree, self.at.size);
+        let conditions = tree.closing_conditions(component, topology, self.at);
         let right_side = DVector::from_vec(right_side);
         let solve = |right_side| {
             let conditions = conditions.clone();
@@ -195,7 +179,7 @@ impl Pass<'_> {
             }
         }
         let named = if alone.is_empty() { misfits } else { &alone };
-        let name = |(joint, _): &(JointId, _)| self.model.joints()[joint.0].name.clone();
+        let name = |(joint, _): &(JointId, _)| self.at.model.joints()[joint.0].name.clone();
         Ok(named.iter().map(name).collect())
     }
 

@@ -1,10 +1,10 @@
 //! Preloads of joints, and what misfits do to springs.
 
 use hyperstat_joints::DofSet;
-use hyperstat_model::{
-    Directions, Geometry, JointId, Misfit, Model, NodeId, rotation6, to_directions,
-};
+use hyperstat_model::{Directions, JointId, Misfit, NodeId, rotation6};
 use nalgebra::Vector6;
+
+use crate::posture::Posture;
 
 /// The part of `values` along some directions.
 pub(crate) fn along(values: &Vector6<f64>, directions: DofSet) -> Vector6<f64> {
@@ -35,10 +35,8 @@ pub(crate) fn loose_preload(directions: &Directions, entry: &Misfit) -> Vector6<
 }
 
 /// The wrenches on nodes, global axes, that preloads of joints make.
-pub(crate) fn preloads(
-    model: &Model,
-    geometry: &Geometry,
-) -> Vec<(JointId, (NodeId, Vector6<f64>))> {
+pub(crate) fn preloads(at: &Posture<'_>) -> Vec<(JointId, (NodeId, Vector6<f64>))> {
+    let model = at.model;
     let mut wrenches = Vec::new();
     for entry in model.misfits() {
         let joint = &model.joints()[entry.joint.0];
@@ -46,7 +44,7 @@ pub(crate) fn preloads(
         if preload == Vector6::zeros() {
             continue;
         }
-        let local = to_directions(&joint.joint.basis(), &geometry.frames[entry.joint.0]);
+        let local = at.to_directions(entry.joint);
         let on_second = local.transpose() * preload;
         let sides = joint.between.iter().zip([-on_second, on_second]);
         wrenches.extend(sides.filter_map(|(node, wrench)| Some((entry.joint, ((*node)?, wrench)))));
@@ -55,12 +53,10 @@ pub(crate) fn preloads(
 }
 
 /// Displacement of a joint's second body from its first, global axes, of a misfit by directions.
-pub(crate) fn standing(
-    model: &Model,
-    geometry: &Geometry,
-    joint: JointId,
-    misfit: &Vector6<f64>,
-) -> Vector6<f64> {
+pub(crate) fn standing(at: &Posture<'_>, joint: JointId, misfit: &Vector6<f64>) -> Vector6<f64> {
+    let Posture {
+        model, geometry, ..
+    } = *at;
     let basis = model.joints()[joint.0].joint.basis();
     rotation6(&geometry.frames[joint.0]) * (basis * misfit)
 }

@@ -3,7 +3,7 @@
 
 use hyperstat_assembly::{
     Axes, BodyId, Connection, Geometry, JointId, JointStiffness, LANES, LineLoad, Load, LoadCase,
-    LoadSet, ModalOptions, ModalPlan, Model, ModelError, NodeId, Plan, SegmentId, SolveError,
+    LoadSet, ModalOptions, ModalPlan, Model, ModelError, NodeId, Prepared, SegmentId, SolveError,
     analyse, modes, section_wrench, segment_displacement, solve,
 };
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
@@ -73,7 +73,7 @@ fn a_joint_of_two_points_that_are_not_one_is_refused() {
 #[test]
 fn a_pose_that_takes_a_joint_apart_is_refused() {
     let model = bar_and_plate(0.5, 0.0);
-    let plan = Plan::new(&model).expect("a plan");
+    let prepared = Prepared::new(model.clone());
     let mut parted = model.geometry().clone();
     parted.positions[model.node("plate", "P").expect("a node").0].y += 0.1;
     let is_apart = |error: SolveError| {
@@ -82,12 +82,12 @@ fn a_pose_that_takes_a_joint_apart_is_refused() {
             "{error}"
         );
     };
-    let one = plan.sweep(&model, &parted, &mut plan.workspace());
+    let one = prepared.sweep(&parted, &mut prepared.workspace().expect("a plan"));
     is_apart(one.expect_err("apart"));
-    let mut lanes = plan.lanes(&model);
+    let mut lanes = prepared.lanes().expect("a plan");
     assert!(lanes.is_parallel());
     lanes.geometry_mut(2).clone_from(&parted);
-    let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
     for (pose, found) in found.into_iter().enumerate() {
         match (pose, found.expect("a result")) {
             (2, found) => is_apart(found.expect_err("apart")),
@@ -96,9 +96,10 @@ fn a_pose_that_takes_a_joint_apart_is_refused() {
     }
     let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
     is_apart(modal.frequencies(&parted).expect_err("apart"));
-    let mut moved = model.clone();
+    is_apart(prepared.at(&parted).expect_err("apart"));
+    let mut moved = prepared.model().clone();
     moved.set_geometry(parted).expect("of its size");
-    is_apart(plan.solve(&moved).expect_err("apart"));
+    is_apart(Prepared::new(moved).here().solve().expect_err("apart"));
 }
 
 #[test]
@@ -154,8 +155,8 @@ fn ids_of_another_model_are_refused() {
     };
     let added = model.add_joint(connection, Rotation3::identity());
     assert_eq!(added, Err(node.clone()));
-    let plan = Plan::new(&model).expect("a plan");
-    let respond = plan.respond(&model, &[on_node]);
+    let prepared = Prepared::new(model.clone());
+    let respond = prepared.here().respond(&[on_node]);
     assert_eq!(
         respond.expect_err("foreign"),
         SolveError::Model(node.clone())
@@ -187,7 +188,7 @@ fn ids_of_another_model_are_refused() {
 #[test]
 fn geometries_of_another_model_are_refused() {
     let mut model = bar_and_plate(0.5, 0.0);
-    let plan = Plan::new(&model).expect("a plan");
+    let prepared = Prepared::new(model.clone());
     let whole = model.geometry().clone();
     let changes: [fn(&mut Geometry); 5] = [
         |g| {
@@ -208,32 +209,28 @@ fn geometries_of_another_model_are_refused() {
         let set = model.set_geometry(foreign.clone());
         is_foreign(set.expect_err("foreign").into());
         assert_eq!(*model.geometry(), whole);
-        let swept = plan.sweep(&model, &foreign, &mut plan.workspace());
+        let swept = prepared.sweep(&foreign, &mut prepared.workspace().expect("a plan"));
         is_foreign(swept.expect_err("foreign"));
-        let mut lanes = plan.lanes(&model);
+        let mut lanes = prepared.lanes().expect("a plan");
         lanes.geometry_mut(LANES - 1).clone_from(&foreign);
-        let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+        let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
         for (pose, found) in found.into_iter().enumerate() {
             match found.expect("a result") {
                 Err(error) if pose == LANES - 1 => is_foreign(error),
                 found => assert!(found.is_ok() && pose < LANES - 1),
             }
         }
+        is_foreign(prepared.at(&foreign).expect_err("foreign"));
         let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
         is_foreign(modal.frequencies(&foreign).expect_err("foreign"));
     }
 }
 
+/// Whatever a design shares with the first, its answers are its own.
 #[test]
-fn plans_serve_models_that_are_like_theirs() {
+fn designs_have_their_own_answers() {
     let model = bar_and_plate(0.5, 0.0);
-    let plan = Plan::new(&model).expect("a plan");
-    // Another one with the same bodies, joints and output: its own result.
-    let longer = bar_and_plate(0.7, 0.0);
-    let found = plan.solve(&longer).expect("a solution");
-    let expected = solve(&longer).expect("a solution");
-    assert_eq!(found.output.displacement, expected.output.displacement);
-
+    let prepared = Prepared::new(model.clone());
     let mut welded = model.clone();
     let third = Connection {
         name: "third".into(),
@@ -247,29 +244,37 @@ fn plans_serve_models_that_are_like_theirs() {
         .expect("a joint");
     let mut elsewhere = model.clone();
     elsewhere.set_output(model.node("bar", "B").expect("a node"));
-    for other in [&welded, &elsewhere] {
-        let error = plan.solve(other).expect_err("another model");
-        assert_eq!(error, SolveError::ForeignModel);
-        let geometry = other.geometry();
-        let swept = plan.sweep(other, geometry, &mut plan.workspace());
-        assert_eq!(swept.expect_err("another model"), SolveError::ForeignModel);
-        let respond = plan.respond(other, &[]);
-        assert_eq!(
-            respond.expect_err("another model"),
-            SolveError::ForeignModel
-        );
-        let mut lanes = plan.lanes(other);
-        let found = plan.sweep_lanes(other, &mut lanes, [true; LANES]);
-        let found = found.map(|found| found.expect("a result").expect_err("another model"));
-        assert_eq!(found, [const { SolveError::ForeignModel }; LANES]);
+    // Of the same bodies, joints and output; of other joints; of another output.
+    for other in [bar_and_plate(0.7, 0.0), welded, elsewhere] {
+        let expected = solve(&other).expect("a solution");
+        let geometry = other.geometry().clone();
+        let design = prepared.for_design(other).expect("a plan");
+        let found = design.here().solve().expect("a solution");
+        assert_eq!(found.output.displacement, expected.output.displacement);
+        assert_eq!(found.unknowns, expected.unknowns);
+        let mut workspace = design.workspace().expect("a plan");
+        let swept = design.sweep(&geometry, &mut workspace).expect("a result");
+        let swept = swept.displacement.expect("a held output");
+        let difference = (swept - expected.output.displacement).amax();
+        assert!(difference <= 1e-11 * swept.amax());
     }
-    // Lanes hold what acts, too.
-    let mut lanes = plan.lanes(&model);
-    let mut unloaded = model.clone();
-    unloaded.clear_loads();
-    let found = plan.sweep_lanes(&unloaded, &mut lanes, [true; LANES]);
-    let found = found.map(|found| found.expect("a result").expect_err("another model"));
-    assert_eq!(found, [const { SolveError::ForeignModel }; LANES]);
+}
+
+/// Who changes the model has it made ready anew: what was made for it before serves no longer.
+#[test]
+fn buffers_do_not_outlive_a_change_of_the_model() {
+    let mut prepared = Prepared::new(bar_and_plate(0.5, 0.0));
+    let sag = |prepared: &Prepared| prepared.here().solve().map(|s| s.output.displacement[1]);
+    assert!(sag(&prepared).expect("a solution") > 0.0);
+    let mut workspace = prepared.workspace().expect("a plan");
+    let mut lanes = prepared.lanes().expect("a plan");
+    prepared.model_mut().clear_loads();
+    assert_eq!(sag(&prepared).expect("a solution"), 0.0);
+    let swept = prepared.sweep(prepared.model().geometry(), &mut workspace);
+    assert_eq!(swept.expect_err("of before"), SolveError::ForeignWorkspace);
+    let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
+    let found = found.map(|found| found.expect("a result").expect_err("of before"));
+    assert_eq!(found, [const { SolveError::ForeignWorkspace }; LANES]);
 }
 
 /// Segments and bodies of another model are none of a solution's.
@@ -301,13 +306,13 @@ fn results_are_asked_of_their_own_model() {
 }
 
 #[test]
-fn buffers_serve_the_plan_that_made_them() {
+fn buffers_serve_the_mechanism_that_made_them() {
     let model = bar_and_plate(0.5, 0.0);
-    let [plan, other] = [(); 2].map(|()| Plan::new(&model).expect("a plan"));
-    let swept = plan.sweep(&model, model.geometry(), &mut other.workspace());
+    let [prepared, other] = [(); 2].map(|()| Prepared::new(model.clone()));
+    let swept = prepared.sweep(model.geometry(), &mut other.workspace().expect("a plan"));
     assert_eq!(swept.expect_err("foreign"), SolveError::ForeignWorkspace);
-    let mut lanes = other.lanes(&model);
-    let found = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+    let mut lanes = other.lanes().expect("a plan");
+    let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
     let found = found.map(|found| found.expect("a result").expect_err("foreign"));
     assert_eq!(found, [const { SolveError::ForeignWorkspace }; LANES]);
 }

@@ -1,7 +1,7 @@
 //! What is said of outputs that are held, free, or neither; and of bodies that nothing holds.
 
 use hyperstat_assembly::{
-    Connection, JointStiffness, Model, Plan, SolveError, Warning, analyse, solve,
+    Connection, JointStiffness, Model, Prepared, SolveError, Warning, analyse, solve,
 };
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{DofSet, Fixed, Joint, Planar, Revolute, Spherical, frame_from_axis};
@@ -149,8 +149,8 @@ fn a_load_on_a_free_motion_is_refused_and_named() {
     reversed.add_load(tip, load).expect("a load");
     let mut geometry = reversed.geometry().clone();
     geometry.positions[tip.0] = Point3::new(0.0, 0.4, 0.0);
-    let plan = Plan::new(&reversed).expect("a plan");
-    match plan.sweep(&reversed, &geometry, &mut plan.workspace()) {
+    let prepared = Prepared::new(reversed.clone());
+    match prepared.sweep(&geometry, &mut prepared.workspace().expect("a plan")) {
         Err(SolveError::LoadOnFreeMotion { motion, .. }) => {
             assert_eq!(motion, "`bar` turns about (0, 0, -1) through O");
         }

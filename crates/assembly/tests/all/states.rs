@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use hyperstat_assembly::{
     Axes, Connection, JointId, JointStiffness, LineLoad, Load, LoadCase, LoadSet, Model,
-    ModelError, NodeId, Plan, SegmentId, Solution, SolveError, solve,
+    ModelError, NodeId, Prepared, SegmentId, Solution, SolveError, solve,
 };
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{DofSet, Fixed, Prismatic, Revolute};
@@ -252,9 +252,9 @@ fn states_superpose_and_respond_takes_each_alone() {
         model.add_case(LoadCase { name, loads }).expect("a case");
     }
     model.set_gravity(gravity).expect("gravity");
-    let plan = Plan::new(&model).expect("a plan");
-    let alone = plan.respond(&model, &sets).expect("responses");
-    let all = plan.solve(&model).expect("a solution");
+    let prepared = Prepared::new(model.clone());
+    let alone = prepared.here().respond(&sets).expect("responses");
+    let all = prepared.here().solve().expect("a solution");
     assert_eq!(all.cases.len(), 3);
     let size = all.output.displacement.amax();
     let summed = sum(alone.iter().map(|s| &s.output)) + weight_alone.output.displacement;
@@ -282,7 +282,7 @@ fn states_superpose_and_respond_takes_each_alone() {
         assert!(difference.amax() < 1e-12 * size, "node {n}");
     }
     // The sweep finds the same.
-    let found = plan.sweep(&model, model.geometry(), &mut plan.workspace());
+    let found = prepared.sweep(model.geometry(), &mut prepared.workspace().expect("a plan"));
     let found = found.expect("a result");
     assert_eq!(found.cases.len(), 3);
     for (found, case) in found.cases.iter().zip(&all.cases) {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use hyperstat_assembly::{Geometry, Model, Plan};
+use hyperstat_assembly::{Geometry, Model, Prepared};
 use hyperstat_closure::{Configuration, LoopClosure, Target};
 use hyperstat_elements::element_frame;
 use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str, write};
@@ -54,9 +54,9 @@ pub fn asked(case: &Case, pose: &[f64]) -> [Option<f64>; 6] {
     asked
 }
 
-fn stiffness(model: &Model, plan: &Plan, geometry: &Geometry) -> Matrix6<f64> {
-    let mut workspace = plan.workspace();
-    let result = plan.sweep(model, geometry, &mut workspace);
+fn stiffness(prepared: &Prepared, geometry: &Geometry) -> Matrix6<f64> {
+    let mut workspace = prepared.workspace().expect("a plan");
+    let result = prepared.sweep(geometry, &mut workspace);
     result
         .expect("a solution")
         .stiffness
@@ -102,7 +102,7 @@ fn check(
     closure: &LoopClosure,
     from: &Configuration,
     model: &Model,
-    plan: &Plan,
+    prepared: &Prepared,
     pose: &[f64],
 ) -> Result<Option<Configuration>, TestCaseError> {
     let mut wanted = model.geometry().clone();
@@ -133,7 +133,7 @@ fn check(
             "{what}: {pose_found:?}, not {whole:?}"
         );
     }
-    let [found, wanted] = [found, wanted].map(|geometry| stiffness(model, plan, &geometry));
+    let [found, wanted] = [found, wanted].map(|geometry| stiffness(prepared, &geometry));
     let difference = stiffness_difference(&found, &wanted);
     prop_assert!(difference <= STIFFNESS, "{what}: K_o {difference:e}");
     Ok(Some(reached))
@@ -145,7 +145,7 @@ fn files_reach_the_poses_of_the_closed_forms() {
     for case in cases() {
         let model = file(&case);
         let closure = LoopClosure::new(&model).expect("a linkage");
-        let plan = Plan::new(&model).expect("a plan");
+        let prepared = Prepared::new(model.clone());
         let mut reached = 0;
         let count = case.home.len();
         let units = proptest::collection::vec(-1.0..1.0_f64, 2 * count);
@@ -166,7 +166,7 @@ fn files_reach_the_poses_of_the_closed_forms() {
                         .zip(offsets)
                         .map(|(c, (u, s))| c + s * u)
                         .collect();
-                    if let Some(next) = check(&case, &closure, &from, &model, &plan, &pose)? {
+                    if let Some(next) = check(&case, &closure, &from, &model, &prepared, &pose)? {
                         from = next;
                         counter.set(counter.get() + 1);
                     }
@@ -191,7 +191,7 @@ fn small_travels_are_made_too() {
     for case in cases() {
         let model = file(&case);
         let closure = LoopClosure::new(&model).expect("a linkage");
-        let plan = Plan::new(&model).expect("a plan");
+        let prepared = Prepared::new(model.clone());
         let near = [1e-5, 1e-6, -1e-7].into_iter().flat_map(|step| {
             let moved = |k: usize| {
                 let mut pose = case.home.clone();
@@ -210,7 +210,7 @@ fn small_travels_are_made_too() {
             poses.push(pose.into());
         }
         for pose in poses {
-            let reached = check(&case, &closure, &closure.home(), &model, &plan, &pose);
+            let reached = check(&case, &closure, &closure.home(), &model, &prepared, &pose);
             let reached = reached.unwrap_or_else(|error| panic!("{error}"));
             assert!(reached.is_some(), "{pose:?} is in reach");
         }

@@ -2,7 +2,7 @@
 //! there: a carriage on a rail against Euler–Bernoulli's beam clamped at both ends, a crank given by
 //! its stiffness against the same crank as a beam; and a joint past which neither body can slide.
 
-use hyperstat_assembly::{Geometry, Model, Plan};
+use hyperstat_assembly::{Geometry, Model, Prepared};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
 use hyperstat_elements::{Beam, Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, Revolute, frame_from_axis, rigid_motion};
@@ -27,8 +27,8 @@ fn moved(model: &Model, target: &Target<'_>) -> Result<Geometry, ClosureError> {
 }
 
 fn stiffness(model: &Model, geometry: &Geometry) -> Matrix6<f64> {
-    let plan = Plan::new(model).expect("a plan");
-    let found = plan.sweep(model, geometry, &mut plan.workspace());
+    let prepared = Prepared::new(model.clone());
+    let found = prepared.sweep(geometry, &mut prepared.workspace().expect("a plan"));
     found.expect("a result").stiffness.expect("a stiffness")
 }
 

@@ -1,7 +1,7 @@
 //! Random mechanisms: what a factor on all stiffness, or on all mass, does.
 
 use hyperstat_assembly::{
-    BeamMass, BodyKind, Influence, ModalOptions, ModalPlan, Model, SolveError, analyse, solve,
+    BeamMass, BodyKind, ModalOptions, ModalPlan, Model, Prepared, SolveError, analyse,
 };
 use hyperstat_elements::RigidMass;
 use hyperstat_tests::random::check_random_mechanisms;
@@ -76,7 +76,9 @@ fn weight_on_any_topology() {
         let gravity = Vector3::new(1.0, -2.0, -9.0);
         model.set_gravity(gravity).expect("densities");
         // Weight may work on what moves freely, and the output may.
-        let (Ok(solution), Ok(influence)) = (solve(&model), Influence::new(&model)) else {
+        let prepared = Prepared::new(model.clone());
+        let here = prepared.here();
+        let (Ok(solution), Ok(influence)) = (here.solve(), here.influence()) else {
             return Ok(false);
         };
         let found = influence.sensitivities(&solution).expect("derivatives");

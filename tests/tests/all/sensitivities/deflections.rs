@@ -1,6 +1,6 @@
 //! Derivatives of deflections under weight, temperature and loads along beams.
 
-use hyperstat_assembly::{Influence, Parameter, solve};
+use hyperstat_assembly::{Parameter, Prepared, solve};
 use hyperstat_tests::reference_text;
 use nalgebra::Vector6;
 
@@ -10,7 +10,8 @@ use super::{console, label, larger, near, read, slope, value};
 fn of_deflection(text: &str, component: usize) -> impl Fn(&str) -> f64 + use<> {
     let model = read(text);
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let found = influence.sensitivities(&solution).expect("derivatives");
     let along = Vector6::ith(component, 1.0);
     move |name| {
@@ -154,7 +155,8 @@ fn deflections_by_differences() {
         let model = read(&text);
         let solution = solve(&model).expect("a solution");
         let push = solution.of_case("push").expect("a case");
-        let influence = Influence::new(&model).expect("a held output");
+        let prepared = Prepared::new(model.clone());
+        let influence = prepared.here().influence().expect("a held output");
         let found = [&solution, &push].map(|s| influence.sensitivities(s).expect("derivatives"));
         for (name, written) in parameters {
             let expected = slope::<12>(|part| {
@@ -218,7 +220,8 @@ fn what_would_unbalance_has_no_derivative() {
     let model = read(&text);
     let solution = solve(&model).expect("a solution");
     assert_eq!(solution.idle.len(), 1);
-    let influence = Influence::new(&model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     let found = influence.sensitivities(&solution).expect("derivatives");
     for sensitivity in &found {
         let unbalances = matches!(sensitivity.parameter, Parameter::Mass { .. });

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use hyperstat_assembly::{Influence, ModalOptions, ModalPlan, Model, Sensitivity, solve};
+use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Prepared, Sensitivity, solve};
 use hyperstat_mechanisms::{Batch, Disk, Registry, batch_from_str};
 
 fn batch(text: &str) -> Batch {
@@ -28,7 +28,8 @@ fn model(text: &str, job: &str, design: usize) -> Model {
 
 fn sensitivities(model: &Model) -> Vec<Sensitivity> {
     let solution = solve(model).expect("a solution");
-    let influence = Influence::new(model).expect("a held output");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("a held output");
     influence.sensitivities(&solution).expect("derivatives")
 }
 

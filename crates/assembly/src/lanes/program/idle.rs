@@ -9,6 +9,7 @@ use crate::kinematics::motion::node_twist;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
 use crate::pose::restraint::{Restraint, largest_minor, scaled};
+use crate::posture::Posture;
 use crate::room;
 use crate::room::MOST_NUMBERS;
 
@@ -29,7 +30,7 @@ pub(crate) fn idle_coordinates(
     placed: &[Option<Placed>],
     elements: &[Element],
 ) -> Option<Vec<usize>> {
-    let restraint = Restraint::new(model, geometry, plan.output).ok()?;
+    let restraint = Restraint::of(&Posture::new(model, geometry), plan.output).ok()?;
     let numbers = room::matrix(restraint.idle.len(), topology.coordinates);
     if !restraint.moving.is_empty() || numbers > MOST_NUMBERS {
         return None;

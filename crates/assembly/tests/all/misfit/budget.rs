@@ -29,7 +29,8 @@ fn the_budget_of_a_displacement_has_the_misfits() {
     };
     model.set_loads(loads).expect("loads");
     let solution = solve(&model).expect("a solution");
-    let influence = Influence::new(&model).expect("unit states");
+    let prepared = Prepared::new(model.clone());
+    let influence = prepared.here().influence().expect("unit states");
     let along = only(Dof::X, 1.0);
     let budget = influence.budget(&solution, &along);
     // The wall and the drive on the left push through one spring each side of the platform.

@@ -213,17 +213,20 @@ fn misfits_act_in_every_state_but_not_in_unit_responses() {
         assert_eq!(bare.displacements[node].amax(), 0.0);
     }
     assert_eq!(both.output.stiffness, loads_alone.output.stiffness);
-    let plan = Plan::new(&model).expect("a plan");
+    let prepared = Prepared::new(model.clone());
     let respond = |model: &Model| {
-        plan.respond(model, std::slice::from_ref(&load))
+        let prepared = Prepared::new(model.clone());
+        prepared
+            .here()
+            .respond(std::slice::from_ref(&load))
             .expect("a response")
     };
     let without = between_drives(2e6).0;
     let (with, without) = (respond(&model), respond(&without));
     assert_eq!(with[0].displacements, without[0].displacements);
     assert_eq!(with[0].joint_wrenches, without[0].joint_wrenches);
-    let swept = plan
-        .sweep(&model, model.geometry(), &mut plan.workspace())
+    let swept = prepared
+        .sweep(model.geometry(), &mut prepared.workspace().expect("a plan"))
         .expect("a pose");
     let alone = swept.displacement.expect("a displacement");
     near(alone[0], misfits_alone.output.displacement[0], "sweep");

@@ -2,8 +2,8 @@
 //! kinematics, and loads that do the same.
 
 use hyperstat_assembly::{
-    Axes, Connection, Deformation, Influence, JointId, JointStiffness, Load, LoadCase, LoadSet,
-    Model, ModelError, NodeId, Plan, Solution, SolveError, solve,
+    Axes, Connection, Deformation, JointId, JointStiffness, Load, LoadCase, LoadSet, Model,
+    ModelError, NodeId, Prepared, Solution, SolveError, solve,
 };
 use hyperstat_elements::{Elasticity, Material};
 use hyperstat_joints::{Dof, DofSet, Fixed, Joint, Prismatic, Revolute};

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use hyperstat_assembly::measures::Measures;
 use hyperstat_assembly::{
-    BodyId, Budget, Influence, LANES, ModalOptions, ModalPlan, Model, Plan, SegmentId, Solution,
-    analyse, describe_motions, modes, redundant_constraints,
+    BodyId, Budget, LANES, ModalOptions, ModalPlan, Model, Prepared, SegmentId, Solution, analyse,
+    describe_motions, modes, redundant_constraints,
 };
 use hyperstat_closure::{Drive, LoopClosure, Target};
 use hyperstat_mechanisms::{Design, Disk, Input, Job, Registry, load_str};
@@ -64,14 +64,17 @@ fn posed(job: &Job) {
         if !is_below(SMALL, &model) {
             return;
         }
-        let plan = match &first {
-            None => Plan::new(&model),
-            Some(first) => Plan::for_design(first, &model),
+        let prepared = match &first {
+            None => Ok(Prepared::new(model.clone())),
+            Some(first) => Prepared::for_design(first, model.clone()),
         };
-        let Ok(plan) = plan else { continue };
-        swept(&design, &plan, &mut model, job.modes.as_ref());
+        let Ok(prepared) = prepared else { continue };
+        if prepared.unknowns().is_err() {
+            continue;
+        }
+        swept(&design, &prepared, &mut model, job.modes.as_ref());
         solved(&model);
-        first.get_or_insert(plan);
+        first.get_or_insert(prepared);
         if job.designs() == 1 {
             return;
         }
@@ -80,8 +83,8 @@ fn posed(job: &Job) {
 
 /// The first poses and the last of a design, side by side; leaves the model in the last of them that
 /// was reached.
-fn swept(design: &Design, plan: &Plan, model: &mut Model, options: Option<&ModalOptions>) {
-    let mut lanes = plan.lanes(model);
+fn swept(design: &Design, prepared: &Prepared, model: &mut Model, options: Option<&ModalOptions>) {
+    let mut lanes = prepared.lanes().expect("a plan");
     let mut filled = [false; LANES];
     let mut reached = None;
     for (lane, filled) in filled.iter_mut().enumerate() {
@@ -101,8 +104,8 @@ fn swept(design: &Design, plan: &Plan, model: &mut Model, options: Option<&Modal
             }
         }
     }
-    for found in plan
-        .sweep_lanes(model, &mut lanes, filled)
+    for found in prepared
+        .sweep_lanes(&mut lanes, filled)
         .into_iter()
         .flatten()
     {
@@ -236,7 +239,8 @@ fn explained(model: &Model, solution: &Solution) {
         let at = model.geometry().positions[node.0];
         Measures::new(stiffness, compliance, &at, None);
     }
-    let Ok(influence) = Influence::new(model) else {
+    let prepared = Prepared::new(model.clone());
+    let Ok(influence) = prepared.here().influence() else {
         return;
     };
     influence.budget(solution, &along).by_source();

@@ -1,0 +1,239 @@
+//! A mechanism made ready, and the shortest ways through.
+
+use hyperstat_model::{Geometry, ModalOptions, Model};
+
+use crate::answer::pose_result::PoseResult;
+use crate::answer::solution::Solution;
+use crate::configuration::{Configuration, Found, Planned, planned};
+use crate::error::SolveError;
+use crate::kinematics::Kinematics;
+use crate::kinematics::redundancy::Redundancy;
+use crate::lanes::{LANES, Lanes};
+use crate::modal::{ModalPlan, Modes};
+use crate::plan::Plan;
+use crate::plan::workspace::Workspace;
+
+/// A mechanism made ready: a model, and with it what is worked out once for its topology and for its
+/// own configuration, each when it is first asked for.
+///
+/// ```
+/// # use hyperstat_assembly::{Connection, JointStiffness, Model};
+/// # use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+/// # use hyperstat_joints::{DofSet, Fixed};
+/// # use nalgebra::{Point3, Rotation3, Vector6};
+/// # fn cantilever() -> Result<Model, Box<dyn std::error::Error>> {
+/// #     let steel = Material::new(2.1e11, Elasticity::Poisson(0.3), None)?;
+/// #     let rod = Section::new(SectionShape::Circle { diameter: 0.02 }, None, None)?;
+/// #     let mut model = Model::new("cantilever");
+/// #     let points = [("root", Point3::origin()), ("tip", Point3::new(0.5, 0.0, 0.0))];
+/// #     model.add_beam("beam", &points, &steel, &rod, None, 1)?;
+/// #     let wall = Connection {
+/// #         name: "wall".into(),
+/// #         between: [None, model.node("beam", "root")],
+/// #         joint: Box::new(Fixed),
+/// #         locked: DofSet::EMPTY,
+/// #         stiffness: JointStiffness::default(),
+/// #     };
+/// #     model.add_joint(wall, Rotation3::identity())?;
+/// #     let tip = model.node("beam", "tip").ok_or("no tip")?;
+/// #     model.add_load(tip, Vector6::new(0.0, 0.0, -100.0, 0.0, 0.0, 0.0))?;
+/// #     model.set_output(tip);
+/// #     Ok(model)
+/// # }
+/// use hyperstat_assembly::Prepared;
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let prepared = Prepared::new(cantilever()?);
+/// let here = prepared.here();
+/// assert_eq!(here.kinematics()?.mobility, 0);
+/// let solution = here.solve()?;
+/// // The factorization of the solve serves the unit loads too.
+/// let sensitivities = here.influence()?.sensitivities(&solution)?;
+/// let along = Vector6::new(0.0, 0.0, 1.0, 0.0, 0.0, 0.0);
+/// let sag = &solution.output.displacement;
+/// // 1 % more diameter makes it sag 4 % less: the sag is as d⁻⁴.
+/// let diameter = sensitivities[0].relative(sag, &along).ok_or("no sag")?;
+/// assert!((diameter + 4.0).abs() < 1e-12);
+///
+/// // Poses of a sweep share the buffers of a thread.
+/// let mut workspace = prepared.workspace()?;
+/// let mut longer = prepared.model().geometry().clone();
+/// longer.positions[1].x = 1.0;
+/// let pose = prepared.sweep(&longer, &mut workspace)?;
+/// let longer = pose.displacement.ok_or("it is held")?;
+/// assert!((longer[2] / sag[2] - 8.0).abs() < 1e-9);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Prepared {
+    model: Model,
+    plan: Planned,
+    here: Found,
+}
+
+impl Prepared {
+    /// A model to be made ready.
+    pub fn new(model: Model) -> Self {
+        Self {
+            model,
+            plan: Planned::new(),
+            here: Found::default(),
+        }
+    }
+
+    /// Another design of this mechanism: other dimensions, sections, materials, stiffnesses and loads.
+    /// Where its topology is the same, and so is every joint's part in it, all that depends on it alone
+    /// is shared; elsewhere, and where loops of rigid bodies are eliminated, it is what
+    /// [`Prepared::new`] makes ready. Either way the results are those of [`Prepared::new`].
+    ///
+    /// # Errors
+    /// Of either as [`Configuration::solve`], but for what acts.
+    pub fn for_design(&self, model: Model) -> Result<Self, SolveError> {
+        let plan = self.plan()?.for_design(&model)?;
+        Ok(Self {
+            model,
+            plan: Planned::from(Ok(plan)),
+            here: Found::default(),
+        })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The model, to be changed: whatever was worked out for it is forgotten.
+    pub fn model_mut(&mut self) -> &mut Model {
+        (self.plan, self.here) = (Planned::new(), Found::default());
+        &mut self.model
+    }
+
+    /// The model alone.
+    pub fn into_model(self) -> Model {
+        self.model
+    }
+
+    /// Number of independent displacement coordinates, after loop elimination.
+    ///
+    /// # Errors
+    /// What there is no plan for: as [`Configuration::solve`], but for what acts.
+    pub fn unknowns(&self) -> Result<usize, SolveError> {
+        Ok(self.plan()?.unknowns())
+    }
+
+    /// The model's own configuration. What is found of it stays with the mechanism.
+    pub fn here(&self) -> Configuration<'_> {
+        Configuration::new(&self.model, &self.plan, &self.here)
+    }
+
+    /// Another configuration.
+    ///
+    /// # Errors
+    /// A geometry that is not one of this model, or takes a joint apart.
+    pub fn at<'a>(&'a self, geometry: &'a Geometry) -> Result<Configuration<'a>, SolveError> {
+        self.model
+            .check_geometry(geometry, self.model.one_point())?;
+        Ok(self.here().moved(geometry))
+    }
+
+    /// Buffers for one thread's poses of a sweep.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn workspace(&self) -> Result<Workspace, SolveError> {
+        Ok(self.plan()?.workspace())
+    }
+
+    /// Output stiffness and displacement at one pose of a sweep; `workspace` is one of this mechanism.
+    ///
+    /// # Errors
+    /// As [`Configuration::solve`]; a geometry or buffers that are not of this mechanism.
+    pub fn sweep(
+        &self,
+        geometry: &Geometry,
+        workspace: &mut Workspace,
+    ) -> Result<PoseResult, SolveError> {
+        self.plan()?.sweep(&self.model, geometry, workspace)
+    }
+
+    /// Poses and buffers for one thread; the poses are in the model's configuration.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn lanes(&self) -> Result<Lanes, SolveError> {
+        Ok(self.plan()?.lanes(&self.model))
+    }
+
+    /// The same for poses that all go through [`Prepared::sweep`], one by one.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn lanes_one_by_one(&self) -> Result<Lanes, SolveError> {
+        Ok(self.plan()?.lanes_one_by_one(&self.model))
+    }
+
+    /// Output stiffness and displacement at the poses that [`Lanes::geometry_mut`] was brought to,
+    /// where `filled` says so: what [`Prepared::sweep`] finds, to 1e-11 of the stiffness's scale
+    /// (`√(K_ii K_jj)`) and of the largest component of the displacement, its components times
+    /// `√K_ii`. `lanes` are of this mechanism; the nodes of a joint stay at one point; anything else
+    /// is an error.
+    pub fn sweep_lanes(
+        &self,
+        lanes: &mut Lanes,
+        filled: [bool; LANES],
+    ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
+        match self.plan() {
+            Ok(plan) => plan.sweep_lanes(&self.model, lanes, filled),
+            Err(error) => filled.map(|filled| filled.then(|| Err(error.clone()))),
+        }
+    }
+
+    /// The mechanism made ready for natural frequencies.
+    ///
+    /// # Errors
+    /// As [`ModalPlan::new`].
+    pub fn modal(&self, options: &ModalOptions) -> Result<ModalPlan, SolveError> {
+        ModalPlan::new(&self.model, options)
+    }
+
+    fn plan(&self) -> Result<&Plan, SolveError> {
+        planned(&self.plan, &self.model, &self.here)
+    }
+}
+
+/// Asks something of a model's own configuration, and of nothing else.
+fn ask<T>(model: &Model, question: impl FnOnce(Configuration<'_>) -> T) -> T {
+    let (plan, found) = (Planned::new(), Found::default());
+    question(Configuration::new(model, &plan, &found))
+}
+
+/// Solves a model in its own configuration: the shortest way through. Where more is asked of it,
+/// [`Prepared`] does nothing twice.
+///
+/// # Errors
+/// As [`Configuration::solve`].
+pub fn solve(model: &Model) -> Result<Solution, SolveError> {
+    ask(model, |here| here.solve())
+}
+
+/// Mobility, over-constraint and motions without energy of a model as it stands.
+///
+/// # Errors
+/// As [`Configuration::kinematics`].
+pub fn analyse(model: &Model) -> Result<Kinematics, SolveError> {
+    ask(model, |here| here.kinematics().cloned())
+}
+
+/// The redundant constraints of a model as it stands, as [`Configuration::redundant_constraints`].
+pub fn redundant_constraints(model: &Model) -> Vec<Redundancy> {
+    ask(model, |here| here.redundant_constraints())
+}
+
+/// Natural frequencies and modes of a model in its own configuration.
+///
+/// # Errors
+/// As [`Configuration::modes`].
+pub fn modes(model: &Model, options: &ModalOptions) -> Result<Modes, SolveError> {
+    ask(model, |here| here.modes(options))
+}

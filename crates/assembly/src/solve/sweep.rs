@@ -1,0 +1,103 @@
+//! One pose of a sweep.
+
+use hyperstat_model::{Geometry, Model};
+
+use super::output::inverse;
+use super::settled;
+use crate::answer::pose_result::PoseResult;
+use crate::error::SolveError;
+use crate::kinematics::diagnosis::Diagnosis;
+use crate::plan::Plan;
+use crate::plan::fault::Fault;
+use crate::plan::workspace::{LOADS, Workspace};
+use crate::pose::evaluate;
+use crate::pose::restraint::{Restraint, SUSPICIOUS_PIVOT, is_nearly_free};
+use crate::posture::Posture;
+use crate::state::acting::Acting;
+
+/// A sweep stops refining at a correction this small: the next would be of its square.
+const ENOUGH_IN_SWEEP: f64 = 1e-8;
+
+/// Pivots below this make the output so uneven that its displacement is refined in a sweep too.
+const UNEVEN_PIVOT: f64 = 1e-4;
+
+impl Plan {
+    /// Output stiffness and displacement at one pose of a sweep: `geometry` belongs to the
+    /// model the plan was made for, `workspace` to this plan.
+    ///
+    /// # Errors
+    /// As [`solve`](crate::solve); a model, geometry or workspace that is not of this plan.
+    pub(crate) fn sweep(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        workspace: &mut Workspace,
+    ) -> Result<PoseResult, SolveError> {
+        self.check(model, geometry, workspace)?;
+        let at = Posture::new(model, geometry);
+        let acting = Acting::of_model(&at)?;
+        let result = match self.sweep_pose(&at, &acting, workspace) {
+            Ok(result) => result,
+            Err(Fault::Error(error)) => return Err(error),
+            Err(Fault::Changed) => {
+                let plan = Self::absorbing(&at, true, &Diagnosis::default())?;
+                settled(plan.sweep_pose(&at, &acting, &mut plan.workspace()))?
+            }
+        };
+        match result.is_finite() {
+            true => Ok(result),
+            false => Err(SolveError::Overflow),
+        }
+    }
+
+    fn sweep_pose(
+        &self,
+        at: &Posture<'_>,
+        acting: &[Acting],
+        workspace: &mut Workspace,
+    ) -> Result<PoseResult, Fault> {
+        evaluate(self, at, acting, workspace)?;
+        let ready = !self.has_idle && self.output_is_independent();
+        let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
+        if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
+            let stiffness = self.stiffness_by_energy(workspace);
+            // Next to nothing may be nothing: then it is looked at, whatever the plan's own
+            // configuration was.
+            let held = !is_nearly_free(&stiffness, at.size);
+            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
+                let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
+                let mut displacement = |column| {
+                    if even {
+                        compliance * self.output_force(workspace, column)
+                    } else {
+                        self.settle(workspace, &[], &compliance, column, 0.0);
+                        self.output_displacement(workspace, column)
+                    }
+                };
+                return Ok(PoseResult {
+                    stiffness: Some(stiffness),
+                    displacement: Some(displacement(LOADS)),
+                    cases: (1..acting.len()).map(|k| displacement(LOADS + k)).collect(),
+                });
+            }
+        }
+        let restraint = Restraint::of(at, self.output)?;
+        restraint.check_loads(at, acting)?;
+        let pins = restraint.pins(self, at, workspace);
+        // A sweep has no place for a warning: what does not settle is refused.
+        if !converged(self.condense(workspace, &pins, ENOUGH_IN_SWEEP)) {
+            return Err(SolveError::Singular.into());
+        }
+        // Nothing is said of digits here, so that no work is too small.
+        let works = vec![0.0; acting.len()];
+        let (output, displacements, ..) =
+            self.output(at.geometry, workspace, &pins, &restraint, &works)?;
+        let held = output.free_motions.is_empty();
+        let mut displacements = displacements.into_iter().filter(|_| held);
+        Ok(PoseResult {
+            stiffness: output.stiffness,
+            displacement: displacements.next(),
+            cases: displacements.collect(),
+        })
+    }
+}
