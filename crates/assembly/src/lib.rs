@@ -20,6 +20,7 @@ mod pose;
 mod rank;
 mod response;
 mod room;
+mod sets;
 mod solve;
 mod state;
 
