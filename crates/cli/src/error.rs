@@ -71,7 +71,7 @@ impl CliError {
             Self::Write { .. }
             | Self::Print(_)
             | Self::Figure {
-                source: FigureError::Svg(_) | FigureError::Png(_),
+                source: FigureError::Png(_),
                 ..
             } => 3,
             _ => 2,
