@@ -236,7 +236,9 @@ impl Prebuilt for FiveBar {
             *position = points[*k];
         }
         geometry.y_axes.fill(None);
-        geometry.frames.fill(frame_from_axis(Some(&Vector3::z()), None)?);
+        geometry
+            .frames
+            .fill(frame_from_axis(Some(&Vector3::z()), None)?);
         let [_, b1, _, _, p] = points;
         let rod = p - b1;
         Ok([p.x, p.y, 0.0, 0.0, 0.0, rod.y.atan2(rod.x)])
