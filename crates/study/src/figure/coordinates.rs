@@ -8,7 +8,7 @@ use hyperstat_mechanisms::nearest;
 use super::plane::Levels;
 use super::quantity::unit;
 use super::rows::chosen;
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::table::TableReader;
 
 /// Coordinates of a pose, as its columns are named.

@@ -12,9 +12,10 @@ use super::rows::Choice;
 use super::trajectory::Trajectory;
 use crate::answer::Asked;
 use crate::error::StudyError;
+use crate::plot_error::PlotError;
 use crate::source::Source;
 use crate::study::job_model;
-use crate::table::{PlotError, TableReader};
+use crate::table::TableReader;
 
 /// That the job's maps are of quantities that its table, with these columns, will hold, over planes
 /// and along axes that its poses have, and that it has modes where one is to be drawn.

@@ -9,7 +9,7 @@ use super::coordinates::Coordinates;
 use super::map::evenly;
 use super::quantity::{Drawn, unit};
 use super::rows::{Choice, chosen};
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::table::{Column, TableReader};
 
 /// Lines that are asked for.

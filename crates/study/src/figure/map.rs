@@ -7,7 +7,7 @@ use super::coordinates::{Coordinates, POSE, unknown};
 use super::plane::Levels;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::table::{Column, TableReader};
 
 /// Most planes side by side in a figure.

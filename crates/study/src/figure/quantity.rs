@@ -5,7 +5,7 @@ use hyperstat_figures::Quantity;
 use hyperstat_mechanisms::nearest;
 use nalgebra::{Cholesky, Matrix3, Matrix6};
 
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::table::{Column, TableReader};
 
 /// A quantity of a table.

@@ -1,6 +1,6 @@
 //! Which rows of a table are drawn.
 
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::table::{Column, DESIGN, STATUS, TableReader};
 
 /// What the status of a pose with a result is.

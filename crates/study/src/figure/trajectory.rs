@@ -9,9 +9,10 @@ use rayon::prelude::*;
 use super::rows::Choice;
 use super::second::{SECOND, difference_in};
 use crate::answer::linear;
+use crate::plot_error::PlotError;
 use crate::study::job_model;
 use crate::sweep::Record;
-use crate::table::{PlotError, TableReader};
+use crate::table::TableReader;
 use crate::title::title;
 
 /// Most poses that a figure shows: more cannot be told apart.

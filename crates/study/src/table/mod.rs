@@ -2,8 +2,6 @@
 
 mod cells;
 mod csv;
-#[cfg(feature = "figures")]
-mod error;
 #[cfg(feature = "parquet")]
 mod parquet;
 #[cfg(feature = "figures")]
@@ -12,8 +10,6 @@ mod read;
 use std::io::{self, Write};
 
 use crate::sweep::{Chunk, Columns};
-#[cfg(feature = "figures")]
-pub use error::PlotError;
 #[cfg(feature = "figures")]
 pub use read::{Column, TableReader};
 

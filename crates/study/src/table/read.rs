@@ -15,8 +15,8 @@ use parquet::record::Field;
 use parquet::schema::types::Type;
 
 use super::cells;
-use super::error::PlotError;
 use super::{DESIGN, STATUS, TableFormat};
+use crate::plot_error::PlotError;
 
 /// Columns that every table has, in order.
 const FIRST: [&str; 8] = ["pose", "x", "y", "z", "rx", "ry", "rz", "status"];
