@@ -5,8 +5,10 @@
 //! # Where to start
 //!
 //! [`load`] reads a file into an [`Input`]: one [`Mechanism`], whose `model` goes to
-//! `hyperstat_assembly`, or a [`Batch`] of [`Job`]s. SI units; vectors in global axes; a pose is
-//! x y z \[m\] and a rotation vector rx ry rz \[rad\] from the home orientation.
+//! `hyperstat_assembly`, or a [`Batch`] of [`Job`]s. Files come from a [`Files`]: the disk or memory. A
+//! program makes what a file says by [`Job::new`], [`Mechanism::with_values`] and
+//! [`Mechanism::place_at`]. SI units; vectors in global axes; a pose is x y z \[m\] and a rotation vector
+//! rx ry rz \[rad\] from the home orientation.
 
 mod builtin;
 mod error;

@@ -19,7 +19,7 @@ use crate::prebuilt::PoseError;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::paths;
-use crate::text::replace::{Replacement, refused, tree_with};
+use crate::text::replace::{Changed, Replacement};
 use crate::text::source::{Place, Source};
 use crate::text::table::Table;
 use crate::text::tree::{Node, Steps};
@@ -174,31 +174,31 @@ impl Mechanism {
             let value = Source::argument(path, value, Some(self.root.source()));
             found.push((path, steps, Node::of(Fragment::of_file(&value)?)));
         }
-        let replacements: Vec<Replacement<'_>> = (found.iter())
-            .map(|(path, steps, value)| Replacement {
-                path,
-                steps,
-                value: value.clone(),
-            })
-            .collect();
-        let read = |tree: &Node| {
-            let mut mechanism = Self::read(tree.clone(), &self.registry)?;
+        let together = Source::argument("values", String::new(), None);
+        let changed = Changed {
+            root: &self.root,
+            values: (found.iter())
+                .map(|(path, steps, value)| Replacement {
+                    path,
+                    steps,
+                    value: value.clone(),
+                })
+                .collect(),
+            whole: Place::whole(&together),
+        };
+        let read = |tree: Node| {
+            let mut mechanism = Self::read(tree, &self.registry)?;
             if let Some(acting) = &self.acting {
                 mechanism.replace(acting)?;
             }
             Ok(mechanism)
         };
-        read(&tree_with(&self.root, &replacements, |_| true)).map_err(|error| {
-            let all = Source::argument("values", String::new(), None);
-            refused(
+        read(changed.tree()).map_err(|error| {
+            changed.refused(
                 error,
                 "",
-                &self.root,
-                &replacements,
-                &Place::whole(&all),
                 |location| found.iter().any(|(path, ..)| *location.path == **path),
-                |tree| read(tree).is_ok(),
-                |value| Value::of(value).to_string(),
+                |tree| read(tree.clone()).is_ok(),
             )
         })
     }

@@ -10,7 +10,7 @@ use super::vary::{Variation, Varied};
 use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::prebuilt::PoseError;
-use crate::text::replace::{refused, tree_with};
+use crate::text::replace::Changed;
 use crate::text::tree::{Node, Steps};
 use crate::text::value::Value;
 
@@ -136,7 +136,15 @@ impl Designs {
 
     /// The mechanism's tree in a design.
     pub(crate) fn tree(&self, number: usize, recipe: &Recipe) -> Node {
-        tree_with(recipe.root(), &self.variation.design(number), |_| true)
+        self.changed(number, recipe).tree()
+    }
+
+    fn changed<'d>(&'d self, number: usize, recipe: &'d Recipe) -> Changed<'d> {
+        Changed {
+            root: recipe.root(),
+            values: self.variation.design(number),
+            whole: self.variation.place.clone(),
+        }
     }
 
     /// Makes a design of a job with these poses; `similar` is another one.
@@ -159,15 +167,11 @@ impl Designs {
 
     /// The loader's error about a design, at the value that is to blame.
     fn refused(&self, number: usize, recipe: &Recipe, error: LoadError) -> LoadError {
-        refused(
+        self.changed(number, recipe).refused(
             error,
             &format!("design {number}"),
-            recipe.root(),
-            &self.variation.design(number),
-            &self.variation.place,
             |location| self.variation.holds(location),
             |tree| recipe.read(tree).is_ok(),
-            |value| Value::of(value).to_string(),
         )
     }
 }

@@ -1,9 +1,8 @@
 //! Values in the place of others of a tree, and what is wrong where the whole then makes no mechanism.
 
-use std::fmt;
-
 use super::source::Place;
 use super::tree::{Node, Steps};
+use super::value::Value;
 use crate::error::{LoadError, Location};
 
 /// A value in the place of another.
@@ -14,64 +13,73 @@ pub(crate) struct Replacement<'v> {
     pub(crate) value: Node,
 }
 
-/// A tree with those of some values, by their number, that are `taken`.
-pub(crate) fn tree_with(
-    root: &Node,
-    values: &[Replacement<'_>],
-    taken: impl Fn(usize) -> bool,
-) -> Node {
-    let mut tree = root.clone();
-    for (_, own) in values.iter().enumerate().filter(|(k, _)| taken(*k)) {
-        tree.replace(own.steps, own.value.clone());
-    }
-    tree
+/// A tree with other values in some places.
+#[derive(Debug)]
+pub(crate) struct Changed<'v> {
+    pub(crate) root: &'v Node,
+    pub(crate) values: Vec<Replacement<'v>>,
+    /// Where the values stand together.
+    pub(crate) whole: Place,
 }
 
-/// The error of a tree in which values stand in, told at the value that is to blame: the one at which it
-/// stands, which `holds` tells; else one that is wrong among the values as they are written; else all of
-/// them, at `whole`. `who` begins the message.
-pub(crate) fn refused(
-    error: LoadError,
-    who: &str,
-    root: &Node,
-    values: &[Replacement<'_>],
-    whole: &Place,
-    holds: impl Fn(&Location) -> bool,
-    reads: impl Fn(&Node) -> bool,
-    shown: impl Fn(&Node) -> String,
-) -> LoadError {
-    let LoadError::At {
-        location,
-        message,
-        help,
-        unreadable,
-    } = error
-    else {
-        return error;
-    };
-    let joined = |parts: fmt::Arguments<'_>, separator: &str| match who {
-        "" => parts.to_string(),
-        who => format!("{who}{separator}{parts}"),
-    };
-    if holds(&location) {
-        return LoadError::At {
+impl Changed<'_> {
+    /// The tree.
+    pub(crate) fn tree(&self) -> Node {
+        self.tree_with(|_| true)
+    }
+
+    /// The tree with those of the values, by their number, that are `taken`.
+    fn tree_with(&self, taken: impl Fn(usize) -> bool) -> Node {
+        let mut tree = self.root.clone();
+        for (_, own) in self.values.iter().enumerate().filter(|(k, _)| taken(*k)) {
+            tree.replace(own.steps, own.value.clone());
+        }
+        tree
+    }
+
+    /// The error of reading the tree, told at the value that is to blame: the one at which it stands,
+    /// which `holds` tells; else one that is wrong among the values as they are written; else all of
+    /// them. `who`, if it is not empty, begins the message.
+    pub(crate) fn refused(
+        &self,
+        error: LoadError,
+        who: &str,
+        holds: impl Fn(&Location) -> bool,
+        reads: impl Fn(&Node) -> bool,
+    ) -> LoadError {
+        let LoadError::At {
             location,
-            message: joined(format_args!("{message}"), ": "),
+            message,
             help,
             unreadable,
+        } = error
+        else {
+            return error;
         };
-    }
-    let alone = |k: &usize| !reads(&tree_with(root, values, |other| other == *k));
-    let blamed = (0..values.len()).find(alone);
-    let place = blamed.map_or_else(|| whole.clone(), |k| values[k].value.place());
-    let values = values.iter().enumerate();
-    let values = values.filter(|(k, _)| blamed.is_none_or(|blamed| blamed == *k));
-    let words = values.map(|(_, own)| format!("`{}` = {}", own.path, shown(&own.value)));
-    let words = words.collect::<Vec<_>>().join(", ");
-    LoadError::At {
-        message: joined(format_args!("{words}: {message} ({location})"), ", "),
-        location: Box::new(place.location()),
-        help,
-        unreadable,
+        let after = |separator: &str| match who {
+            "" => String::new(),
+            who => format!("{who}{separator}"),
+        };
+        if holds(&location) {
+            return LoadError::At {
+                location,
+                message: format!("{}{message}", after(": ")),
+                help,
+                unreadable,
+            };
+        }
+        let alone = |k: &usize| !reads(&self.tree_with(|other| other == *k));
+        let blamed = (0..self.values.len()).find(alone);
+        let place = blamed.map_or_else(|| self.whole.clone(), |k| self.values[k].value.place());
+        let values = self.values.iter().enumerate();
+        let values = values.filter(|(k, _)| blamed.is_none_or(|blamed| blamed == *k));
+        let words = values.map(|(_, own)| format!("`{}` = {}", own.path, Value::of(&own.value)));
+        let words = words.collect::<Vec<_>>().join(", ");
+        LoadError::At {
+            message: format!("{}{words}: {message} ({location})", after(", ")),
+            location: Box::new(place.location()),
+            help,
+            unreadable,
+        }
     }
 }

@@ -52,17 +52,15 @@ impl Failure {
     pub fn status(&self) -> &'static str {
         match self {
             Self::Design(_) => "design",
-            Self::Pose(PoseError::Unreachable { .. }) => "unreachable",
+            Self::Pose(error) => error.status(),
             Self::Solve(
                 SolveError::Unheld { .. }
                 | SolveError::LoadOnFreeMotion { .. }
                 | SolveError::PreloadOnFreeMotion { .. },
             )
             | Self::Free => "unrestrained",
-            Self::Pose(PoseError::Singular { .. }) => "singular",
-            Self::Pose(PoseError::Branch { .. }) => "branch",
             Self::Rigid(_) => "rigid",
-            Self::Pose(_) | Self::Solve(_) => "failed",
+            Self::Solve(_) => "failed",
         }
     }
 }
