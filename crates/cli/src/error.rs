@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use hyperstat_figures::FigureError;
 use hyperstat_mechanisms::{LoadError, Location};
-use hyperstat_study::table::PlotError;
+use hyperstat_study::PlotError;
 use hyperstat_study::{Problem, StudyError};
 use thiserror::Error;
 
@@ -71,7 +71,7 @@ impl CliError {
             Self::Write { .. }
             | Self::Print(_)
             | Self::Figure {
-                source: FigureError::Svg(_) | FigureError::Png(_),
+                source: FigureError::Png(_),
                 ..
             } => 3,
             _ => 2,

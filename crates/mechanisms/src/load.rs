@@ -7,7 +7,6 @@ use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::batch::Batch;
-use crate::parameters;
 use crate::text::files::Files;
 use crate::text::fragment::Fragment;
 use crate::text::named::{is_batch, mechanism_in};
@@ -109,7 +108,7 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
         return Batch::read(value, registry).map(Input::Batch);
     }
     match value.variant("") {
-        Ok((kind, _)) if parameters::find(kind.text()).is_some() => {
+        Ok((kind, _)) if registry.prebuilt(kind.text()).is_some() => {
             return Err(kind
                 .error(format!("`{}` stands in a job of a batch", kind.text()))
                 .with_help("write `(jobs: [(name: \"…\", mechanism: …, poses: …)])`"));

@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::drives::MissingDrives;
 #[cfg(feature = "figures")]
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 
 /// A question without its answer. `Display` says what is wrong, [`StudyError::location`] where,
 /// [`StudyError::help`] what would be right.

@@ -8,9 +8,14 @@ mod ask;
 mod digits;
 mod doubts;
 mod drives;
+mod entries;
 mod error;
 #[cfg(feature = "figures")]
 pub mod figure;
+mod measures;
+#[cfg(feature = "figures")]
+mod plot_error;
+mod schema;
 mod source;
 mod study;
 pub mod sweep;
@@ -20,7 +25,7 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, Entries, FrameReport,
+    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, FrameReport,
     FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
     ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
     SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
@@ -29,6 +34,15 @@ pub use answer::{
 pub use ask::{Answered, Question};
 pub use doubts::Watch;
 pub use drives::MissingDrives;
+pub use entries::Entries;
 pub use error::{Problem, StudyError};
+#[cfg(feature = "fs")]
+pub use hyperstat_mechanisms::Disk;
+pub use hyperstat_mechanisms::{
+    Along, Batch, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError, Location,
+    Mechanism, MemoryFiles, PoseError, Registry, Value,
+};
+#[cfg(feature = "figures")]
+pub use plot_error::PlotError;
 pub use study::{Selection, Study};
 pub use verification::{StateDifferences, Verification};

@@ -5,7 +5,7 @@ use hyperstat_reference::ReferenceSolution;
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;
 
-use crate::answer::Entries;
+use crate::entries::Entries;
 
 /// Two solutions that agree this well are equal for every use of them.
 const AGREEMENT: f64 = 1e-8;

@@ -1,8 +1,8 @@
 //! The budget in what `hyperstat solve --why --format json` printed.
 
 use hyperstat_mechanisms::files;
+use hyperstat_study::PlotError;
 use hyperstat_study::figure::{Drawing, Solved};
-use hyperstat_study::table::PlotError;
 
 use super::{Plotted, stem};
 use crate::args;

@@ -11,8 +11,7 @@ use super::design::{Design, Designs};
 use super::figures::{Figure, Known};
 use super::poses::Poses;
 use super::subject::{Recipe, Subject};
-use super::value::{Value, Varied};
-use super::vary::Variation;
+use super::vary::{Variation, Varied};
 use crate::error::{LoadError, Location};
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
@@ -21,6 +20,7 @@ use crate::prebuilt::PoseError;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
 use crate::text::source::Place;
+use crate::text::value::Value;
 
 /// The jobs of a batch file, in its order, all of them checked.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ pub struct Batch {
 }
 
 /// One job: a mechanism, or many designs of one, its poses and the figures to draw.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Job {
     /// Name, the stem of its output files: ASCII letters, digits, `_`, `-` and `.`, not starting
@@ -42,17 +42,19 @@ pub struct Job {
     /// Natural frequencies to find at every pose.
     pub modes: Option<ModalOptions>,
     /// Where each figure stands.
-    figure_places: Vec<Place>,
-    recipe: Recipe,
-    poses: Arc<Poses>,
+    pub(super) figure_places: Vec<Place>,
+    /// What is written of it, by field.
+    pub(super) written: Vec<(&'static str, Place)>,
+    pub(super) recipe: Recipe,
+    pub(super) poses: Arc<Poses>,
     /// Where `vary` is given.
-    designs: Option<Designs>,
+    designs: Option<Arc<Designs>>,
     /// Names of the cases.
     cases: Vec<String>,
     /// The first design that can be, and its number.
     first: Arc<Subject>,
     first_design: usize,
-    place: Place,
+    pub(super) place: Place,
 }
 
 impl Batch {
@@ -63,28 +65,14 @@ impl Batch {
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
         for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
-            let known = [
-                "name",
-                "mechanism",
-                "poses",
-                "loads",
-                "cases",
-                "gravity",
-                "masses",
-                "misfits",
-                "preloads",
-                "figures",
-                "vary",
-                "zip",
-                "modes",
-            ];
-            let fields = Fields::read(fragment, "a job", &known)?;
+            let fields = Fields::read(fragment, "a job", &FIELDS)?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
                 return Err(same_name(at, &name, first, &other));
             }
-            jobs.push(Job::read(name, &fields, at.place(), registry)?);
+            let recipe = Recipe::find(&fields, registry)?;
+            jobs.push(Job::read(name, &fields, at.place(), recipe, None)?);
         }
         if jobs.is_empty() {
             return Err(list
@@ -101,6 +89,23 @@ impl Batch {
     }
 }
 
+/// The fields of a job.
+pub(super) const FIELDS: [&str; 13] = [
+    "name",
+    "mechanism",
+    "poses",
+    "loads",
+    "cases",
+    "gravity",
+    "masses",
+    "misfits",
+    "preloads",
+    "figures",
+    "vary",
+    "zip",
+    "modes",
+];
+
 /// The error of the name `at`, which makes the same files as the one `first`.
 fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
     if name == other {
@@ -115,7 +120,7 @@ fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> 
 }
 
 /// Reads a name that can be the stem of a file's name.
-fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
+pub(super) fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
     let name = fragment.string()?;
     let allowed = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
@@ -130,15 +135,19 @@ fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
 }
 
 impl Job {
-    fn read(
+    /// Reads the fields of a job of this mechanism; its `poses` too, unless they are known.
+    pub(super) fn read(
         name: String,
         fields: &Fields<'_>,
         place: Place,
-        registry: &Registry,
+        recipe: Recipe,
+        poses: Option<Arc<Poses>>,
     ) -> Result<Self, LoadError> {
-        let recipe = Recipe::find(fields, registry)?;
         let written = recipe.read(recipe.root())?;
-        let poses = written.poses(fields)?;
+        let poses = match poses {
+            Some(poses) => poses,
+            None => Arc::new(written.poses(fields)?),
+        };
         let mut first = recipe.load(written, &poses, None)?;
         let cases = recipe.cases(&first)?;
         let figures = match fields.get("figures") {
@@ -158,7 +167,7 @@ impl Job {
             Some(variation) => {
                 let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
-                Some(designs)
+                Some(Arc::new(designs))
             }
             None => None,
         };
@@ -167,8 +176,9 @@ impl Job {
             figures,
             figure_places,
             modes,
+            written: fields.places(&FIELDS),
             recipe,
-            poses: Arc::new(poses),
+            poses,
             designs,
             cases,
             first: Arc::new(first),
@@ -185,13 +195,15 @@ impl Job {
 
     /// Number of designs, at least 1.
     pub fn designs(&self) -> usize {
-        self.designs.as_ref().map_or(1, Designs::len)
+        self.designs.as_ref().map_or(1, |designs| designs.len())
     }
 
     /// What varies from design to design, in the order of the file; nothing where `vary` is not
     /// given.
     pub fn varied(&self) -> &[Varied] {
-        self.designs.as_ref().map_or(&[], Designs::varied)
+        self.designs
+            .as_ref()
+            .map_or(&[], |designs| designs.varied())
     }
 
     /// Names of its cases, in their order; the same in every design.

@@ -6,12 +6,13 @@ use hyperstat_model::{Geometry, Model};
 
 use super::poses::Poses;
 use super::subject::{Checked, Recipe, Subject};
-use super::value::{Value, Varied};
-use super::vary::Variation;
+use super::vary::{Variation, Varied};
 use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::prebuilt::PoseError;
+use crate::text::replace::Changed;
 use crate::text::tree::{Node, Steps};
+use crate::text::value::Value;
 
 /// One design of a job, in all of the job's poses; made by [`Job::design`](crate::Job::design).
 #[derive(Debug, Clone)]
@@ -125,7 +126,7 @@ impl Designs {
     /// The varied values of a design.
     pub(crate) fn values(&self, number: usize) -> Vec<Value> {
         let places = self.variation.design(number);
-        places.iter().map(Value::of).collect()
+        places.iter().map(|own| Value::of(&own.value)).collect()
     }
 
     /// The ways to what varies, in the mechanism's tree.
@@ -135,18 +136,15 @@ impl Designs {
 
     /// The mechanism's tree in a design.
     pub(crate) fn tree(&self, number: usize, recipe: &Recipe) -> Node {
-        self.tree_with(&self.variation.design(number), |_| true, recipe)
+        self.changed(number, recipe).tree()
     }
 
-    /// The mechanism's tree with those of the varied values, by their number, that are `taken`.
-    fn tree_with(&self, values: &[Node], taken: impl Fn(usize) -> bool, recipe: &Recipe) -> Node {
-        let mut tree = recipe.root().clone();
-        for (k, (steps, value)) in self.variation.steps().zip(values).enumerate() {
-            if taken(k) {
-                tree.replace(steps, value.clone());
-            }
+    fn changed<'d>(&'d self, number: usize, recipe: &'d Recipe) -> Changed<'d> {
+        Changed {
+            root: recipe.root(),
+            values: self.variation.design(number),
+            whole: self.variation.place.clone(),
         }
-        tree
     }
 
     /// Makes a design of a job with these poses; `similar` is another one.
@@ -167,48 +165,13 @@ impl Designs {
         checked.map_err(|error| self.refused(number, recipe, error))
     }
 
-    /// The loader's error about a design, at the value that is to blame: the one at which it
-    /// stands; else one that is wrong among the values as they are written; else all of them.
+    /// The loader's error about a design, at the value that is to blame.
     fn refused(&self, number: usize, recipe: &Recipe, error: LoadError) -> LoadError {
-        let LoadError::At {
-            location,
-            message,
-            help,
-            unreadable,
-        } = error
-        else {
-            return error;
-        };
-        if self.variation.holds(&location) {
-            let message = format!("design {number}: {message}");
-            return LoadError::At {
-                location,
-                message,
-                help,
-                unreadable,
-            };
-        }
-        let values = self.variation.design(number);
-        let alone = |k: &usize| {
-            let tree = self.tree_with(&values, |other| other == *k, recipe);
-            recipe.read(&tree).is_err()
-        };
-        let blamed = (0..values.len()).find(alone);
-        let whole = || self.variation.place.clone();
-        let place = blamed.map_or_else(whole, |k| values[k].place());
-        let values = values.iter().zip(&self.varied).enumerate();
-        let values = values.filter(|(k, _)| blamed.is_none_or(|blamed| blamed == *k));
-        let words =
-            values.map(|(_, (value, varied))| format!("`{}` = {}", varied.path, Value::of(value)));
-        let words: Vec<String> = words.collect();
-        LoadError::At {
-            message: format!(
-                "design {number}, {}: {message} ({location})",
-                words.join(", ")
-            ),
-            location: Box::new(place.location()),
-            help,
-            unreadable,
-        }
+        self.changed(number, recipe).refused(
+            error,
+            &format!("design {number}"),
+            |location| self.variation.holds(location),
+            |tree| recipe.read(tree).is_ok(),
+        )
     }
 }

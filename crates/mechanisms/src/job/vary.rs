@@ -1,13 +1,24 @@
 //! What varies in a job: paths to values of its mechanism, and the values each of them takes.
 
-use super::value::{Value, Varied};
 use crate::error::{LoadError, Location};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
+use crate::text::replace::Replacement;
 use crate::text::source::Place;
 use crate::text::tree::{Node, Steps};
+use crate::text::value::Value;
 use crate::text::values::Values;
 use crate::text::{names, paths};
+
+/// What varies from design to design of a job.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Varied {
+    /// Its path in the mechanism as it is written, such as `rod.section.diameter`.
+    pub path: String,
+    /// Whether all of its values are numbers.
+    pub numeric: bool,
+}
 
 /// The designs of a job: all combinations of some values, or the values side by side.
 #[derive(Debug)]
@@ -68,14 +79,9 @@ impl Variation {
                     ))
                     .with_help(format!("leave `{field}` out of the job, or vary another value")));
             }
-            let overlaps =
-                |axis: &&Axis| axis.steps.starts_with(&steps) || steps.starts_with(&axis.steps);
+            let overlaps = |axis: &&Axis| paths::overlap(&axis.steps, &steps);
             if let Some(other) = axes.iter().find(overlaps) {
-                let message = format!("`{}` and `{}` overlap", other.path, entry.name);
-                return Err(entry
-                    .key
-                    .error(message)
-                    .with_help("one is a part of the other: vary the whole or its parts"));
+                return Err(paths::overlapping(&other.path, entry.key));
             }
             axes.push(Axis {
                 values: AxisValues::read(entry.value)?,
@@ -132,24 +138,28 @@ impl Variation {
     }
 
     /// The values of design `k`, from 0: the first path runs fastest.
-    pub(crate) fn design(&self, k: usize) -> Vec<Node> {
+    pub(crate) fn design(&self, k: usize) -> Vec<Replacement<'_>> {
         let mut rest = k;
-        let value = |axis: &Axis| {
+        let mut values = Vec::with_capacity(self.axes.len());
+        for axis in &self.axes {
             let count = axis.values.len();
-            let own = rest % count;
+            values.push(Replacement {
+                path: &axis.path,
+                steps: &axis.steps,
+                value: axis.value(rest % count),
+            });
             if !self.zip {
                 rest /= count;
             }
-            axis.value(own)
-        };
-        self.axes.iter().map(value).collect()
+        }
+        values
     }
 
     /// Whether a location is inside of the map `vary`.
     pub(crate) fn holds(&self, location: &Location) -> bool {
         let Place { source, span } = &self.place;
         let offset = source.offset(location.line, location.column);
-        location.path == source.path() && span.contains(&offset)
+        location.path == self.place.location().path && span.contains(&offset)
     }
 
     /// Designs among which every value of every path is found, `most` of a path at most, or all

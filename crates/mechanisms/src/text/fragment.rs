@@ -295,9 +295,14 @@ impl<'a> Fragment<'a> {
             let pair = |own: &'a Named| (self.between(&own.at), Self::of_node(&own.value));
             return Ok(named.iter().map(pair).collect());
         }
-        let Pieces(fields) = self.parse(expected)?;
+        self.pieces().ok_or_else(|| self.expected(expected))
+    }
+
+    /// The fields of a struct as its text has them; `None` of anything else, a tuple too.
+    pub(super) fn pieces(self) -> Option<Vec<(Self, Self)>> {
+        let Pieces(fields) = options().from_str(self.text).ok()?;
         let pair = |(name, raw)| (self.part(name), self.part(text_of(raw)));
-        Ok(fields.into_iter().map(pair).collect())
+        Some(fields.into_iter().map(pair).collect())
     }
 
     /// A kind and its arguments: `Kind(…)` or `Kind`, whose arguments are `None`.

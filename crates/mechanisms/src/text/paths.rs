@@ -31,6 +31,18 @@ pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
     }
 }
 
+/// Whether of two values one is a part of the other, or they are the same.
+pub(crate) fn overlap(one: &[usize], other: &[usize]) -> bool {
+    one.starts_with(other) || other.starts_with(one)
+}
+
+/// The error of a path, written at `key`, that leads to a part of what `other` leads to, or around it.
+pub(crate) fn overlapping(other: &str, key: Fragment<'_>) -> LoadError {
+    let path = key.string().unwrap_or_default();
+    key.error(format!("`{other}` and `{path}` overlap"))
+        .with_help("one is a part of the other: vary the whole or its parts")
+}
+
 /// The next step of a path.
 struct Step<'k> {
     /// Where the path is written.

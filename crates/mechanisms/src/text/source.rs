@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::{LoadError, Location};
-use crate::text::files::{self, Files};
+use crate::text::files::{self, Files, MemoryFiles};
 
 /// A text file: its name in messages and its text.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(crate) struct Source {
     text: String,
     /// Where the whole text is asked for, if it stands in no file as it is.
     origin: Option<Place>,
+    /// Name of the argument that it is, if a program hands it in.
+    argument: Option<String>,
     family: Arc<Family>,
     /// Whether messages may show its text: not that of a file from elsewhere, named by another,
     /// before it is known to be of the kind that it was taken for.
@@ -75,6 +77,7 @@ impl Source {
                 false => text.replace('\r', "\n"),
             },
             origin: None,
+            argument: None,
             family,
             shown: AtomicBool::new(shown),
         })
@@ -88,7 +91,24 @@ impl Source {
             text,
             family: Arc::clone(&origin.source.family),
             shown: AtomicBool::new(true),
+            argument: None,
             origin: Some(origin),
+        })
+    }
+
+    /// What a program hands in under this name, as it would stand in a file: in that of `near`, whose
+    /// files it may name, or in none.
+    pub(crate) fn argument(name: &str, text: String, near: Option<&Arc<Self>>) -> Arc<Self> {
+        Arc::new(Self {
+            path: near.map_or_else(PathBuf::new, |near| near.path.clone()),
+            text,
+            origin: None,
+            argument: Some(name.into()),
+            family: match near {
+                Some(near) => Arc::clone(&near.family),
+                None => Family::of(Path::new(""), &MemoryFiles::new()),
+            },
+            shown: AtomicBool::new(true),
         })
     }
 
@@ -145,10 +165,6 @@ impl Source {
         read.iter().cloned().collect()
     }
 
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
@@ -167,10 +183,18 @@ impl Source {
         let line_start = before.rfind('\n').map_or(0, |k| k + 1);
         let line_end = rest.find('\n').map_or(self.text.len(), |k| start + k);
         let end = boundary(&self.text, span.end.min(line_end));
+        let whole = self.argument.is_some() && (span.is_empty() || *span == (0..self.text.len()));
+        let (line, column) = match whole {
+            true => (0, 0),
+            false => (
+                1 + before.matches('\n').count(),
+                1 + self.text[line_start..start].chars().count(),
+            ),
+        };
         Location {
-            path: self.path.clone(),
-            line: 1 + before.matches('\n').count(),
-            column: 1 + self.text[line_start..start].chars().count(),
+            path: self.argument.as_ref().map_or(self.path.clone(), Into::into),
+            line,
+            column,
             width: self.text[start..end.max(start)]
                 .trim_end()
                 .chars()
@@ -215,6 +239,14 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// A whole source.
+    pub(crate) fn whole(source: &Arc<Source>) -> Self {
+        Self {
+            source: Arc::clone(source),
+            span: 0..source.text().len(),
+        }
+    }
+
     pub(crate) fn location(&self) -> Location {
         match &self.source.origin {
             Some(origin) => origin.location(),
@@ -242,7 +274,6 @@ const NOT_SHOWN: &str = "this is not understood; the text is not shown, for the 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::files::MemoryFiles;
 
     fn locate(text: &str, span: Range<usize>) -> (usize, usize, usize, String) {
         let source = Source::new(Path::new("f.ron"), text, &MemoryFiles::new());

@@ -90,8 +90,9 @@ impl Node {
                 Content::Map(named.collect())
             }),
             Some('[') => value.list("").ok().map(|items| Content::List(parts(items))),
-            Some('(') => match value.named("") {
-                Ok(fields) => {
+            // What a large file has most of is tuples, and the place of a mistake takes long to find.
+            Some('(') => match value.pieces() {
+                Some(fields) => {
                     let named = fields.into_iter().map(|(name, value)| Named {
                         name: name.text().into(),
                         at: name.span(),
@@ -99,7 +100,7 @@ impl Node {
                     });
                     Some(Content::Fields(named.collect()))
                 }
-                Err(_) => (value.tuple("").ok()).map(|items| Content::Tuple(parts(items))),
+                None => (value.tuple("").ok()).map(|items| Content::Tuple(parts(items))),
             },
             Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
             Some(first) if first.is_alphabetic() || first == '_' => {
@@ -237,12 +238,87 @@ pub(super) fn starts_with(path: &str, name: &str) -> bool {
 }
 
 /// The shortest number that reads back to the same double; whole ones as what counts is written.
-fn written(number: f64) -> String {
+pub(crate) fn written(number: f64) -> String {
     /// Whole numbers up to here are written without a point.
     const LARGEST: f64 = 1e15;
     if number.fract() == 0.0 && number.abs() < LARGEST {
         format!("{number:.0}")
     } else {
         format!("{number:?}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::text::files::MemoryFiles;
+    use crate::text::paths;
+
+    fn tree(text: &str) -> Node {
+        let source = Source::new(Path::new("f.ron"), text, &MemoryFiles::new());
+        Node::of(Fragment::of_file(&source).unwrap())
+    }
+
+    fn steps(tree: &Node, path: &str) -> Steps {
+        let source = Source::argument("path", format!("{path:?}"), None);
+        paths::find(tree, Fragment::at(&Place::whole(&source))).unwrap()
+    }
+
+    const TEXT: &str = r#"(
+        name: "five", // no number
+        sections: { "rod": Circle(diameter: 0.02), "a": General(area: 1e-4), "a.area": (area: 3) },
+        points: { "A": (0.0, -1, 2.5) }, list: [1, (x: 2), [3, Kind(4)]], count: 7, flag: true,
+    )"#;
+
+    #[test]
+    fn every_number_has_its_path_and_every_path_its_number() {
+        let tree = tree(TEXT);
+        let found = tree.numbers();
+        let listed: Vec<_> = found.iter().map(|n| (n.path.as_str(), n.value)).collect();
+        // No path leads to the area of `a`: `sections.a.area` is another section.
+        let expected = [
+            ("sections.rod.diameter", 0.02),
+            ("sections.a.area.area", 3.0),
+            ("points.A.0", 0.0),
+            ("points.A.1", -1.0),
+            ("points.A.2", 2.5),
+            ("list.0", 1.0),
+            ("list.1.x", 2.0),
+            ("list.2.0", 3.0),
+            ("list.2.1.0", 4.0),
+            ("count", 7.0),
+        ];
+        assert_eq!(listed, expected);
+        for number in found {
+            assert_eq!(steps(&tree, &number.path), number.steps, "{}", number.path);
+            let value = Fragment::of_node(tree.find(&number.steps).unwrap());
+            assert_eq!(value.number().unwrap(), number.value);
+        }
+    }
+
+    #[test]
+    fn what_is_not_on_the_way_to_a_value_is_shared() {
+        let whole = tree(TEXT);
+        let mut changed = whole.clone();
+        let origin = whole.place();
+        let way = steps(&whole, "sections.rod.diameter");
+        changed.replace(&way, Node::number(0.03, origin));
+        let number = |tree: &Node| Fragment::of_node(tree.find(&way).unwrap()).number();
+        assert_eq!(
+            (number(&whole).unwrap(), number(&changed).unwrap()),
+            (0.02, 0.03)
+        );
+        let parts = |tree: &Node, path: &str| match &tree.find(&steps(tree, path)).unwrap().content
+        {
+            Content::List(items) | Content::Tuple(items) => Arc::as_ptr(items).cast::<()>(),
+            Content::Map(named) | Content::Fields(named) => Arc::as_ptr(named).cast::<()>(),
+            other => panic!("{other:?}"),
+        };
+        for path in ["points", "list", "sections.a.area"] {
+            assert_eq!(parts(&whole, path), parts(&changed, path), "{path}");
+        }
+        assert_ne!(parts(&whole, "sections"), parts(&changed, "sections"));
     }
 }

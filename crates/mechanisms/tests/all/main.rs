@@ -6,6 +6,7 @@ mod corpus;
 mod designs;
 mod fuzzing;
 mod loading;
+mod made;
 mod memory;
 mod mutations;
 mod states;

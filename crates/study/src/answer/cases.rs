@@ -6,7 +6,8 @@ use serde::Serialize;
 use super::forces::{BodyReport, bodies};
 use super::joints::JointReport;
 use super::solve::SegmentReport;
-use super::{Entries, inner_displacements_of, numbers};
+use super::{inner_displacements_of, numbers};
+use crate::entries::Entries;
 
 /// What a case does. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]

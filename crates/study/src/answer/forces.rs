@@ -5,7 +5,8 @@ use hyperstat_assembly::{
 };
 use serde::Serialize;
 
-use super::{Entries, numbers};
+use super::numbers;
+use crate::entries::Entries;
 
 /// Forces on a section of a segment.
 #[derive(Debug, Serialize)]

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use hyperstat_assembly::{Model, SegmentId, Solution, SolveError};
 use nalgebra::Vector6;
 
-use super::{Entries, numbers};
+use super::numbers;
+use crate::entries::Entries;
 
 /// Displacements of the nodes between the elements of all segments, in the order of the bodies'
 /// segments. Node k of 1 to n − 1 of the segment from A to B is `body.A-B.k`, counted from A.

@@ -14,7 +14,6 @@ mod why;
 
 use hyperstat_assembly::{Configuration, Model};
 use nalgebra::{Matrix6, Vector6};
-use serde::{Serialize, Serializer};
 
 pub use cases::{CaseOutput, CaseReport};
 pub use check::CheckReport;
@@ -31,45 +30,6 @@ pub use why::{
     Asked, BudgetReport, MeasuresReport, PartReport, PrincipalReport, ScrewReport, Sum,
     VirtualWork, Why,
 };
-
-/// A map whose entries keep their order (that of the file) in JSON.
-#[derive(Debug, Clone)]
-pub struct Entries<T>(Vec<(String, T)>);
-
-impl<T> FromIterator<(String, T)> for Entries<T> {
-    fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
-        Self(entries.into_iter().collect())
-    }
-}
-
-impl<T> Entries<T> {
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
-    /// How many there are.
-    pub fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    /// The value of this name.
-    pub fn get(&self, name: &str) -> Option<&T> {
-        let mut entries = self.iter();
-        entries.find_map(|(known, value)| (known == name).then_some(value))
-    }
-
-    /// Names and values in their order.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
-        self.0.iter().map(|(name, value)| (&**name, value))
-    }
-}
-
-impl<T: Serialize> Serialize for Entries<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
-    }
-}
 
 /// A 6×6 matrix by rows.
 pub type Rows = [[f64; 6]; 6];

@@ -4,7 +4,8 @@ use hyperstat_assembly::{Mode, Model, Modes};
 use serde::Serialize;
 
 use super::inner::segment_names;
-use super::{Entries, numbers};
+use super::numbers;
+use crate::entries::Entries;
 
 /// The lowest natural modes. Field names are those of the JSON output.
 #[derive(Debug, Serialize)]

@@ -13,10 +13,10 @@ use super::forces::{BodyReport, SectionForces, bodies, section_forces};
 use super::joints::JointReport;
 use super::why::Why;
 use super::{
-    Entries, FrequencyReport, ModesReport, Rows, doubts, inner_displacements, numbers,
-    redundancies, rows,
+    FrequencyReport, ModesReport, Rows, doubts, inner_displacements, numbers, redundancies, rows,
 };
 use crate::doubts::{of_model, of_solution};
+use crate::entries::Entries;
 use crate::study::Study;
 use crate::verification::Verification;
 

@@ -7,14 +7,16 @@ use super::budget::budget as budget_figure;
 use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
 use super::drawing::Drawing;
 use super::map::{Map, figure as map_figure};
-use super::quantity::{Drawn, instead_of, is_frequency};
+use super::quantity::{Drawn, instead_of};
 use super::rows::Choice;
 use super::trajectory::Trajectory;
 use crate::answer::Asked;
 use crate::error::StudyError;
+use crate::plot_error::PlotError;
+use crate::schema::is_frequency;
 use crate::source::Source;
 use crate::study::job_model;
-use crate::table::{PlotError, TableReader};
+use crate::table::TableReader;
 
 /// That the job's maps are of quantities that its table, with these columns, will hold, over planes
 /// and along axes that its poses have, and that it has modes where one is to be drawn.

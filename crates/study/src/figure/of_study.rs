@@ -9,8 +9,8 @@ use super::deformed::{compare, deformed, mode};
 use super::drawing::Drawing;
 use crate::answer::Asked;
 use crate::error::StudyError;
+use crate::plot_error::PlotError;
 use crate::study::Study;
-use crate::table::PlotError;
 
 /// What a figure of a study looks like.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,7 @@
 //! Planes of a table's poses: which there are, and the poses on each.
 
 use crate::digits::digits;
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 
 /// How far two coordinates may be apart to be the same, over the range of all.
 const SAME: f64 = 1e-6;

@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::budget::budget;
 use crate::answer::BudgetReport;
-use crate::table::PlotError;
+use crate::plot_error::PlotError;
 use crate::title::title;
 
 /// What of the JSON is drawn.
