@@ -12,8 +12,10 @@ mod entries;
 mod error;
 #[cfg(feature = "figures")]
 pub mod figure;
+mod measures;
 #[cfg(feature = "figures")]
 mod plot_error;
+mod schema;
 mod source;
 mod study;
 pub mod sweep;
@@ -34,6 +36,12 @@ pub use doubts::Watch;
 pub use drives::MissingDrives;
 pub use entries::Entries;
 pub use error::{Problem, StudyError};
+#[cfg(feature = "fs")]
+pub use hyperstat_mechanisms::Disk;
+pub use hyperstat_mechanisms::{
+    Along, Batch, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError, Location,
+    Mechanism, MemoryFiles, PoseError, Registry, Value,
+};
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
 pub use study::{Selection, Study};

@@ -7,7 +7,7 @@ use hyperstat_assembly::{
     Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Registry};
+use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Registry, Value};
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
@@ -157,6 +157,41 @@ impl Study {
         }
     }
 
+    /// The same mechanism in the same pose with other values in some places, named by their paths as
+    /// `vary` names them (`sections.rod.diameter`, `rod.section.diameter` of a prebuilt mechanism), SI.
+    ///
+    /// # Errors
+    /// A path that leads nowhere, what is wrong with the mechanism that the values make, or a pose that
+    /// it does not reach.
+    pub fn with_values<P: AsRef<str>, V: Clone + Into<Value>>(
+        &self,
+        values: &[(P, V)],
+    ) -> Result<Self, StudyError> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Ok(Self {
+                name: self.name.clone(),
+                files: self.files.clone(),
+                ..Self::of_mechanism(mechanism.with_values(values)?)
+            }),
+            Origin::Job { job, design, pose } => {
+                // Beside what the design has already, where the job varies it.
+                let given = |path: &str| values.iter().any(|(own, _)| own.as_ref() == path);
+                let kept = job.varied().iter().zip(design.values());
+                let kept = kept.filter(|(varied, _)| !given(&varied.path));
+                let kept = kept.map(|(varied, value)| (varied.path.as_str(), vec![value.clone()]));
+                let new = values.iter();
+                let new = new.map(|(path, value)| (path.as_ref(), vec![value.clone().into()]));
+                let all: Vec<_> = kept.chain(new).collect();
+                let mut changed = (**job).clone();
+                changed.set_vary(&all, false)?;
+                Ok(Self {
+                    files: self.files.clone(),
+                    ..Self::of_job(changed, 0, *pose)?
+                })
+            }
+        }
+    }
+
     /// The mechanism as data, in its configuration.
     pub fn model(&self) -> &Model {
         self.prepared.model()
@@ -266,7 +301,7 @@ impl Study {
     }
 
     /// The mechanism file that it is from, where it is from one.
-    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+    pub fn mechanism(&self) -> Option<&Mechanism> {
         match &self.origin {
             Origin::Mechanism(mechanism) => Some(mechanism),
             Origin::Job { design, .. } => design.mechanism(),

@@ -31,7 +31,7 @@ pub struct Batch {
 }
 
 /// One job: a mechanism, or many designs of one, its poses and the figures to draw.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Job {
     /// Name, the stem of its output files: ASCII letters, digits, `_`, `-` and `.`, not starting
@@ -48,7 +48,7 @@ pub struct Job {
     pub(super) recipe: Recipe,
     pub(super) poses: Arc<Poses>,
     /// Where `vary` is given.
-    designs: Option<Designs>,
+    designs: Option<Arc<Designs>>,
     /// Names of the cases.
     cases: Vec<String>,
     /// The first design that can be, and its number.
@@ -167,7 +167,7 @@ impl Job {
             Some(variation) => {
                 let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
-                Some(designs)
+                Some(Arc::new(designs))
             }
             None => None,
         };
@@ -195,13 +195,15 @@ impl Job {
 
     /// Number of designs, at least 1.
     pub fn designs(&self) -> usize {
-        self.designs.as_ref().map_or(1, Designs::len)
+        self.designs.as_ref().map_or(1, |designs| designs.len())
     }
 
     /// What varies from design to design, in the order of the file; nothing where `vary` is not
     /// given.
     pub fn varied(&self) -> &[Varied] {
-        self.designs.as_ref().map_or(&[], Designs::varied)
+        self.designs
+            .as_ref()
+            .map_or(&[], |designs| designs.varied())
     }
 
     /// Names of its cases, in their order; the same in every design.

@@ -20,7 +20,7 @@ use crate::text::tree::Node;
 use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Recipe {
     /// The mechanism: the value of its file, or the prebuilt one in the job.
     root: Node,

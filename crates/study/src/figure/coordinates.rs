@@ -6,13 +6,10 @@ use std::collections::HashSet;
 use hyperstat_mechanisms::nearest;
 
 use super::plane::Levels;
-use super::quantity::unit;
 use super::rows::chosen;
 use crate::plot_error::PlotError;
+use crate::schema::{COORDINATES, unit};
 use crate::table::TableReader;
-
-/// Coordinates of a pose, as its columns are named.
-pub const POSE: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// Poses that a plane has on average where poses that fill no grid are told apart by planes.
 const IN_A_PLANE: usize = 4;
@@ -44,7 +41,10 @@ impl Coordinates {
         rows: &[usize],
         asked: Option<&[String]>,
     ) -> Result<Self, PlotError> {
-        let names = POSE.map(String::from).into_iter().chain(table.drives());
+        let names = COORDINATES
+            .map(String::from)
+            .into_iter()
+            .chain(table.drives());
         let names: Vec<String> = names.collect();
         let places: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
         let columns = table.read(&places)?;
@@ -89,7 +89,7 @@ impl Coordinates {
             let grid = asked.len() > 1 && self.fill_a_grid(&asked);
             return (asked, grid);
         }
-        let drives: Vec<usize> = (POSE.len()..self.all.len()).filter(varies).collect();
+        let drives: Vec<usize> = (COORDINATES.len()..self.all.len()).filter(varies).collect();
         let candidates: Vec<usize> = match &*drives {
             // A table has columns of drives where these were given.
             [] => (all.clone())

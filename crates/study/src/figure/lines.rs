@@ -7,9 +7,10 @@ use hyperstat_figures::{Diagram, LineFigure, MOST_SERIES, Quantity, Series};
 
 use super::coordinates::Coordinates;
 use super::map::evenly;
-use super::quantity::{Drawn, unit};
+use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
 use crate::plot_error::PlotError;
+use crate::schema::unit;
 use crate::table::{Column, TableReader};
 
 /// Lines that are asked for.

@@ -3,11 +3,12 @@
 use hyperstat_figures::{ColorScale, MapFigure, MapPanel, Quantity, Samples};
 use hyperstat_mechanisms::Commanded;
 
-use super::coordinates::{Coordinates, POSE, unknown};
+use super::coordinates::{Coordinates, unknown};
 use super::plane::Levels;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
 use crate::plot_error::PlotError;
+use crate::schema::COORDINATES;
 use crate::table::{Column, TableReader};
 
 /// Most planes side by side in a figure.
@@ -136,8 +137,8 @@ impl Map {
     pub fn check(&self, commanded: &[Commanded]) -> Result<(), PlotError> {
         let names = || commanded.iter().map(|coordinate| &*coordinate.name);
         let all = || {
-            let drives = names().filter(|name| !POSE.contains(name));
-            POSE.into_iter().chain(drives)
+            let drives = names().filter(|name| !COORDINATES.contains(name));
+            COORDINATES.into_iter().chain(drives)
         };
         let planes = self.planes.iter().map(|(axis, _)| axis);
         for name in planes.chain(self.axes.iter().flatten()) {

@@ -16,6 +16,7 @@ mod second;
 mod solved;
 mod trajectory;
 
+pub use crate::schema::is_frequency;
 pub use budget::budget;
 pub use deformed::{compare, deformed, mode};
 pub use drawing::Drawing;
@@ -23,7 +24,7 @@ pub use job::{check, draw, names};
 pub use lines::{Lines, figure as lines};
 pub use map::{Map, figure as map};
 pub use of_study::Look;
-pub use quantity::{Drawn, instead_of, is_frequency};
+pub use quantity::{Drawn, instead_of};
 pub use rows::{Choice, first_design};
 pub use solved::Solved;
 pub use trajectory::{Trajectory, of_table as trajectory};

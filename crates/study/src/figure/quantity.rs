@@ -3,9 +3,11 @@
 
 use hyperstat_figures::Quantity;
 use hyperstat_mechanisms::nearest;
-use nalgebra::{Cholesky, Matrix3, Matrix6};
+use nalgebra::{Matrix6, Vector6};
 
+use crate::measures::{self, Pose};
 use crate::plot_error::PlotError;
+use crate::schema::{self, DISPLACEMENT, STATUS, unit, words};
 use crate::table::{Column, TableReader};
 
 /// A quantity of a table.
@@ -26,25 +28,8 @@ enum Rule {
     Same,
     /// Length of a vector.
     Length,
-    /// Of the upper triangle of the stiffness: the least or the greatest principal stiffness of the
-    /// translations (block 0) or the rotations (block 3), the others free or held.
-    Principal {
-        block: usize,
-        others: Others,
-        least: bool,
-    },
-    /// Of the same: the inverse of an entry of the compliance's diagonal.
-    Along(usize),
-}
-
-/// What the output does in the directions that a stiffness is not about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Others {
-    /// It goes where it likes: a force, or a moment, acts alone. Inverses of eigenvalues of a block of
-    /// the compliance.
-    Free,
-    /// It stays: a translation, or a rotation, is made alone. Eigenvalues of a block of the stiffness.
-    Held,
+    /// A measure of the stiffness, from its upper triangle by rows.
+    Of(measures::Rule),
 }
 
 /// Quantities that are found from others, by name.
@@ -117,25 +102,9 @@ impl Rule {
         match self {
             Self::Same => numbers.first().copied(),
             Self::Length => Some(numbers.iter().fold(0.0_f64, |sum, n| sum.hypot(*n))),
-            Self::Along(place) => {
-                let compliance = compliance(numbers)?;
-                Some(1.0 / compliance[(place, place)])
-            }
-            Self::Principal {
-                block,
-                others,
-                least,
-            } => {
-                let of = |matrix: Matrix6<f64>| {
-                    let block: Matrix3<f64> = matrix.fixed_view::<3, 3>(block, block).into();
-                    block.symmetric_eigenvalues()
-                };
-                match (others, least) {
-                    (Others::Free, true) => Some(1.0 / of(compliance(numbers)?).max()),
-                    (Others::Free, false) => Some(1.0 / of(compliance(numbers)?).min()),
-                    (Others::Held, true) => Some(of(stiffness(numbers)).min()),
-                    (Others::Held, false) => Some(of(stiffness(numbers)).max()),
-                }
+            Self::Of(rule) => {
+                let pose = Pose::new(&stiffness(numbers));
+                pose.measure(rule, &Vector6::zeros())
             }
         }
         .filter(|value| value.is_finite())
@@ -153,80 +122,31 @@ fn stiffness(upper: &[f64]) -> Matrix6<f64> {
     stiffness
 }
 
-/// The compliance from the upper triangle of a stiffness, by rows; `None` where it is not positive
-/// definite.
-fn compliance(upper: &[f64]) -> Option<Matrix6<f64>> {
-    Some(Cholesky::new(stiffness(upper))?.inverse())
-}
-
 fn derived(name: &str) -> Option<Drawn> {
     let (case, kind) = match name.rsplit_once('.') {
         Some((case, kind)) => (format!("{case}."), kind),
         None => (String::new(), name),
     };
-    let of_case = match &*case {
-        "" => String::new(),
-        case => format!(", case {}", case.trim_end_matches('.')),
-    };
-    let vector = |axes: [&str; 3], unit: &str, words: &str| Drawn {
-        quantity: Quantity::new(name, unit),
-        words: format!("{words}{of_case}"),
-        rule: Rule::Length,
-        columns: axes.map(|axis| format!("{case}{axis}")).to_vec(),
-    };
-    match kind {
-        "deflection" => {
-            let words = "length of the output's displacement";
-            return Some(vector(["dx", "dy", "dz"], "m", words));
-        }
-        "rotation" => {
-            let words = "angle of the output's rotation";
-            return Some(vector(["drx", "dry", "drz"], "rad", words));
-        }
-        _ => {}
+    let measure = measures::named(DERIVED.into_iter().find(|known| *known == kind)?)?;
+    let quantity = Quantity::new(name, measure.unit);
+    if let measures::Rule::Length(first) = measure.rule {
+        let of_case = match &*case {
+            "" => String::new(),
+            case => format!(", case {}", case.trim_end_matches('.')),
+        };
+        let axes = &DISPLACEMENT[first..first + 3];
+        return Some(Drawn {
+            quantity,
+            words: format!("{}{of_case}", measure.words),
+            rule: Rule::Length,
+            columns: axes.iter().map(|axis| format!("{case}{axis}")).collect(),
+        });
     }
-    if !case.is_empty() {
-        return None;
-    }
-    let (cause, rest) = kind.strip_prefix("pure_")?.split_once("_stiffness_")?;
-    let (block, others) = match cause {
-        "force" => (0, Others::Free),
-        "moment" => (3, Others::Free),
-        "translation" => (0, Others::Held),
-        "rotation" => (3, Others::Held),
-        _ => return None,
-    };
-    let free = match (block, others) {
-        (0, Others::Free) => "rotations free",
-        (0, Others::Held) => "rotations held",
-        (_, Others::Free) => "translations free",
-        (_, Others::Held) => "translations held",
-    };
-    let axis = ["x", "y", "z"].iter().position(|axis| *axis == rest);
-    let (rule, words) = match (rest, axis, others) {
-        (_, Some(axis), Others::Free) => {
-            let effect = ["displacement", "rotation"][block / 3];
-            let words = format!("{cause} along {rest} alone per {effect} along {rest}");
-            (Rule::Along(block + axis), words)
-        }
-        ("min" | "max", ..) => {
-            let least = rest == "min";
-            let size = if least { "least" } else { "greatest" };
-            let rule = Rule::Principal {
-                block,
-                others,
-                least,
-            };
-            let words = format!("{size} principal stiffness against a pure {cause}, {free}");
-            (rule, words)
-        }
-        _ => return None,
-    };
-    Some(Drawn {
-        quantity: Quantity::new(name, ["N/m", "N·m/rad"][block / 3]),
-        words,
-        rule,
-        columns: upper_triangle().collect(),
+    case.is_empty().then(|| Drawn {
+        quantity,
+        words: measure.words.into(),
+        rule: Rule::Of(measure.rule),
+        columns: schema::stiffness().collect(),
     })
 }
 
@@ -257,87 +177,9 @@ pub fn instead_of(name: &str, names: &[String]) -> String {
     }
 }
 
-fn upper_triangle() -> impl Iterator<Item = String> {
-    (1..=6).flat_map(|row| (row..=6).map(move |column| format!("k{row}{column}")))
-}
-
-/// Row and column, from 1, of a stiffness column `k11` to `k66`.
-fn entry(name: &str) -> Option<[usize; 2]> {
-    let digits: Vec<usize> = (name.strip_prefix('k')?.chars())
-        .map(|c| {
-            c.to_digit(10)
-                .filter(|d| (1..=6).contains(d))
-                .map(|d| d as usize)
-        })
-        .collect::<Option<_>>()?;
-    digits.try_into().ok()
-}
-
-/// The SI unit of a column; empty where it has none or is unknown.
-pub(super) fn unit(name: &str) -> &'static str {
-    if let Some([row, column]) = entry(name) {
-        return match (row > 3, column > 3) {
-            (false, false) => "N/m",
-            (false, true) => "N/rad",
-            (true, false) => "N",
-            (true, true) => "N·m/rad",
-        };
-    }
-    let last = name.rsplit('.').next().unwrap_or(name);
-    let stiffness = name.contains("stiffness");
-    match last {
-        "x" | "y" | "z" if stiffness => "N/m",
-        "u" | "v" | "w" | "drive_stiffness" if stiffness => "N·m/rad",
-        "x" | "y" | "z" | "dx" | "dy" | "dz" => "m",
-        // Of a drive.
-        "u" | "v" | "w" => "rad",
-        "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => "rad",
-        "diameter" | "outer" | "inner" | "width" | "height" | "thickness" => "m",
-        "young" | "shear" | "yield" => "Pa",
-        "density" => "kg/m³",
-        _ if is_frequency(last) => "Hz",
-        _ if ["_length", "_radius", "_spacing"]
-            .iter()
-            .any(|end| last.ends_with(end)) =>
-        {
-            "m"
-        }
-        _ => "",
-    }
-}
-
-/// Whether a column is a natural frequency: `f1`, `f2` …
-pub fn is_frequency(name: &str) -> bool {
-    let number = name.strip_prefix('f').unwrap_or_default();
-    !number.is_empty() && number.chars().all(|c| c.is_ascii_digit())
-}
-
-/// What a column is, in words.
-fn words(name: &str) -> String {
-    const AXES: [&str; 3] = ["x", "y", "z"];
-    if let Some([row, column]) = entry(name) {
-        let of =
-            |k: usize, words: [&str; 2]| format!("{} {}", words[(k - 1) / 3], AXES[(k - 1) % 3]);
-        let force = of(row, ["force along", "moment about"]);
-        let motion = of(column, ["displacement along", "rotation about"]);
-        return format!("{force} per {motion}, all other displacements zero");
-    }
-    let (case, last) = match name.rsplit_once('.') {
-        Some((case, last)) => (format!(", case {case}"), last),
-        None => (String::new(), name),
-    };
-    let axis = |rest: &str| AXES.contains(&rest);
-    match (last.strip_prefix("dr"), last.strip_prefix('d')) {
-        (Some(rest), _) if axis(rest) => format!("rotation of the output about {rest}{case}"),
-        (_, Some(rest)) if axis(rest) => format!("displacement of the output along {rest}{case}"),
-        _ if is_frequency(name) => format!("natural frequency {}", &name[1..]),
-        _ => name.into(),
-    }
-}
-
 /// What a table with these columns holds, in words: the quantity that was meant by `name`, or all.
 fn known(name: &str, names: &[String]) -> String {
-    let not_drawn = |name: &&String| name.as_str() != "status";
+    let not_drawn = |name: &&String| name.as_str() != STATUS;
     let columns: Vec<_> = names.iter().filter(not_drawn).map(String::as_str).collect();
     let derived: Vec<_> = (DERIVED.into_iter())
         .filter(|name| Drawn::named(name, names).is_some())
@@ -356,101 +198,8 @@ fn known(name: &str, names: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Drawn, Others, Rule, unit, words};
-
-    #[test]
-    fn columns_have_units_and_words() {
-        for (name, expected) in [
-            ("k11", "N/m"),
-            ("k35", "N/rad"),
-            ("k66", "N·m/rad"),
-            ("dz", "m"),
-            ("own weight.drx", "rad"),
-            ("f3", "Hz"),
-            ("rod.section.diameter", "m"),
-            ("joints.wrist.stiffness.x", "N/m"),
-            ("drive_stiffness", "N·m/rad"),
-            ("A1.v", "rad"),
-            ("D1.y", "m"),
-            ("elements", ""),
-        ] {
-            assert_eq!(unit(name), expected, "{name}");
-        }
-        assert_eq!(
-            words("k15"),
-            "force along x per rotation about y, all other displacements zero"
-        );
-        assert_eq!(
-            words("gravity.dz"),
-            "displacement of the output along z, case gravity"
-        );
-    }
-
-    #[test]
-    fn principal_stiffness_of_springs_at_an_angle() {
-        // 1e6 N/m along (1, 1)/√2 in x-y, 4e6 across it, 2e6 along z, rotations apart.
-        let mut upper = vec![0.0; 21];
-        for (place, value) in [(0, 2.5e6), (1, -1.5e6), (6, 2.5e6), (11, 2e6)] {
-            upper[place] = value;
-        }
-        for (place, value) in [(15, 10.0), (18, 20.0), (20, 30.0)] {
-            upper[place] = value;
-        }
-        let of = |block, others, least| {
-            let rule = Rule::Principal {
-                block,
-                others,
-                least,
-            };
-            rule.value(&upper).unwrap()
-        };
-        for (found, expected) in [
-            (of(0, Others::Free, true), 1e6),
-            (of(0, Others::Free, false), 4e6),
-            (of(3, Others::Free, true), 10.0),
-            (of(3, Others::Free, false), 30.0),
-            (of(0, Others::Held, true), 1e6),
-            (of(3, Others::Held, false), 30.0),
-            // 1 / (1/2 (1/1e6 + 1/4e6)).
-            (Rule::Along(0).value(&upper).unwrap(), 1.6e6),
-            (Rule::Along(2).value(&upper).unwrap(), 2e6),
-        ] {
-            assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
-        }
-        upper[0] = -1.0;
-        assert_eq!(Rule::Along(2).value(&upper), None);
-    }
-
-    /// A spring k along x at the height h above the output, held in rotation by a spring c: a force
-    /// alone turns the output, 1/K = 1/k + h²/c; a translation alone meets k.
-    #[test]
-    fn rotations_free_and_held_are_two_stiffnesses() {
-        let (k, h, c) = (2e6, 0.3, 5e4);
-        let mut upper = vec![0.0; 21];
-        // k11, k15, k22, k33, k44, k55, k66 of the spring and of stiff ones in all other directions.
-        for (place, value) in [
-            (0, k),
-            (4, k * h),
-            (6, 1e9),
-            (11, 1e9),
-            (15, 1e9),
-            (18, c + k * h * h),
-            (20, 1e9),
-        ] {
-            upper[place] = value;
-        }
-        let columns: Vec<String> = super::upper_triangle().collect();
-        for (name, expected) in [
-            ("pure_force_stiffness_min", 1.0 / (1.0 / k + h * h / c)),
-            ("pure_force_stiffness_x", 1.0 / (1.0 / k + h * h / c)),
-            ("pure_translation_stiffness_min", k),
-            ("pure_moment_stiffness_min", c),
-            ("pure_rotation_stiffness_min", c + k * h * h),
-        ] {
-            let found = Drawn::named(name, &columns).unwrap().rule.value(&upper);
-            assert!((found.unwrap() / expected - 1.0).abs() < 1e-12, "{name}");
-        }
-    }
+    use super::Drawn;
+    use crate::schema;
 
     #[test]
     fn a_name_of_two_meanings_is_told_both() {
@@ -466,7 +215,7 @@ mod tests {
             ),
             ("rotational_stiffness_y", ["pure_moment_stiffness_y", "k55"]),
         ] {
-            let columns: Vec<String> = super::upper_triangle().collect();
+            let columns: Vec<String> = schema::stiffness().collect();
             assert_eq!(Drawn::named(name, &columns), None);
             let told = super::instead_of(name, &columns);
             assert!(

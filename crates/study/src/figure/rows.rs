@@ -1,7 +1,8 @@
 //! Which rows of a table are drawn.
 
 use crate::plot_error::PlotError;
-use crate::table::{Column, DESIGN, STATUS, TableReader};
+use crate::schema::{DESIGN, POSE, STATUS};
+use crate::table::{Column, TableReader};
 
 /// What the status of a pose with a result is.
 const SOLVED: [&str; 2] = ["ok", "rigid"];
@@ -40,7 +41,7 @@ impl Choice {
 
     /// The rows that are chosen.
     pub(super) fn rows(self, table: &TableReader) -> Result<Vec<usize>, PlotError> {
-        let pose = table.read(&[table.find("pose").unwrap_or(0)])?.remove(0);
+        let pose = table.read(&[table.find(POSE).unwrap_or(0)])?.remove(0);
         if pose.is_empty() {
             return Err(PlotError::Empty {
                 path: table.path().into(),
@@ -51,7 +52,7 @@ impl Choice {
             Some(place) => table.read(&[place])?.remove(0),
             None => vec![Some(0.0); pose.len()],
         };
-        let choices = [("design", self.design, designs), ("pose", self.pose, pose)];
+        let choices = [(DESIGN, self.design, designs), (POSE, self.pose, pose)];
         for (what, number, column) in choices {
             let Some(number) = number else { continue };
             rows.retain(|&row| column[row] == Some(number as f64));

@@ -10,6 +10,7 @@ use super::rows::Choice;
 use super::second::{SECOND, difference_in};
 use crate::answer::linear;
 use crate::plot_error::PlotError;
+use crate::schema::{COORDINATES, DISPLACEMENT};
 use crate::study::job_model;
 use crate::sweep::Record;
 use crate::table::TableReader;
@@ -111,8 +112,8 @@ pub fn of_table(
     scale: Scale,
     own_title: Option<String>,
 ) -> Result<TrajectoryFigure, PlotError> {
-    let names = ["x", "y", "z", "dx", "dy", "dz"];
-    let columns: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
+    let names = COORDINATES[..3].iter().chain(&DISPLACEMENT[..3]);
+    let columns: Vec<_> = names.filter_map(|name| table.find(name)).collect();
     let columns = table.read(&columns)?;
     let mut figure = TrajectoryFigure {
         title: own_title.unwrap_or_else(|| {

@@ -14,9 +14,10 @@ use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Prepared, SolveError
 use hyperstat_mechanisms::{Design, Job};
 
 use crate::error::StudyError;
+pub use crate::schema::Columns;
 use crate::source::Source;
 pub use chunk::{Chunk, Row};
-pub use record::{Columns, Failure, Found, Held, NUMBERS, Record, UPPER};
+pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
 pub use threads::Threads;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hyperstat_assembly::{PoseResult, SolveError};
-use hyperstat_mechanisms::{Job, LoadError, PoseError, Varied};
+use hyperstat_mechanisms::{LoadError, PoseError};
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
@@ -142,39 +142,6 @@ impl Found {
 fn all_finite(displacement: &Vector6<f64>, further: &[Option<f64>]) -> bool {
     let further = further.iter().flatten();
     displacement.iter().chain(further).all(|n| n.is_finite())
-}
-
-/// The columns of a job's table that not every job has.
-#[derive(Debug, Default)]
-pub struct Columns<'a> {
-    /// Names of numbers found, after the stiffness.
-    pub further: Vec<String>,
-    /// The drives whose values the poses are, after these.
-    pub drives: &'a [String],
-    /// What varies from design to design, last.
-    pub varied: &'a [Varied],
-}
-
-impl<'a> Columns<'a> {
-    /// Those of a job.
-    pub fn of(job: &'a Job) -> Self {
-        let components = ["dx", "dy", "dz", "drx", "dry", "drz"];
-        let cases = job.cases().iter();
-        Self {
-            further: cases
-                .flat_map(|case| components.map(|component| format!("{case}.{component}")))
-                .chain(frequencies(job))
-                .collect(),
-            drives: job.drives(),
-            varied: job.varied(),
-        }
-    }
-}
-
-/// Names of the columns of natural frequencies.
-fn frequencies(job: &Job) -> impl Iterator<Item = String> {
-    let count = job.modes.as_ref().map_or(0, |options| options.count);
-    (1..=count).map(|k| format!("f{k}"))
 }
 
 /// Numbers in the upper triangle of the stiffness.

@@ -2,43 +2,34 @@
 
 use std::collections::HashMap;
 
-use hyperstat_assembly::measures::principal;
-use nalgebra::{Cholesky, Matrix3, Matrix6};
 use serde::Serialize;
 
 use super::record::{Found, Record};
+use crate::measures::{self, Measure, Pose};
 
 /// Neighbouring values that a percentile does not tell apart: their logarithms differ by less.
 const RESOLUTION: f64 = 1e-3;
 /// Percentiles that are told, in percent.
 const PERCENTILES: [f64; 3] = [5.0, 50.0, 95.0];
 
-/// What is measured at every pose: name in JSON, in words, unit.
-const MEASURES: [(&str, &str, &str); COUNT] = [
-    ("deflection", "deflection under the loads", "m"),
-    ("compliance_x", "compliance along x", "m/N"),
-    ("compliance_y", "compliance along y", "m/N"),
-    ("compliance_z", "compliance along z", "m/N"),
-    ("softest_force", "compliance, softest direction", "m/N"),
-    ("softest_moment", "compliance, softest moment", "rad/(N·m)"),
-    (
-        "pure_force_stiffness_min",
-        "stiffness, pure force, least",
-        "N/m",
-    ),
-    (
-        "pure_translation_stiffness_min",
-        "stiffness, pure translation, least",
-        "N/m",
-    ),
-    (
-        "pure_translation_stiffness_max",
-        "stiffness, pure translation, greatest",
-        "N/m",
-    ),
-    ("virtual_work_index", "virtual-work index of forces", "J"),
+/// What is measured at every pose.
+const MEASURED: [&str; COUNT] = [
+    "deflection",
+    "compliance_x",
+    "compliance_y",
+    "compliance_z",
+    "softest_force",
+    "softest_moment",
+    "pure_force_stiffness_min",
+    "pure_translation_stiffness_min",
+    "pure_translation_stiffness_max",
+    "virtual_work_index",
 ];
 const COUNT: usize = 10;
+
+fn measured() -> impl Iterator<Item = &'static Measure> {
+    MEASURED.iter().filter_map(|name| measures::named(name))
+}
 
 /// The measures of one pose.
 pub type Values = [f64; COUNT];
@@ -50,27 +41,12 @@ pub fn measure(record: &Record) -> Option<Values> {
         displacement,
         ..
     } = record.result.as_ref().ok()?;
-    let scale = stiffness.diagonal().map(f64::sqrt);
-    let unit = Matrix6::from_fn(|r, c| stiffness[(r, c)] / (scale[r] * scale[c]));
-    let inverse = Cholesky::new(unit)?.inverse();
-    let compliance = Matrix6::from_fn(|r, c| inverse[(r, c)] / (scale[r] * scale[c]));
-    let block = |m: &Matrix6<f64>, k: usize| -> Matrix3<f64> { m.fixed_view::<3, 3>(k, k).into() };
-    let forces = block(&compliance, 0);
-    let softest = principal(&forces).values[2];
-    let stiffnesses = principal(&block(stiffness, 0)).values;
-    let values = [
-        displacement.fixed_rows::<3>(0).norm(),
-        forces[(0, 0)],
-        forces[(1, 1)],
-        forces[(2, 2)],
-        softest,
-        principal(&block(&compliance, 3)).values[2],
-        1.0 / softest,
-        stiffnesses[0],
-        stiffnesses[2],
-        forces.trace() / 3.0,
-    ];
-    values.iter().all(|v| v.is_finite()).then_some(values)
+    let pose = Pose::new(stiffness);
+    let mut values = [0.0; COUNT];
+    for (value, measure) in values.iter_mut().zip(measured()) {
+        *value = pose.measure(measure.rule, displacement)?;
+    }
+    Some(values)
 }
 
 /// Statistics of the measures over the poses of a job; its memory does not grow with their number.
@@ -124,13 +100,13 @@ impl Statistics {
 
     /// The statistics as they are reported; `None` of no pose.
     pub fn report(&self) -> Option<Vec<MeasureReport>> {
-        let measures = MEASURES.into_iter().zip(&self.of);
-        measures
-            .map(|((name, words, unit), spread)| {
+        measured()
+            .zip(&self.of)
+            .map(|(measure, spread)| {
                 Some(MeasureReport {
-                    measure: name,
-                    words,
-                    unit,
+                    measure: measure.name,
+                    words: measure.short,
+                    unit: measure.unit,
                     poses: self.count,
                     min: spread.least?,
                     mean: spread.sum / self.count as f64,

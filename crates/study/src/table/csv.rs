@@ -14,7 +14,7 @@ pub(super) struct Csv<W>(W);
 
 impl<W: Write> Csv<W> {
     pub(super) fn new(mut writer: W, columns: &Columns<'_>) -> io::Result<Self> {
-        let names = super::columns(columns).map(|name| quoted(&name).into_owned());
+        let names = crate::schema::columns(columns).map(|name| quoted(&name).into_owned());
         let names: Vec<_> = names.collect();
         writeln!(writer, "{}", names.join(","))?;
         Ok(Self(writer))
@@ -107,8 +107,8 @@ mod tests {
     use hyperstat_mechanisms::PoseError;
     use nalgebra::{Matrix6, Vector6};
 
-    use super::super::columns;
     use super::append;
+    use crate::schema::columns;
     use crate::sweep::{Columns, Failure, Found, Held, Record, Row};
 
     fn two_further() -> Columns<'static> {

@@ -17,7 +17,7 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use hyperstat_mechanisms::{Value, Varied};
 
-use super::STATUS;
+use crate::schema::{self, STATUS};
 use crate::sweep::{Chunk, Columns, NUMBERS};
 
 /// Rows of a group: 16 MB of numbers.
@@ -273,7 +273,7 @@ fn schema(given: &Columns<'_>) -> Result<Type, ParquetError> {
     let mut columns = Vec::new();
     let drives = 8 + NUMBERS + given.further.len();
     let design = drives + given.drives.len();
-    for (place, name) in super::columns(given).enumerate() {
+    for (place, name) in schema::columns(given).enumerate() {
         let text = match place.checked_sub(design + 1) {
             None => name == STATUS,
             Some(value) => !given.varied[value].numeric,

@@ -14,12 +14,10 @@ use parquet::record::Field;
 #[cfg(feature = "parquet")]
 use parquet::schema::types::Type;
 
+use super::TableFormat;
 use super::cells;
-use super::{DESIGN, STATUS, TableFormat};
 use crate::plot_error::PlotError;
-
-/// Columns that every table has, in order.
-const FIRST: [&str; 8] = ["pose", "x", "y", "z", "rx", "ry", "rz", "status"];
+use crate::schema::{COORDINATES, DESIGN, POSE, STATUS};
 
 /// A column of numbers; `None` where a cell is empty.
 pub type Column = Vec<Option<f64>>;
@@ -83,13 +81,15 @@ impl TableReader {
                 columns.map(|column| column.name().to_string()).collect()
             }
         };
+        // Columns that every table has.
+        let mut first = [POSE].into_iter().chain(COORDINATES).chain([STATUS]);
         let table = Self {
             path: path.into(),
             names,
             form,
             source,
         };
-        match FIRST.into_iter().find(|name| table.find(name).is_none()) {
+        match first.find(|name| table.find(name).is_none()) {
             Some(missing) => Err(PlotError::NoRun {
                 location: Box::new(table.location(1, 0)),
                 missing,

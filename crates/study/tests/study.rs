@@ -1,0 +1,273 @@
+//! The library as its users see it: files from memory, values by path, parts of sweeps, tables and
+//! figures without a disk.
+
+use std::path::Path;
+
+use hyperstat_study::figure::{self, Choice, Drawing, Map};
+use hyperstat_study::sweep::{Columns, Record, Statistics, Summary, Sweep, Threads, Way, measure};
+use hyperstat_study::table::{TableFormat, TableReader, TableWriter, render};
+use hyperstat_study::{
+    Job, JobMechanism, JobPoses, MemoryFiles, Question, Registry, Selection, Study, StudyError,
+    Value,
+};
+
+const CANTILEVER: &str = r#"(
+    name: "cantilever",
+    materials: { "steel": (young: 2.1e11, poisson: 0.3) },
+    sections: { "rod": Circle(diameter: 0.02) },
+    points: { "A": (0.0, 0.0, 0.0), "B": (1.0, 0.0, 0.0) },
+    bodies: { "beam": Beam(through: ["A", "B"], section: "rod", material: "steel") },
+    joints: { "wall": (at: "A", between: ("ground", "beam"), kind: Fixed) },
+    loads: [(on: ("beam", "B"), force: (0.0, 0.0, -100.0))],
+    output: ("beam", "B"),
+)"#;
+
+fn study(name: &str, text: &str, selection: &Selection) -> Result<Study, StudyError> {
+    let files = MemoryFiles::from_iter([(name, text)]);
+    Study::open(Path::new(name), selection, &files, &Registry::builtin())
+}
+
+/// Sag of a cantilever of this diameter under 100 N at 1 m: F L³ / 3 E I.
+fn sag(diameter: f64) -> f64 {
+    let second_moment = std::f64::consts::PI * diameter.powi(4) / 64.0;
+    -100.0 / (3.0 * 2.1e11 * second_moment)
+}
+
+fn close(found: f64, expected: f64) {
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+}
+
+#[test]
+fn a_file_from_memory_is_solved_and_its_values_changed_by_path() {
+    let mut cantilever = study("a.ron", CANTILEVER, &Selection::default()).unwrap();
+    let answer = cantilever.answer(&Question::default()).unwrap();
+    close(answer.report.output.displacement[2], sag(0.02));
+    let beam = answer.report.displacements.get("beam.B").unwrap();
+    assert_eq!(*beam, answer.report.output.displacement);
+    let mut thicker = cantilever
+        .with_values(&[("sections.rod.diameter", 0.03)])
+        .unwrap();
+    let answer = thicker.answer(&Question::default()).unwrap();
+    close(answer.report.output.displacement[2], sag(0.03));
+    let error = cantilever
+        .with_values(&[("sections.rod.outer", 0.03)])
+        .unwrap_err();
+    assert_eq!(error.code(), "input");
+    assert!(error.help().is_some(), "{error}");
+}
+
+#[test]
+fn errors_have_a_place_a_help_and_a_code() {
+    let wrong = CANTILEVER.replace("material: \"steel\"", "material: \"steal\"");
+    let error = study("a.ron", &wrong, &Selection::default()).unwrap_err();
+    assert_eq!(
+        (error.code(), &*error.to_string()),
+        ("input", "unknown material `steal`")
+    );
+    assert_eq!(error.help().as_deref(), Some("did you mean `steel`?"));
+    let location = error.location().unwrap();
+    assert_eq!((location.line, location.column), (6, 75));
+    let pose = Selection {
+        pose: Some(1),
+        ..Selection::default()
+    };
+    let error = study("a.ron", CANTILEVER, &pose).unwrap_err();
+    assert_eq!(error.code(), "no-batch");
+    assert!(!error.to_string().contains("--") && !error.help().unwrap().contains("--"));
+    let hinged = CANTILEVER.replace("Fixed", "Revolute(axis: (0.0, 1.0, 0.0))");
+    let error = study("a.ron", &hinged, &Selection::default()).unwrap();
+    let (report, error) = (error.check(), error.solve().unwrap_err());
+    assert_eq!(error.code(), "unrestrained");
+    assert!(!report.0.solvable && report.1.is_some());
+}
+
+/// A delta over a line of poses, some of them out of reach, with two designs.
+fn job() -> Job {
+    let link = |diameter: f64| {
+        let material = "(young: 2.1e11, poisson: 0.3)";
+        Value::Text(format!(
+            "(section: Circle(diameter: {diameter:?}), material: {material})"
+        ))
+    };
+    let delta = JobMechanism::prebuilt(
+        "Delta",
+        [
+            ("base_radius", 0.25.into()),
+            ("platform_radius", 0.06.into()),
+            ("arm_length", 0.30.into()),
+            ("rod_length", 0.60.into()),
+            ("rod_spacing", 0.12.into()),
+            ("arm", link(0.030)),
+            ("bar", link(0.020)),
+            ("rod", link(0.014)),
+        ],
+    );
+    let mut poses = Vec::new();
+    for x in 0..40 {
+        for y in 0..12 {
+            poses.push([0.03 * f64::from(x) - 0.2, 0.02 * f64::from(y), 0.5]);
+        }
+    }
+    let poses = JobPoses::list(&poses);
+    let mut job = Job::new("line", delta, poses, &Registry::builtin()).unwrap();
+    let vary = [("rod.section.diameter", vec![0.012.into(), 0.014.into()])];
+    job.set_vary(&vary, false).unwrap();
+    job
+}
+
+fn same(a: &Record, b: &Record) {
+    assert_eq!((a.pose, a.status()), (b.pose, b.status()));
+    if let (Ok(a), Ok(b)) = (&a.result, &b.result) {
+        assert_eq!((a.stiffness, a.displacement), (b.stiffness, b.displacement));
+    }
+}
+
+#[test]
+fn any_range_of_rows_is_a_part_of_the_whole() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    let threads = Threads::new(2).unwrap();
+    let part = |rows: std::ops::Range<usize>| {
+        let mut records = Vec::new();
+        let mut summary = Summary::new(&job, rows.start);
+        let mut statistics = Statistics::default();
+        let taken = sweep.run(
+            &threads,
+            rows,
+            |_| {},
+            |chunk| -> Result<(), ()> {
+                summary.add(&chunk.records);
+                for (row, record) in chunk.rows.clone().zip(&chunk.records) {
+                    if let Some(values) = measure(record) {
+                        statistics.add(row, &record.pose, &values);
+                    }
+                }
+                records.append(&mut chunk.records);
+                Ok(())
+            },
+        );
+        taken.unwrap();
+        (records, summary, statistics)
+    };
+    let (all, whole, statistics) = part(0..sweep.len());
+    assert_eq!(all.len(), 2 * 480);
+    assert!(!whole.is_complete() && all.iter().any(|record| record.result.is_ok()));
+    let mut merged = Summary::new(&job, 0);
+    let mut merged_statistics = Statistics::default();
+    for rows in [0..3, 3..500, 500..960] {
+        let (records, summary, of_part) = part(rows.clone());
+        records
+            .iter()
+            .zip(&all[rows.clone()])
+            .for_each(|(a, b)| same(a, b));
+        let alone = sweep.records(rows);
+        alone.iter().zip(&records).for_each(|(a, b)| same(a, b));
+        merged.merge(&summary);
+        merged_statistics.merge(&of_part);
+    }
+    assert_eq!(format!("{merged:?}"), format!("{whole:?}"));
+    let json = |found: &Statistics| serde_json::to_value(found.report().unwrap()).unwrap();
+    let (merged, whole) = (json(&merged_statistics), json(&statistics));
+    for (part, whole) in merged
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(whole.as_array().unwrap())
+    {
+        for exact in ["poses", "min", "max", "percentiles"] {
+            assert_eq!(part[exact], whole[exact]);
+        }
+        // A sum in another order.
+        close(
+            part["mean"].as_f64().unwrap(),
+            whole["mean"].as_f64().unwrap(),
+        );
+    }
+}
+
+#[test]
+fn what_takes_the_chunks_stops_a_sweep() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    let mut seen = 0;
+    let threads = Threads::new(2).unwrap();
+    let stopped = sweep.run(
+        &threads,
+        0..sweep.len(),
+        |_| {},
+        |chunk| {
+            seen += chunk.records.len();
+            Err("enough")
+        },
+    );
+    assert_eq!(stopped, Err("enough"));
+    assert!(seen < sweep.len());
+}
+
+#[test]
+fn tables_and_figures_need_no_disk() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    let threads = Threads::new(1).unwrap();
+    let table = |format: TableFormat| {
+        let mut table = TableWriter::new(Vec::new(), format, &Columns::of(&job)).unwrap();
+        let take = |chunk: &mut _| table.append(chunk);
+        let written = sweep.run(
+            &threads,
+            0..sweep.len(),
+            |chunk| render(format, chunk),
+            take,
+        );
+        written.unwrap();
+        let name = format!("line.{}", format.extension());
+        TableReader::of(Path::new(&name), table.finish().unwrap()).unwrap()
+    };
+    let (csv, parquet) = (table(TableFormat::Csv), table(TableFormat::Parquet));
+    assert_eq!(csv.names(), parquet.names());
+    let k33 = csv.find("k33").unwrap();
+    assert_eq!(csv.read(&[k33]).unwrap(), parquet.read(&[k33]).unwrap());
+    let map = Map {
+        value: "k33".into(),
+        planes: Vec::new(),
+        axes: None,
+        asked: None,
+        limits: None,
+        scale: Default::default(),
+        choice: Choice {
+            design: Some(1),
+            pose: None,
+        },
+        title: None,
+    };
+    let svg = |table: &TableReader| Drawing::Map(figure::map(table, &map).unwrap()).svg();
+    assert_eq!(svg(&csv).unwrap(), svg(&parquet).unwrap());
+}
+
+#[test]
+fn a_pose_of_a_job_takes_other_values_too() {
+    let text = r#"(jobs: [(
+        name: "line",
+        mechanism: Delta(
+            base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60,
+            rod_spacing: 0.12,
+            arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
+            bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3)),
+            rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3)),
+        ),
+        poses: List([(0.0, 0.0, 0.5), (0.1, 0.0, 0.5)]),
+        vary: { "arm.section.diameter": [0.03, 0.04] },
+    )])"#;
+    let second = Selection {
+        design: Some(1),
+        pose: Some(1),
+        ..Selection::default()
+    };
+    let written = text.replace("diameter: 0.014", "diameter: 0.02");
+    let stiffness = |study: &Study| study.solve().unwrap().output.stiffness.unwrap();
+    let changed = study("b.ron", text, &second).unwrap();
+    let changed = changed
+        .with_values(&[("rod.section.diameter", 0.02)])
+        .unwrap();
+    let expected = study("b.ron", &written, &second).unwrap();
+    assert_eq!(stiffness(&changed), stiffness(&expected));
+}
