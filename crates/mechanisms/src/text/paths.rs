@@ -35,6 +35,11 @@ pub(crate) fn numbers(root: Fragment<'_>) -> Vec<(String, Fragment<'_>)> {
     found
 }
 
+/// What the first value of a tuple may begin with, and no name does.
+const UNNAMED: [char; 17] = [
+    '0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '-', '+', '.', '"', '(', '[', '{',
+];
+
 fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fragment<'a>)>) {
     let inside = contents(value);
     let numbered = |items: Vec<Fragment<'a>>| {
@@ -46,6 +51,10 @@ fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fra
             (inside.map()).map(|entries| entries.into_iter().map(|e| (e.name, e.value)).collect())
         }
         Some('[') => inside.list("a list").map(numbered),
+        // No name begins so. To find that out from an error costs its place, a look at the whole text.
+        Some('(') if inside.text()[1..].trim_start().starts_with(UNNAMED) => {
+            inside.tuple("a tuple").map(numbered)
+        }
         Some('(') => match inside.named("") {
             Ok(fields) => {
                 let pair = |(name, value): (Fragment<'a>, _)| (name.text().to_owned(), value);
@@ -53,12 +62,13 @@ fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fra
             }
             Err(_) => inside.tuple("a tuple").map(numbered),
         },
-        _ => {
+        Some('0'..='9' | '-' | '+' | '.') => {
             if value.number().is_ok() {
                 found.push((path.into(), value));
             }
             return;
         }
+        _ => return,
     };
     let parts: Vec<_> = parts.into_iter().flatten().collect();
     let dotted = parts.iter().any(|(name, _)| name.contains('.'));
