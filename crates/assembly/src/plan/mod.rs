@@ -7,7 +7,6 @@ pub(crate) mod coordinates;
 pub(crate) mod dissection;
 pub(crate) mod elements;
 pub(crate) mod fault;
-pub(crate) mod form;
 pub(crate) mod roles;
 pub(crate) mod sparse;
 pub(crate) mod topology;
@@ -18,14 +17,13 @@ use std::sync::Arc;
 
 use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
 use hyperstat_joints::{Dof, DofSet};
-use hyperstat_model::{BodyId, Directions, JointId, Model, NodeId, fresh_revision};
+use hyperstat_model::{BodyId, Directions, Geometry, JointId, Model, NodeId, fresh_revision};
 use nalgebra::{Matrix6, Vector3};
 
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::elements::{ElementPlan, elements, places};
-use crate::plan::form::Form;
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
 use crate::plan::workspace::{LOADS, Workspace};
@@ -39,9 +37,6 @@ use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};
 pub(crate) struct Plan {
     /// A number that no other plan has.
     pub(crate) id: u64,
-    /// What the plan is made for, and the [revision](Model) of the model that it was made from.
-    pub(crate) form: Form,
-    pub(crate) revision: u64,
     /// How far apart (m) two nodes of a joint may lie.
     pub(crate) one_point: f64,
     pub(crate) topology: Topology,
@@ -225,8 +220,6 @@ impl Plan {
         let deformations = elements.iter().map(|e| e.rows).sum();
         Ok(Self {
             id: fresh_revision(),
-            form: Form::of(model),
-            revision: model.revision(),
             one_point,
             topology,
             output,
@@ -268,8 +261,6 @@ impl Plan {
         TreeBlocks::new(&topology).evaluate(&topology, &at)?;
         Ok(Self {
             id: fresh_revision(),
-            form: Form::of(model),
-            revision: model.revision(),
             one_point: model.one_point(),
             topology,
             output: self.output,
@@ -333,6 +324,19 @@ impl Plan {
         };
         self.make_room(&mut workspace, 1);
         workspace
+    }
+
+    /// Refuses what does not belong to this plan: buffers, and a geometry that is not one of its model.
+    pub(crate) fn check(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        workspace: &Workspace,
+    ) -> Result<(), SolveError> {
+        if workspace.plan != self.id {
+            return Err(SolveError::ForeignWorkspace);
+        }
+        Ok(model.check_geometry(geometry, self.one_point)?)
     }
 
     /// Refuses more sets of loads than there is room for, in the buffers or in their results.
