@@ -4,7 +4,7 @@ mod sweep;
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{Job, Registry, load_batch};
+use hyperstat_mechanisms::{Disk, Job, Registry, load_batch};
 
 pub use sweep::Sweep;
 
@@ -18,7 +18,8 @@ pub const POSE: [f64; 3] = [-0.2, -0.2, 0.5];
 /// Where the file cannot be used.
 pub fn mechanisms() -> Vec<Job> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms.ron");
-    let batch = load_batch(&path, &Registry::builtin()).unwrap_or_else(|error| panic!("{error}"));
+    let batch =
+        load_batch(&path, &Disk, &Registry::builtin()).unwrap_or_else(|error| panic!("{error}"));
     batch.jobs
 }
 

@@ -24,6 +24,7 @@ mod prepared;
 mod rank;
 mod response;
 mod room;
+mod sets;
 mod solve;
 mod state;
 

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hyperstat_mechanisms::Along;
+use hyperstat_study::Selection;
+use hyperstat_study::table;
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -462,6 +464,17 @@ pub(crate) struct Input {
     pub(crate) pose: Option<usize>,
 }
 
+impl Input {
+    /// What is chosen of a batch file.
+    pub(crate) fn selection(&self) -> Selection {
+        Selection {
+            job: self.job.clone(),
+            design: self.design,
+            pose: self.pose,
+        }
+    }
+}
+
 /// Form of a report.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
@@ -482,12 +495,11 @@ pub(crate) enum TableFormat {
     Parquet,
 }
 
-impl TableFormat {
-    /// The extension of its files.
-    pub(crate) fn extension(self) -> &'static str {
-        match self {
-            Self::Csv => "csv",
-            Self::Parquet => "parquet",
+impl From<TableFormat> for table::TableFormat {
+    fn from(format: TableFormat) -> Self {
+        match format {
+            TableFormat::Csv => Self::Csv,
+            TableFormat::Parquet => Self::Parquet,
         }
     }
 }

@@ -5,6 +5,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use tempfile::{Builder, NamedTempFile};
+
 use crate::destination::{self, Destination};
 
 /// A file being written under a temporary name in the folder of its final one. A link stays, and what
@@ -13,39 +15,36 @@ use crate::destination::{self, Destination};
 /// [`AtomicFile::commit`] gives it its name; dropped before that, it is removed. The temporary file is
 /// locked as long as it is written, so that those of dead runs can be told and are removed.
 #[derive(Debug)]
-pub(crate) struct AtomicFile {
-    // `None` where nothing is replaced.
-    replaced: Option<Replaced>,
-    // `None` once committed.
-    writer: Option<BufWriter<File>>,
-}
+pub(crate) struct AtomicFile(BufWriter<Target>);
 
+/// What is written to.
 #[derive(Debug)]
-struct Replaced {
-    path: PathBuf,
-    temporary: PathBuf,
+enum Target {
+    /// A file that will replace what is at the path.
+    Temporary(NamedTempFile, PathBuf),
+    /// What is no regular file.
+    Stream(File),
 }
 
-/// What a temporary name is longer than its final one, at most: `.`, `.4294967295-99.part`.
-pub(crate) const LONGER: usize = 20;
+/// What a temporary name is longer than its final one: `.`, `.`, random letters and digits, `.part`.
+pub(crate) const LONGER: usize = 2 + RANDOM + PART.len();
 
-/// Temporary names that are tried.
+/// Random letters and digits in a temporary name.
+const RANDOM: usize = 13;
+
+const PART: &str = ".part";
+
+/// Temporary files that are tried before another run is believed to take each for dead.
 const TRIES: usize = 99;
 
 impl AtomicFile {
     /// Opens the temporary file for `path`, which must name a file, not a folder.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        let (replaced, file) = match Destination::of(path)? {
-            Destination::Stream(path) => (None, destination::open(&path)?),
-            Destination::File(path) => {
-                let (temporary, file) = temporary(&path)?;
-                (Some(Replaced { path, temporary }), file)
-            }
+        let target = match Destination::of(path)? {
+            Destination::Stream(path) => Target::Stream(destination::open(&path)?),
+            Destination::File(path) => Target::Temporary(temporary(&path)?, path),
         };
-        Ok(Self {
-            replaced,
-            writer: Some(BufWriter::new(file)),
-        })
+        Ok(Self(BufWriter::new(target)))
     }
 
     /// Writes a whole file.
@@ -56,48 +55,38 @@ impl AtomicFile {
     }
 
     /// Puts the complete file in place of what had its name before.
-    pub(crate) fn commit(mut self) -> io::Result<()> {
-        let Some(writer) = &mut self.writer else {
-            return Ok(());
-        };
-        writer.flush()?;
-        if let Some(Replaced { path, temporary }) = &self.replaced {
-            writer.get_ref().sync_all()?;
-            fs::rename(temporary, path)?;
+    pub(crate) fn commit(self) -> io::Result<()> {
+        let target = self.0.into_inner().map_err(|error| error.into_error())?;
+        if let Target::Temporary(file, path) = target {
+            file.as_file().sync_all()?;
+            file.persist(path)?;
         }
-        self.writer = None;
         Ok(())
     }
 }
 
 /// Opens a new file to become `path`, locked; those of dead runs are removed before.
-fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
+fn temporary(path: &Path) -> io::Result<NamedTempFile> {
     let name = path
         .file_name()
         .ok_or(io::Error::from(io::ErrorKind::InvalidFilename))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
     remove_dead(path, name);
-    // The process id keeps two runs apart, and the number two of machines that share the folder.
-    for number in 0..TRIES {
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
-        hidden.push(match number {
-            0 => format!(".{}.part", std::process::id()),
-            number => format!(".{}-{number}.part", std::process::id()),
-        });
-        let temporary = path.with_file_name(hidden);
-        let opened = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&temporary);
-        let file = match opened {
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => continue,
-            opened => opened?,
-        };
+    let mut prefix = OsString::from(".");
+    prefix.push(name);
+    prefix.push(".");
+    let mut builder = Builder::new();
+    builder.prefix(&prefix).suffix(PART).rand_bytes(RANDOM);
+    for _ in 0..TRIES {
+        // Opened here, with the permissions of any new file; the crate's own are for its owner alone.
+        let file = builder.make_in(folder, |path| {
+            OpenOptions::new().write(true).create_new(true).open(path)
+        })?;
         // Where a file system has no locks, nobody else can take it for dead either.
-        let taken = matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+        let taken = matches!(file.as_file().try_lock(), Err(TryLockError::WouldBlock));
         // Another run may have taken it for dead before it was locked.
-        if !taken && temporary.exists() {
-            return Ok((temporary, file));
+        if !taken && file.path().exists() {
+            return Ok(file);
         }
     }
     Err(io::ErrorKind::AlreadyExists.into())
@@ -126,34 +115,46 @@ fn remove_dead(path: &Path, name: &OsStr) {
     }
 }
 
-/// Whether a file has a temporary name of the file `name`.
+/// Whether a file has a temporary name of the file `name`, of this version or of one before, which had
+/// the number of the process in it.
 fn is_temporary(file: &OsStr, name: &OsStr) -> bool {
     let file = file.as_encoded_bytes().strip_prefix(b".");
     let rest = file.and_then(|file| file.strip_prefix(name.as_encoded_bytes()));
-    let id = rest.and_then(|rest| rest.strip_prefix(b".")?.strip_suffix(b".part"));
-    id.is_some_and(|id| !id.is_empty() && id.iter().all(|b| b.is_ascii_digit() || *b == b'-'))
+    let id = rest.and_then(|rest| rest.strip_prefix(b".")?.strip_suffix(PART.as_bytes()));
+    id.is_some_and(|id| {
+        let random = id.len() == RANDOM && id.iter().all(u8::is_ascii_alphanumeric);
+        let numbers = id.iter().all(|b| b.is_ascii_digit() || *b == b'-');
+        random || (numbers && !id.is_empty())
+    })
+}
+
+impl Target {
+    /// The open file; what fails in it does not name the temporary one.
+    fn file(&mut self) -> &mut File {
+        match self {
+            Self::Temporary(file, _) => file.as_file_mut(),
+            Self::Stream(file) => file,
+        }
+    }
+}
+
+impl Write for Target {
+    fn write(&mut self, content: &[u8]) -> io::Result<usize> {
+        self.file().write(content)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file().flush()
+    }
 }
 
 impl Write for AtomicFile {
     fn write(&mut self, content: &[u8]) -> io::Result<usize> {
-        match &mut self.writer {
-            Some(writer) => writer.write(content),
-            None => Ok(content.len()),
-        }
+        self.0.write(content)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.writer.as_mut().map_or(Ok(()), Write::flush)
-    }
-}
-
-impl Drop for AtomicFile {
-    fn drop(&mut self) {
-        if let (Some(writer), Some(replaced)) = (self.writer.take(), &self.replaced) {
-            drop(writer.into_parts());
-            // Nothing more can be done about a temporary file that cannot be removed.
-            let _ = fs::remove_file(&replaced.temporary);
-        }
+        self.0.flush()
     }
 }
 
@@ -209,7 +210,7 @@ mod tests {
     #[test]
     fn temporary_names_are_told_from_others() {
         let is = |file: &str| is_temporary(OsStr::new(file), OsStr::new("a.csv"));
-        assert!(is(".a.csv.12.part") && is(".a.csv.12-3.part"));
+        assert!(is(".a.csv.12.part") && is(".a.csv.12-3.part") && is(".a.csv.k3Jh5Gd8sKq2a.part"));
         for other in [
             "a.csv.12.part",
             ".a.csv..part",
@@ -219,6 +220,46 @@ mod tests {
         ] {
             assert!(!is(other), "{other}");
         }
-        assert_eq!("..4294967295-99.part".len(), LONGER);
+        assert_eq!("..k3Jh5Gd8sKq2a.part".len(), LONGER);
+    }
+
+    #[test]
+    fn a_file_is_hidden_until_it_is_complete_and_gone_where_it_never_is() {
+        let folder = folder("hidden");
+        let path = folder.join("a.csv");
+        fs::write(&path, "before").unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.write_all(b"half").unwrap();
+        file.flush().unwrap();
+        let [temporary, kept] = &names(&folder)[..] else {
+            panic!("{:?}", names(&folder));
+        };
+        assert!(is_temporary(OsStr::new(temporary), OsStr::new("a.csv")));
+        assert_eq!(
+            (temporary.len(), &**kept),
+            ("a.csv".len() + LONGER, "a.csv")
+        );
+        drop(file);
+        assert_eq!(names(&folder), ["a.csv"]);
+        assert_eq!(fs::read(&path).unwrap(), b"before");
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_has_the_permissions_of_any_new_one() {
+        use std::os::unix::fs::PermissionsExt;
+
+        let folder = folder("permissions");
+        fs::write(folder.join("any"), "").unwrap();
+        AtomicFile::write(&folder.join("ours"), b"").unwrap();
+        let mode = |name: &str| {
+            fs::metadata(folder.join(name))
+                .unwrap()
+                .permissions()
+                .mode()
+        };
+        assert_eq!(mode("ours"), mode("any"));
+        fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -3,95 +3,19 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use hyperstat_assembly::SolveError;
 use hyperstat_figures::FigureError;
-use hyperstat_mechanisms::{LoadError, Location, PoseError, WriteError};
-use hyperstat_reference::ReferenceError;
-use rayon::ThreadPoolBuildError;
+use hyperstat_mechanisms::{LoadError, Location};
+use hyperstat_study::PlotError;
+use hyperstat_study::{Problem, StudyError};
 use thiserror::Error;
-
-use crate::drives::MissingDrives;
-use crate::plot::PlotError;
-use crate::report::Problem;
 
 /// A command that ends without its result.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub(crate) enum CliError {
-    /// A file that cannot be read or means nothing.
-    #[error("{}", load_message(.0))]
-    Load(#[from] LoadError),
-    /// `--job` or `--pose` with a mechanism file.
-    #[error("`{option}` chooses from a batch file; {} is a mechanism file", .path.display())]
-    NotABatch { option: &'static str, path: PathBuf },
-    /// A batch of several jobs without `--job`.
-    #[error("{} holds several jobs: choose one with `--job`", .path.display())]
-    ChooseJob { path: PathBuf, known: Vec<String> },
-    /// A `--job` that the batch does not hold.
-    #[error("{} holds no job `{job}`", .path.display())]
-    UnknownJob {
-        path: PathBuf,
-        job: String,
-        known: Vec<String>,
-    },
-    /// A pose that a job does not have.
-    #[error("job `{job}` has no pose {pose}: it has {}, counted from 0", poses(*.count))]
-    NoSuchPose {
-        location: Box<Location>,
-        job: String,
-        pose: usize,
-        count: usize,
-    },
-    /// A design that a job does not have.
-    #[error("job `{job}` has no design {design}: it has {count}, counted from 0")]
-    NoSuchDesign {
-        location: Box<Location>,
-        job: String,
-        design: usize,
-        count: usize,
-    },
-    /// A `--case` that the mechanism or the job does not hold.
-    #[error("{of} holds no case `{case}`")]
-    UnknownCase {
-        /// The mechanism file, or the job.
-        of: String,
-        case: String,
-        known: Vec<String>,
-    },
-    /// A pose that the mechanism cannot take.
-    #[error("job `{job}`, pose {pose}: {source}")]
-    Pose {
-        location: Box<Location>,
-        job: String,
-        pose: usize,
-        source: Box<PoseError>,
-    },
-    /// A mechanism that has no solution.
-    #[error("{source}")]
-    Unsolvable {
-        location: Box<Location>,
-        source: SolveError,
-        /// What could hold what moves.
-        drives: Box<MissingDrives>,
-    },
-    /// An output that moves without energy.
-    #[error("the output `{output}` moves freely, drives locked: {}", .motions.join("; "))]
-    FreeOutput {
-        location: Box<Location>,
-        output: String,
-        motions: Vec<String>,
-        /// What could hold it.
-        drives: Box<MissingDrives>,
-    },
-    /// A model that the independent solver does not take.
-    #[error("the independent solver has no result to compare with: {0}")]
-    Unverified(#[source] ReferenceError),
-    /// A mechanism that no mechanism file describes.
-    #[error("cannot be exported: {source}")]
-    Export {
-        location: Box<Location>,
-        source: WriteError,
-    },
+    /// A question without its answer.
+    #[error("{}", message(.0))]
+    Study(#[from] StudyError),
     /// An output that is a file that was read.
     #[error("{} would be overwritten: {}", .output.display(), read_as(.output, .input))]
     Overwrites { output: PathBuf, input: PathBuf },
@@ -113,27 +37,31 @@ pub(crate) enum CliError {
     /// A run that is larger than it was probably meant to be.
     #[error("{why}")]
     NotAgreed { why: String },
-    /// Threads that cannot be had.
-    #[error("the threads cannot be started: {0}")]
-    Threads(#[from] ThreadPoolBuildError),
     /// A result that could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write { path: PathBuf, source: io::Error },
     /// Standard output that could not be written.
     #[error("cannot write to standard output: {0}")]
     Print(#[source] io::Error),
-    /// A table that cannot be drawn, or does not hold what is asked for.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// A map that the job's table will not hold.
-    #[error("{source}")]
-    JobMap {
-        location: Box<Location>,
-        source: Box<PlotError>,
-    },
     /// A figure that could not be drawn.
     #[error("cannot draw {}: {source}", .path.display())]
     Figure { path: PathBuf, source: FigureError },
+    /// A magnification where colours are meant, or the other way round.
+    #[error("`--scale {given}` is none of {of}")]
+    Scale { given: String, of: &'static str },
+    /// A figure of a mechanism, asked of a file that holds none.
+    #[error("`{option}` is drawn of a mechanism; {} holds none", .path.display())]
+    NoMechanism { path: PathBuf, option: &'static str },
+    /// An option that chooses what the file does not leave open.
+    #[error("`{option}` chooses from a batch file; {} is {what}", .path.display())]
+    NoChoice {
+        path: PathBuf,
+        option: &'static str,
+        what: &'static str,
+    },
+    /// A direction or a case for a budget that is found already.
+    #[error("{} is solved already, along the direction and under the loads that it states", .path.display())]
+    Answered { path: PathBuf, option: &'static str },
 }
 
 impl CliError {
@@ -143,7 +71,7 @@ impl CliError {
             Self::Write { .. }
             | Self::Print(_)
             | Self::Figure {
-                source: FigureError::Svg(_) | FigureError::Png(_),
+                source: FigureError::Png(_),
                 ..
             } => 3,
             _ => 2,
@@ -153,16 +81,8 @@ impl CliError {
     /// The place in the input that the error is about.
     pub(crate) fn location(&self) -> Option<&Location> {
         match self {
-            Self::Load(error) => error.location(),
-            Self::Plot(error) => error.location(),
-            Self::NoSuchPose { location, .. }
-            | Self::NoSuchDesign { location, .. }
-            | Self::Pose { location, .. }
-            | Self::Unsolvable { location, .. }
-            | Self::FreeOutput { location, .. }
-            | Self::JobMap { location, .. }
-            | Self::NameTooLong { location, .. }
-            | Self::Export { location, .. } => Some(location),
+            Self::Study(error) => error.location(),
+            Self::NameTooLong { location, .. } => Some(location),
             _ => None,
         }
     }
@@ -170,71 +90,7 @@ impl CliError {
     /// What would be right.
     pub(crate) fn help(&self) -> Option<String> {
         match self {
-            Self::Load(error) => error.help().map(Into::into),
-            Self::Plot(error) => error.help(),
-            Self::JobMap { source, .. } => source.help(),
-            Self::NotABatch { option, .. } => Some(format!("leave `{option}` out")),
-            Self::ChooseJob { known, .. } | Self::UnknownJob { known, .. } => {
-                Some(format!("its jobs are {}", known.join(", ")))
-            }
-            Self::UnknownCase { known, .. } => Some(match &**known {
-                [] => "it has no cases: leave `--case` out".into(),
-                known => format!("its cases are {}", known.join(", ")),
-            }),
-            Self::NoSuchPose { count: 1, .. } => Some("leave `--pose` out".into()),
-            Self::NoSuchPose { count, .. } => {
-                Some(format!("choose `--pose` from 0 to {}", count - 1))
-            }
-            Self::NoSuchDesign { count: 1, .. } => Some("leave `--design` out".into()),
-            Self::NoSuchDesign { count, .. } => {
-                Some(format!("choose `--design` from 0 to {}", count - 1))
-            }
-            Self::Pose { .. } => Some("choose a pose in reach with `--pose`".into()),
-            Self::Unsolvable {
-                source:
-                    SolveError::Unheld { .. }
-                    | SolveError::LoadOnFreeMotion { .. }
-                    | SolveError::PreloadOnFreeMotion { .. },
-                drives,
-                ..
-            } => Some(drives.help()),
-            Self::Unsolvable {
-                source: SolveError::Singular | SolveError::Overflow,
-                ..
-            } => Some(
-                "look for numbers of too different size: units are m, N, rad and kg, so a length \
-                 in mm, a modulus in MPa or a stiffness far above all others is a slip"
-                    .into(),
-            ),
-            Self::Unsolvable {
-                source: SolveError::TooLarge { .. },
-                ..
-            } => Some(
-                "weld rigid bodies that move as one into one body, make links elastic (`Beam`), or \
-                 joints (`stiffness`): loops and chains of rigid bodies alone are eliminated as dense \
-                 matrices"
-                    .into(),
-            ),
-            Self::Unsolvable {
-                source: SolveError::Misfit { .. },
-                ..
-            } => Some(
-                "give a `stiffness` in that direction to a joint of the loop, make one of its \
-                 bodies elastic, or change the misfit"
-                    .into(),
-            ),
-            Self::Unsolvable {
-                source: SolveError::NoDensity { .. },
-                ..
-            } => Some("give its material a `density` in kg/m³; 0.0 is one without mass".into()),
-            Self::Unsolvable {
-                source: SolveError::NoMass,
-                ..
-            } => Some("give a material a `density`, or the mechanism `masses`".into()),
-            Self::FreeOutput { drives, .. } => Some(format!(
-                "{}; `solve --allow-free` takes it as it is",
-                drives.help()
-            )),
+            Self::Study(error) => help(error),
             Self::Overwrites { .. } => {
                 Some("write to another folder or name: what is read stays as it is".into())
             }
@@ -247,8 +103,16 @@ impl CliError {
                 "give fewer poses or designs, another `--out`, or `--yes` if that is what is meant"
                     .into(),
             ),
-            Self::Unverified(_) => Some("leave `--verify` out".into()),
-            Self::Threads(_) => Some("give a smaller number of `--threads`".into()),
+            Self::Scale { of: MAP, .. } => Some("give `log` or `linear`, or leave it out".into()),
+            Self::Scale { .. } => Some("give a factor above zero, such as 200".into()),
+            Self::NoMechanism { .. } => Some(
+                "give the mechanism file, or the batch file with `--job`, `--design` and `--pose`"
+                    .into(),
+            ),
+            Self::NoChoice { option, .. } => Some(format!("leave `{option}` out")),
+            Self::Answered { option, .. } => Some(format!(
+                "give `{option}` to `hyperstat solve --why`, or draw the mechanism file"
+            )),
             _ => None,
         }
     }
@@ -258,26 +122,97 @@ impl CliError {
     pub(crate) fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Print(error) if error.kind() == io::ErrorKind::BrokenPipe)
     }
+}
 
-    /// The error as part of a JSON report.
-    pub(crate) fn problem(&self) -> Problem {
-        let location = self.location();
-        Problem {
-            message: self.to_string(),
-            help: self.help(),
-            path: location.map(|location| location.path.display().to_string()),
-            line: location.map(|location| location.line),
-            column: location.map(|location| location.column),
-        }
+impl From<LoadError> for CliError {
+    fn from(error: LoadError) -> Self {
+        Self::Study(error.into())
     }
 }
 
-/// The message, without the place where there is one to show.
-fn load_message(error: &LoadError) -> String {
+impl From<PlotError> for CliError {
+    fn from(error: PlotError) -> Self {
+        Self::Study(error.into())
+    }
+}
+
+/// What a scale of colours is of, and one that magnifies.
+pub(crate) const MAP: &str = "a map";
+pub(crate) const SHAPE: &str = "what is magnified";
+
+/// An error of a study as part of a JSON report, in the words of the command line.
+pub(crate) fn problem(error: &StudyError) -> Problem {
+    Problem {
+        message: message(error),
+        help: help(error),
+        ..error.problem()
+    }
+}
+
+/// The message, with the names of options.
+fn message(error: &StudyError) -> String {
     match error {
-        LoadError::At { message, .. } => message.clone(),
+        StudyError::NotABatch { what, path } => format!(
+            "`--{what}` chooses from a batch file; {} is a mechanism file",
+            path.display()
+        ),
+        StudyError::ChooseJob { .. } => format!("{error} with `--job`"),
         other => other.to_string(),
     }
+}
+
+/// What would be right, with the names of options.
+fn help(error: &StudyError) -> Option<String> {
+    let last = |count: usize| count.saturating_sub(1);
+    Some(match error {
+        StudyError::Plot(error) => return plot_help(error),
+        StudyError::NotABatch { what, .. } => format!("leave `--{what}` out"),
+        StudyError::UnknownCase { known, .. } if known.is_empty() => {
+            "it has no cases: leave `--case` out".into()
+        }
+        StudyError::NoSuchPose { count: 1, .. } => "leave `--pose` out".into(),
+        StudyError::NoSuchPose { count, .. } => {
+            format!("choose `--pose` from 0 to {}", last(*count))
+        }
+        StudyError::NoSuchDesign { count: 1, .. } => "leave `--design` out".into(),
+        StudyError::NoSuchDesign { count, .. } => {
+            format!("choose `--design` from 0 to {}", last(*count))
+        }
+        StudyError::Pose { .. } => "choose a pose in reach with `--pose`".into(),
+        StudyError::FreeOutput { .. } => format!(
+            "{}; `solve --allow-free` takes it as it is",
+            error.help().unwrap_or_default()
+        ),
+        StudyError::Unverified(_) => "leave `--verify` out".into(),
+        StudyError::Threads { .. } => "give a smaller number of `--threads`".into(),
+        other => return other.help(),
+    })
+}
+
+/// The same of a figure of a table.
+fn plot_help(error: &PlotError) -> Option<String> {
+    Some(match error {
+        PlotError::NoShares { .. } => "give another direction with `--along`".into(),
+        PlotError::NoMode { count, .. } if *count > 0 => {
+            format!("choose `--mode` from 1 to {count}, or give segments more `elements`")
+        }
+        PlotError::AlongNormal { .. } => "choose other `--axes`, or another `--plane`".into(),
+        PlotError::Several { differ, .. } => match &**differ {
+            [] => "the same pose is there more than once: draw `--lines` over `pose`".into(),
+            differ => {
+                let planes = differ.iter().map(|axis| format!("`--plane {axis}=…`"));
+                let planes: Vec<_> = planes.collect();
+                format!("choose among them with {}", planes.join(" and "))
+            }
+        },
+        PlotError::NoRows { what, last: 0, .. } => {
+            format!("{what}s are counted from 0: leave `--{what}` out")
+        }
+        PlotError::NoRows { what, last, .. } => {
+            format!("choose `--{what}` from 0 to {last}: {what}s are counted from 0")
+        }
+        other => return other.help(),
+    })
 }
 
 /// How an output that would be overwritten was read.
@@ -285,12 +220,5 @@ fn read_as(output: &Path, input: &Path) -> String {
     match output == input {
         true => "it was read".into(),
         false => format!("it was read as {}", input.display()),
-    }
-}
-
-fn poses(count: usize) -> String {
-    match count {
-        1 => "1 pose".into(),
-        _ => format!("{count} poses"),
     }
 }

@@ -4,22 +4,17 @@
 
 mod args;
 mod atomic;
-mod batch;
-mod case;
-mod cells;
+mod consent;
 mod destination;
 mod diagnostic;
 mod disk;
-mod drawing;
-mod drives;
 mod error;
+mod json;
 mod outputs;
-mod plausibility;
 mod plot;
-mod report;
+mod run;
 mod terminal;
-mod verification;
-mod vtu;
+mod text;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -27,13 +22,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 use clap::Parser;
-use hyperstat_mechanisms::Registry;
+use hyperstat_mechanisms::{Disk, Registry};
+use hyperstat_study::{Asked, CheckReport, Question, Study};
 
 use args::{Cli, Command, Format};
-use atomic::AtomicFile;
-use case::Case;
 use error::CliError;
-use report::{Asked, CheckReport, ModesReport, SolveReport, json};
+use json::json;
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -85,7 +79,7 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
-        Command::Run(args) => batch::run(args, registry, tell),
+        Command::Run(args) => run::run(args, registry, tell),
         Command::Plot(args) => plot::run(args, registry, tell),
     };
     match outcome {
@@ -101,107 +95,73 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
     }
 }
 
+/// The study of what the command line names.
+fn study(input: &args::Input, registry: &Registry) -> Result<Study, CliError> {
+    Ok(Study::open(
+        &input.file,
+        &input.selection(),
+        &Disk,
+        registry,
+    )?)
+}
+
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
-    let mut case = Case::load(&args.input, registry)?;
-    outputs::refuse(args.vtu.as_deref(), &case.files)?;
-    if args.why {
-        case.name_values();
-    }
-    let solution = case.solve()?;
-    let loaded = case.under(&solution, args.case.as_deref(), &args.input.file)?;
-    let verification = if args.verify {
-        Some(case.verify(&solution)?)
-    } else {
-        None
-    };
-    let mut report = SolveReport::new(&case, &solution, verification);
-    if args.all_nodes {
-        case.add_inner_displacements(&solution, &mut report)?;
-    }
-    let options = case.modal_options(args.modes(), args.lumped);
-    let modal = options.as_ref().map(|options| case.modal(options));
-    let modal = modal.transpose()?;
-    let modes = modal.as_ref().map(|modal| case.modes(modal));
-    let modes = modes.transpose()?;
-    if let (Some(options), Some(found)) = (&options, &modes) {
-        report.add_modes(ModesReport::new(
-            case.model(),
-            found,
-            options.count,
-            args.all_nodes,
-        ));
-    }
-    if let Some(path) = &args.vtu {
-        let text = case.vtu(&solution, modes.as_ref())?;
-        AtomicFile::write(path, text.as_bytes()).map_err(|source| CliError::Write {
-            path: path.clone(),
-            source,
-        })?;
-    }
-    if args.why {
-        let asked = Asked {
-            case: args.case.as_deref(),
+    let mut study = study(&args.input, registry)?;
+    outputs::refuse(args.vtu.as_deref(), study.files())?;
+    let answered = study.answer(&Question {
+        verify: args.verify,
+        all_nodes: args.all_nodes,
+        modes: args.modes(),
+        lumped: args.lumped,
+        why: args.why.then(|| Asked {
+            case: args.case.clone(),
             along: args.along,
-        };
-        report.add_why(case.why(&loaded, asked)?);
-        if let Some(modal) = &modal {
-            case.add_frequencies(modal, &mut report)?;
-        }
+        }),
+    })?;
+    if let Some(path) = &args.vtu {
+        let text = study.vtu(&answered.solution, answered.modes.as_ref())?;
+        outputs::write(path, text.as_bytes())?;
     }
+    let report = &answered.report;
     print(&match args.format {
-        Format::Text if args.full || args.all_nodes => report.full(),
-        Format::Text => report.answer(),
-        Format::Json => json(&report)?,
+        Format::Text if args.full || args.all_nodes => text::full(report, study.model()),
+        Format::Text => text::answer(report, study.model()),
+        Format::Json => json(report)?,
     })?;
     if args.allow_free {
         return Ok(true);
     }
     // What was found is right and is told all the same.
-    case.free_output(&solution).map_or(Ok(true), Err)
+    let free = study.free_output(&answered.solution);
+    free.map_or(Ok(true), |error| Err(error.into()))
 }
 
 /// `hyperstat check`
 fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
-    let case = match Case::load(&args.input, registry) {
-        Ok(case) => case,
-        Err(error) => {
-            if args.format == Format::Json {
-                print(&json(&CheckReport::unreadable(&error))?)?;
-            }
-            return Err(error);
-        }
+    let opened = Study::open(&args.input.file, &args.input.selection(), &Disk, registry);
+    let (mut report, error) = match opened {
+        Ok(study) => study.check(),
+        // There is nothing to tell in words that the error does not.
+        Err(error) if args.format == Format::Text => return Err(error.into()),
+        Err(error) => (CheckReport::unreadable(&error), Some(error)),
     };
-    let here = case.here();
-    let kinematics = here.kinematics().ok();
-    let (solution, error) = match case.solve() {
-        Ok(solution) => {
-            let error = case.free_output(&solution);
-            (Some(solution), error)
-        }
-        Err(error) => (None, Some(error)),
-    };
-    let report = CheckReport::new(&case, kinematics, solution.as_ref(), error.as_ref());
+    report.problem = error.as_ref().map(error::problem);
     print(&match args.format {
-        Format::Text => report.text(),
+        Format::Text => text::check(&report),
         Format::Json => json(&report)?,
     })?;
-    error.map_or(Ok(true), Err)
+    error.map_or(Ok(true), |error| Err(error.into()))
 }
 
 /// `hyperstat export`
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
-    let case = Case::load(&args.input, registry)?;
-    outputs::refuse(args.out.as_deref(), &case.files)?;
-    let text = case.mechanism_file(registry)?;
+    let study = study(&args.input, registry)?;
+    outputs::refuse(args.out.as_deref(), study.files())?;
+    let text = study.mechanism_file(registry)?;
     match &args.out {
         None => print(&text)?,
-        Some(path) => {
-            AtomicFile::write(path, text.as_bytes()).map_err(|source| CliError::Write {
-                path: path.clone(),
-                source,
-            })?;
-        }
+        Some(path) => outputs::write(path, text.as_bytes())?,
     }
     Ok(true)
 }

@@ -1,12 +1,22 @@
-//! Outputs that would destroy something: a file that was read, or one another.
+//! Outputs: written as a whole, and not where they would destroy something: a file that was read,
+//! or one another.
 
 use std::collections::HashMap;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::atomic::AtomicFile;
 use crate::destination::{Destination, folder};
 use crate::error::CliError;
+
+/// Writes a file as a whole.
+pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), CliError> {
+    AtomicFile::write(path, content).map_err(|source| CliError::Write {
+        path: path.into(),
+        source,
+    })
+}
 
 /// What makes two paths one file, whatever they are called.
 #[cfg(unix)]

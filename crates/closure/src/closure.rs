@@ -64,6 +64,11 @@ impl LoopClosure {
         self.system.linkage.home()
     }
 
+    /// Where all parts are at home.
+    pub(crate) fn geometry(&self) -> &Geometry {
+        self.parts.model.geometry()
+    }
+
     /// Freedoms of the output at home, all bodies rigid and the drives released.
     pub fn output_mobility(&self) -> usize {
         self.prescribed(&[false; 6]).iter().filter(|p| **p).count()

@@ -6,7 +6,8 @@
 //!
 //! [`LoopClosure::new`] takes a model at home → [`LoopClosure::reach`] follows a [`Target`] from a
 //! [`Configuration`] to the next → [`LoopClosure::write`] makes a geometry of it, with which
-//! `hyperstat_assembly` solves the model in that pose.
+//! `hyperstat_assembly` solves the model in that pose. [`LoopClosure::place_at`] does all of it from
+//! home.
 
 mod closure;
 mod equations;
@@ -16,10 +17,12 @@ mod motion;
 mod newton;
 mod path;
 mod place;
+mod reach;
 mod target;
 mod twist;
 
 pub use closure::LoopClosure;
 pub use error::ClosureError;
 pub use linkage::Configuration;
+pub use reach::Reached;
 pub use target::{Drive, Target};

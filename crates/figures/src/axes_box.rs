@@ -1,7 +1,6 @@
 //! The box of axes behind a drawing: three walls with a grid, three axes with ticks and names.
 
 use crate::canvas::{Canvas, text_width};
-use crate::error::FigureError;
 use crate::geometry::{Bounds, PagePoint, Point, View};
 use crate::numbers;
 use crate::round;
@@ -29,15 +28,14 @@ const AXES: [(&str, [bool; 3]); 3] = [
 const WALLS: [(usize, bool); 3] = [(0, false), (1, true), (2, false)];
 
 /// Draws the box of axes.
-pub(crate) fn draw(canvas: &Canvas<'_>, view: &View, bounds: &Bounds) -> Result<(), FigureError> {
+pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
     let steps = std::array::from_fn(|axis| step(view, bounds, axis));
     for (normal, at_max) in WALLS {
-        draw_wall(canvas, view, bounds, steps, normal, at_max)?;
+        draw_wall(canvas, view, bounds, steps, normal, at_max);
     }
     for (axis, step) in steps.into_iter().enumerate() {
-        draw_axis(canvas, view, bounds, step, axis)?;
+        draw_axis(canvas, view, bounds, step, axis);
     }
-    Ok(())
 }
 
 /// The edge of the box that an axis is written along, on the page.
@@ -76,13 +74,13 @@ fn ticks(bounds: &Bounds, axis: usize, step: f64) -> impl Iterator<Item = f64> {
 }
 
 fn draw_wall(
-    canvas: &Canvas<'_>,
+    canvas: &mut Canvas,
     view: &View,
     bounds: &Bounds,
     steps: [f64; 3],
     normal: usize,
     at_max: bool,
-) -> Result<(), FigureError> {
+) {
     let across = [(normal + 1) % 3, (normal + 2) % 3];
     let corner = |largest: [bool; 2]| {
         let mut of_box = [false; 3];
@@ -99,7 +97,7 @@ fn draw_wall(
                 point[other] = end;
                 view.project(point)
             });
-            canvas.line(&ends, style::GRID)?;
+            canvas.line(&ends, style::GRID);
         }
     }
     let outline = [
@@ -112,16 +110,10 @@ fn draw_wall(
     canvas.line(
         &outline.map(|largest| view.project(corner(largest))),
         style::EDGE,
-    )
+    );
 }
 
-fn draw_axis(
-    canvas: &Canvas<'_>,
-    view: &View,
-    bounds: &Bounds,
-    step: f64,
-    axis: usize,
-) -> Result<(), FigureError> {
+fn draw_axis(canvas: &mut Canvas, view: &View, bounds: &Bounds, step: f64, axis: usize) {
     let (name, start) = AXES[axis];
     let along = |value: f64| -> Point {
         let mut point = bounds.corner(start);
@@ -129,16 +121,16 @@ fn draw_axis(
         point
     };
     let ends = edge(view, bounds, axis);
-    canvas.line(&ends, style::AXIS)?;
+    canvas.line(&ends, style::AXIS);
     let outward = outward(ends, view.project(bounds.center()));
     let mut depth: f64 = 0.0;
     for value in ticks(bounds, axis, step) {
         let at = view.project(along(value));
-        canvas.line(&[at, away(at, outward, TICK_LENGTH)], style::AXIS)?;
+        canvas.line(&[at, away(at, outward, TICK_LENGTH)], style::AXIS);
         let label = numbers::tick(value, step);
         let reach = reach(&label, style::TICK.size, outward);
         let distance = TICK_LENGTH + GAP + reach;
-        canvas.text(&label, away(at, outward, distance), style::TICK)?;
+        canvas.text(&label, away(at, outward, distance), style::TICK);
         depth = depth.max(distance + reach);
     }
     let reach = reach(name, style::AXIS_NAME.size, outward);
@@ -150,7 +142,7 @@ fn draw_axis(
         let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
         away(middle, outward, depth + GAP + reach)
     };
-    canvas.text(name, at, style::AXIS_NAME)
+    canvas.text(name, at, style::AXIS_NAME);
 }
 
 /// The direction on the page that is normal to an edge and away from the centre of the box.

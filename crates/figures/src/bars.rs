@@ -84,13 +84,13 @@ impl BarFigure {
             subtitle: &self.subtitle,
             captions: &captions,
         };
-        words.svg(layout.height, |canvas| {
+        Ok(words.svg(layout.height, |canvas| {
             let mut top = TOP;
             for group in &self.groups {
-                top = self.draw(canvas, group, &layout, top)? + ABOVE;
+                top = self.draw(canvas, group, &layout, top) + ABOVE;
             }
-            layout.draw_axis(canvas)
-        })
+            layout.draw_axis(canvas);
+        }))
     }
 
     /// The figure as a PNG file.
@@ -181,24 +181,18 @@ impl BarFigure {
     }
 
     /// Draws a group from `top` on, and gives where it ends.
-    fn draw(
-        &self,
-        canvas: &Canvas<'_>,
-        group: &BarGroup,
-        layout: &Layout,
-        top: f64,
-    ) -> Result<f64, FigureError> {
+    fn draw(&self, canvas: &mut Canvas, group: &BarGroup, layout: &Layout, top: f64) -> f64 {
         let area = layout.area;
         let bottom = top + ROW * group.bars.len() as f64;
         let heading = top - 13.0;
         let scaled = self.quantity.scaled(self.total);
         let right = f64::from(canvas::WIDTH) - MARGIN;
         let room = area.right - MARGIN;
-        fitted(canvas, &group.name, [MARGIN, heading], room, style::GROUP)?;
-        canvas.text(&scaled.unit, [right, heading], style::TICK_LEFT)?;
+        fitted(canvas, &group.name, [MARGIN, heading], room, style::GROUP);
+        canvas.text(&scaled.unit, [right, heading], style::TICK_LEFT);
         for tick in &layout.ticks.values {
             let x = layout.x(*tick);
-            canvas.line(&[[x, top], [x, bottom]], style::GRID)?;
+            canvas.line(&[[x, top], [x, bottom]], style::GRID);
         }
         for (row, bar) in group.bars.iter().enumerate() {
             let middle = top + ROW * (row as f64 + 0.5);
@@ -215,22 +209,22 @@ impl BarFigure {
                 [ends[1], below],
                 [ends[0], below],
             ];
-            canvas.polygon(&corners, fill)?;
+            canvas.polygon(&corners, fill);
             let name = [area.left - GAP, middle];
             let room = area.left - GAP - MARGIN;
-            fitted(canvas, &bar.name, name, room, style::BAR_NAME)?;
-            label(canvas, &percent(share), [ends[1] + GAP, middle])?;
+            fitted(canvas, &bar.name, name, room, style::BAR_NAME);
+            label(canvas, &percent(share), [ends[1] + GAP, middle]);
             let value = numbers::tick(bar.value * scaled.factor, step(self.total * scaled.factor));
-            canvas.text(&value, [right, middle], style::TICK_LEFT)?;
+            canvas.text(&value, [right, middle], style::TICK_LEFT);
         }
         let zero = layout.x(0.0);
-        canvas.line(&[[zero, top], [zero, bottom]], style::AXIS)?;
-        Ok(bottom)
+        canvas.line(&[[zero, top], [zero, bottom]], style::AXIS);
+        bottom
     }
 }
 
 /// Draws a label that starts at a point, on white: the lines of the grid stop at it.
-fn label(canvas: &Canvas<'_>, text: &str, [x, y]: PagePoint) -> Result<(), FigureError> {
+fn label(canvas: &mut Canvas, text: &str, [x, y]: PagePoint) {
     let (width, height) = (
         text_width(text, style::BAR_LABEL.size),
         style::BAR_LABEL.size,
@@ -238,8 +232,8 @@ fn label(canvas: &Canvas<'_>, text: &str, [x, y]: PagePoint) -> Result<(), Figur
     let [left, right] = [x - 2.0, x + width];
     let [above, below] = [y - 0.6 * height, y + 0.6 * height];
     let ground = [[left, above], [right, above], [right, below], [left, below]];
-    canvas.polygon(&ground, style::WHITE)?;
-    canvas.text(text, [x, y], style::BAR_LABEL)
+    canvas.polygon(&ground, style::WHITE);
+    canvas.text(text, [x, y], style::BAR_LABEL);
 }
 
 impl Layout {
@@ -251,21 +245,21 @@ impl Layout {
     }
 
     /// Draws the axis below the last group.
-    fn draw_axis(&self, canvas: &Canvas<'_>) -> Result<(), FigureError> {
+    fn draw_axis(&self, canvas: &mut Canvas) {
         let bottom = self.area.bottom;
         let line = [[self.area.left, bottom], [self.area.right, bottom]];
-        canvas.line(&line, style::AXIS)?;
+        canvas.line(&line, style::AXIS);
         for tick in &self.ticks.values {
             let x = self.x(*tick);
-            canvas.line(&[[x, bottom], [x, bottom + TICK_LENGTH]], style::AXIS)?;
+            canvas.line(&[[x, bottom], [x, bottom + TICK_LENGTH]], style::AXIS);
             let below = [x, bottom + TICK_LENGTH + GAP + 3.0];
-            canvas.text(&self.ticks.label(*tick), below, style::TICK)?;
+            canvas.text(&self.ticks.label(*tick), below, style::TICK);
         }
         let name = [
             0.5 * (self.area.left + self.area.right),
             bottom + TICK_LENGTH + 34.0,
         ];
-        canvas.text("share (%)", name, style::AXIS_NAME)
+        canvas.text("share (%)", name, style::AXIS_NAME);
     }
 }
 

@@ -131,7 +131,7 @@ impl DeformedFigure {
             captions: self.captions(factor),
             bounds: Bounds::around(drawing.points()),
         };
-        page.svg(|canvas, view| drawing.draw(canvas, view))
+        Ok(page.svg(|canvas, view| drawing.draw(canvas, view)))
     }
 
     /// The figure as a PNG file.

@@ -144,9 +144,6 @@ pub enum FigureError {
         /// Which axis, counted from 0.
         index: usize,
     },
-    /// The SVG could not be written.
-    #[error("the figure could not be drawn as SVG")]
-    Svg(#[source] Box<dyn StdError + Send + Sync>),
     /// The PNG could not be made from the SVG.
     #[error("the figure could not be drawn as PNG")]
     Png(#[source] Box<dyn StdError + Send + Sync>),

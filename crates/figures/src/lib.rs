@@ -22,6 +22,7 @@ mod refine;
 mod round;
 mod scale;
 mod style;
+mod svg;
 mod trajectory;
 
 pub use bars::{Bar, BarFigure, BarGroup};

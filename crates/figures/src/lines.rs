@@ -111,13 +111,12 @@ impl LineFigure {
             subtitle: &self.subtitle,
             captions: &[self.caption()],
         };
-        words.svg(height.ceil() as u32, |canvas| {
+        Ok(words.svg(height.ceil() as u32, |canvas| {
             for (k, diagram) in self.diagrams.iter().enumerate() {
                 let last = k + 1 == self.diagrams.len();
-                self.draw(canvas, diagram, area(k), &across, last)?;
+                self.draw(canvas, diagram, area(k), &across, last);
             }
-            Ok(())
-        })
+        }))
     }
 
     /// The figure as a PNG file.
@@ -225,12 +224,12 @@ impl LineFigure {
 
     fn draw(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &mut Canvas,
         diagram: &Diagram,
         area: Area,
         (across, x): &(Scaled, [f64; 2]),
         last: bool,
-    ) -> Result<(), FigureError> {
+    ) {
         let upright = Quantity::new(&*diagram.name, &*diagram.unit);
         let found = diagram.series.iter().flat_map(Series::found);
         let (upright, y) = axis(&upright, found, 0.06);
@@ -238,9 +237,9 @@ impl LineFigure {
         let names = [last.then_some(&*across.label), Some(&*upright.label)];
         let by_category = !self.categories.is_empty();
         if by_category {
-            axes.draw_levels(canvas)?;
+            axes.draw_levels(canvas);
         } else {
-            axes.draw_grid(canvas)?;
+            axes.draw_grid(canvas);
         }
         let count = diagram.series.len() as f64;
         for (k, (series, stroke)) in diagram.series.iter().zip(style::SERIES).enumerate() {
@@ -258,46 +257,41 @@ impl LineFigure {
             for run in points.split(Option::is_none) {
                 let run: Vec<_> = run.iter().copied().flatten().collect();
                 if !by_category {
-                    canvas.line(&run, stroke)?;
+                    canvas.line(&run, stroke);
                 }
                 if dotted || run.len() == 1 {
-                    let mut run = run.iter();
-                    run.try_for_each(|at| canvas.disc(*at, style::DOT, stroke.color))?;
+                    for at in run {
+                        canvas.disc(at, style::DOT, stroke.color);
+                    }
                 }
             }
         }
-        self.draw_legend(canvas, diagram, area)?;
+        self.draw_legend(canvas, diagram, area);
         match by_category {
             true => axes.draw_categories(canvas, names, &self.categories),
             false => axes.draw(canvas, names),
         }
     }
 
-    fn draw_legend(
-        &self,
-        canvas: &Canvas<'_>,
-        diagram: &Diagram,
-        area: Area,
-    ) -> Result<(), FigureError> {
+    fn draw_legend(&self, canvas: &mut Canvas, diagram: &Diagram, area: Area) {
         let mut at = [area.right + BESIDE, area.top + 10.0];
         let room = f64::from(WIDTH) - MARGIN;
         if !diagram.legend.is_empty() {
             let room = room - at[0];
-            fitted(canvas, &diagram.legend, at, room, style::LEGEND)?;
+            fitted(canvas, &diagram.legend, at, room, style::LEGEND);
             at[1] += LEGEND_LINE;
         }
         for (series, stroke) in diagram.series.iter().zip(style::SERIES) {
             if self.categories.is_empty() {
-                canvas.line(&[at, [at[0] + SAMPLE, at[1]]], stroke)?;
+                canvas.line(&[at, [at[0] + SAMPLE, at[1]]], stroke);
             } else {
                 let middle = [at[0] + 0.5 * SAMPLE, at[1]];
-                canvas.disc(middle, style::DOT, stroke.color)?;
+                canvas.disc(middle, style::DOT, stroke.color);
             }
             let text = [at[0] + SAMPLE + GAP, at[1]];
-            fitted(canvas, &series.name, text, room - text[0], style::LEGEND)?;
+            fitted(canvas, &series.name, text, room - text[0], style::LEGEND);
             at[1] += LEGEND_LINE;
         }
-        Ok(())
     }
 }
 

@@ -98,12 +98,12 @@ impl MapFigure {
             subtitle: &self.subtitle,
             captions: &[self.caption()],
         };
-        words.svg(layout.height, |canvas| {
+        Ok(words.svg(layout.height, |canvas| {
             for (panel, place) in self.panels.iter().zip(&layout.panels) {
-                panel::draw(canvas, panel, place, &layout, &colors)?;
+                panel::draw(canvas, panel, place, &layout, &colors);
             }
-            colors.draw_bar(canvas, layout.bar, layout.name_room)
-        })
+            colors.draw_bar(canvas, layout.bar, layout.name_room);
+        }))
     }
 
     /// The figure as a PNG file.

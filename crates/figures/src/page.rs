@@ -2,11 +2,10 @@
 
 use crate::axes_box;
 use crate::canvas::{self, Canvas, HEIGHT, Lettering, Sheet, Stroke, WIDTH, text_width};
-use crate::error::FigureError;
 use crate::geometry::{Area, Bounds, PagePoint, View};
 use crate::numbers;
 use crate::style;
-use plotters::style::RGBAColor;
+use crate::svg::Color;
 
 /// Free space at the edges of the page \[pixels\].
 pub(crate) const MARGIN: f64 = 28.0;
@@ -40,11 +39,7 @@ pub(crate) struct Words<'a> {
 
 impl Words<'_> {
     /// A page of this height \[pixels\] with these words, and what `draw` draws, as an SVG document.
-    pub(crate) fn svg(
-        &self,
-        height: u32,
-        draw: impl FnOnce(&Canvas<'_>) -> Result<(), FigureError>,
-    ) -> Result<String, FigureError> {
+    pub(crate) fn svg(&self, height: u32, draw: impl FnOnce(&mut Canvas)) -> String {
         let description = self.description();
         let sheet = Sheet {
             height,
@@ -53,13 +48,13 @@ impl Words<'_> {
         };
         canvas::svg(sheet, |canvas| {
             let room = f64::from(WIDTH) - 2.0 * MARGIN;
-            fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE)?;
-            fitted(canvas, self.subtitle, [MARGIN, 61.0], room, style::SUBTITLE)?;
+            fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE);
+            fitted(canvas, self.subtitle, [MARGIN, 61.0], room, style::SUBTITLE);
             for (line, caption) in self.captions.iter().rev().enumerate() {
                 let bottom = f64::from(height) - MARGIN - line as f64 * CAPTION_LINE;
-                fitted(canvas, caption, [MARGIN, bottom], room, style::CAPTION)?;
+                fitted(canvas, caption, [MARGIN, bottom], room, style::CAPTION);
             }
-            draw(canvas)
+            draw(canvas);
         })
     }
 
@@ -96,10 +91,7 @@ pub(crate) enum Sample {
 
 impl Page<'_> {
     /// The page as an SVG document, with what `draw` draws in the box of axes.
-    pub(crate) fn svg(
-        &self,
-        draw: impl FnOnce(&Canvas<'_>, &View) -> Result<(), FigureError>,
-    ) -> Result<String, FigureError> {
+    pub(crate) fn svg(&self, draw: impl FnOnce(&mut Canvas, &View)) -> String {
         let bounds = self.bounds.roomy();
         let view = View::fit(&bounds, DRAWING);
         let words = Words {
@@ -108,24 +100,23 @@ impl Page<'_> {
             captions: &self.captions,
         };
         words.svg(HEIGHT, |canvas| {
-            axes_box::draw(canvas, &view, &bounds)?;
-            draw(canvas, &view)?;
+            axes_box::draw(canvas, &view, &bounds);
+            draw(canvas, &view);
             for (line, (sample, label)) in self.legend.iter().enumerate() {
                 let [left, top] = LEGEND;
                 let at = [left, top + line as f64 * LEGEND_LINE];
-                sample.draw(canvas, at)?;
+                sample.draw(canvas, at);
                 let text = [at[0] + SAMPLE + 12.0, at[1]];
                 let room = f64::from(WIDTH) - MARGIN - text[0];
-                fitted(canvas, label, text, room, style::LEGEND)?;
+                fitted(canvas, label, text, room, style::LEGEND);
             }
-            Ok(())
         })
     }
 }
 
 impl Sample {
     /// Draws the sample with its left end at `at`.
-    fn draw(self, canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
+    fn draw(self, canvas: &mut Canvas, at: PagePoint) {
         let [left, y] = at;
         let middle = [left + 0.5 * SAMPLE, y];
         match self {
@@ -147,12 +138,12 @@ impl Sample {
 
 /// Text that is made smaller, and in the end cut, to stay within `room` \[pixels\].
 pub(crate) fn fitted(
-    canvas: &Canvas<'_>,
+    canvas: &mut Canvas,
     text: &str,
     at: PagePoint,
     room: f64,
     lettering: Lettering,
-) -> Result<(), FigureError> {
+) {
     const SMALLEST: f64 = 0.7;
     let longest = (room / text_width("x", SMALLEST * lettering.size)).floor() as usize;
     let text = shortened(text, longest);
@@ -164,7 +155,7 @@ pub(crate) fn fitted(
             size: shrink * lettering.size,
             ..lettering
         },
-    )
+    );
 }
 
 /// The text, cut with an ellipsis where it is longer than so many characters.
@@ -177,42 +168,36 @@ fn shortened(text: &str, longest: usize) -> String {
 }
 
 /// A filled polygon with an outline.
-pub(crate) fn outlined(
-    canvas: &Canvas<'_>,
-    corners: &[PagePoint],
-    fill: RGBAColor,
-    outline: Stroke,
-) -> Result<(), FigureError> {
-    canvas.polygon(corners, fill)?;
+pub(crate) fn outlined(canvas: &mut Canvas, corners: &[PagePoint], fill: Color, outline: Stroke) {
+    canvas.polygon(corners, fill);
     let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
-    canvas.line(&closed, outline)
+    canvas.line(&closed, outline);
 }
 
 /// The mark of a point that is held to the ground: a triangle under it, on hatched ground.
-pub(crate) fn ground_mark(canvas: &Canvas<'_>, [x, y]: PagePoint) -> Result<(), FigureError> {
+pub(crate) fn ground_mark(canvas: &mut Canvas, [x, y]: PagePoint) {
     let base = y + 11.0;
     outlined(
         canvas,
         &[[x, y], [x - 7.0, base], [x + 7.0, base]],
         style::WHITE,
         style::MARK_STROKE,
-    )?;
-    canvas.line(&[[x - 10.0, base], [x + 10.0, base]], style::MARK_STROKE)?;
+    );
+    canvas.line(&[[x - 10.0, base], [x + 10.0, base]], style::MARK_STROKE);
     for offset in [-8.0, -3.0, 2.0, 7.0] {
         let hatch = [[x + offset + 2.0, base], [x + offset - 2.0, base + 5.0]];
-        canvas.line(&hatch, style::MARK_STROKE)?;
+        canvas.line(&hatch, style::MARK_STROKE);
     }
-    Ok(())
 }
 
 /// The mark of the first point of a trajectory.
-pub(crate) fn start_mark(canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
-    canvas.disc(at, 5.0, style::MARK)
+pub(crate) fn start_mark(canvas: &mut Canvas, at: PagePoint) {
+    canvas.disc(at, 5.0, style::MARK);
 }
 
 /// The mark of a point of the second method.
-pub(crate) fn second_mark(canvas: &Canvas<'_>, at: PagePoint) -> Result<(), FigureError> {
-    canvas.ring(at, style::SECOND_RADIUS, style::SECOND)
+pub(crate) fn second_mark(canvas: &mut Canvas, at: PagePoint) {
+    canvas.ring(at, style::SECOND_RADIUS, style::SECOND);
 }
 
 /// The captions: the largest deflection \[m\], and the largest difference of a second method,

@@ -1,7 +1,6 @@
 //! Two axes in the plane of the page, with ticks, labels and names.
 
 use crate::canvas::{Canvas, text_width};
-use crate::error::FigureError;
 use crate::geometry::{Area, PagePoint};
 use crate::page::fitted;
 use crate::{numbers, round, style};
@@ -86,65 +85,63 @@ impl PlaneAxes {
     }
 
     /// Draws lines at the ticks, under what is drawn next.
-    pub(crate) fn draw_grid(&self, canvas: &Canvas<'_>) -> Result<(), FigureError> {
+    pub(crate) fn draw_grid(&self, canvas: &mut Canvas) {
         let [across, _] = self.ticks();
         for x in across.values {
-            canvas.line(&self.y.map(|y| self.at([x, y])), style::GRID)?;
+            canvas.line(&self.y.map(|y| self.at([x, y])), style::GRID);
         }
-        self.draw_levels(canvas)
+        self.draw_levels(canvas);
     }
 
     /// Draws lines at the ticks of the upright axis alone.
-    pub(crate) fn draw_levels(&self, canvas: &Canvas<'_>) -> Result<(), FigureError> {
+    pub(crate) fn draw_levels(&self, canvas: &mut Canvas) {
         let [_, upright] = self.ticks();
         for y in upright.values {
-            canvas.line(&self.x.map(|x| self.at([x, y])), style::GRID)?;
+            canvas.line(&self.x.map(|x| self.at([x, y])), style::GRID);
         }
-        Ok(())
     }
 
     /// Draws the frame with its ticks, labels and the names of the axes that are given; an axis
     /// without a name has no labels.
-    pub(crate) fn draw(
-        &self,
-        canvas: &Canvas<'_>,
-        names: [Option<&str>; 2],
-    ) -> Result<(), FigureError> {
+    pub(crate) fn draw(&self, canvas: &mut Canvas, names: [Option<&str>; 2]) {
         let [across, _] = self.ticks();
-        self.draw_frame(canvas, names[1])?;
+        self.draw_frame(canvas, names[1]);
         for x in &across.values {
             let at = self.at([*x, self.y[0]]);
-            canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS)?;
+            canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS);
             if names[0].is_some() {
                 let below = [at[0], at[1] + TICK_LENGTH + GAP + 0.5 * style::TICK.size];
-                canvas.text(&across.label(*x), below, style::TICK)?;
+                canvas.text(&across.label(*x), below, style::TICK);
             }
         }
-        names[0].map_or(Ok(()), |name| self.draw_name_below(canvas, name, 1))
+        if let Some(name) = names[0] {
+            self.draw_name_below(canvas, name, 1);
+        }
     }
 
     /// As [`draw`](Self::draw), with categories along the lower axis: number k is at x = k.
     pub(crate) fn draw_categories(
         &self,
-        canvas: &Canvas<'_>,
+        canvas: &mut Canvas,
         names: [Option<&str>; 2],
         categories: &[String],
-    ) -> Result<(), FigureError> {
-        self.draw_frame(canvas, names[1])?;
+    ) {
+        self.draw_frame(canvas, names[1]);
         let room = self.category_room(categories.len());
         for (k, category) in categories.iter().enumerate() {
             let at = self.at([k as f64, self.y[0]]);
-            canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS)?;
+            canvas.line(&[at, [at[0], at[1] + TICK_LENGTH]], style::AXIS);
             if names[0].is_none() {
                 continue;
             }
             for (line, text) in wrapped(category, room).iter().enumerate() {
                 let below = TICK_LENGTH + GAP + (0.5 + LINE * line as f64) * style::TICK.size;
-                fitted(canvas, text, [at[0], at[1] + below], room, style::TICK)?;
+                fitted(canvas, text, [at[0], at[1] + below], room, style::TICK);
             }
         }
-        let lines = self.category_lines(categories);
-        names[0].map_or(Ok(()), |name| self.draw_name_below(canvas, name, lines))
+        if let Some(name) = names[0] {
+            self.draw_name_below(canvas, name, self.category_lines(categories));
+        }
     }
 
     /// Number of lines that the labels of categories take.
@@ -160,7 +157,7 @@ impl PlaneAxes {
     }
 
     /// Draws the frame and the upright axis.
-    fn draw_frame(&self, canvas: &Canvas<'_>, name: Option<&str>) -> Result<(), FigureError> {
+    fn draw_frame(&self, canvas: &mut Canvas, name: Option<&str>) {
         let Area {
             left,
             top,
@@ -175,29 +172,24 @@ impl PlaneAxes {
             [left, bottom],
             [left, top],
         ];
-        canvas.line(&frame, style::AXIS)?;
+        canvas.line(&frame, style::AXIS);
         for y in &upright.values {
             let at = self.at([self.x[0], *y]);
-            canvas.line(&[at, [at[0] - TICK_LENGTH, at[1]]], style::AXIS)?;
+            canvas.line(&[at, [at[0] - TICK_LENGTH, at[1]]], style::AXIS);
             if name.is_some() {
                 let beside = [at[0] - TICK_LENGTH - GAP, at[1]];
-                canvas.text(&upright.label(*y), beside, style::TICK_LEFT)?;
+                canvas.text(&upright.label(*y), beside, style::TICK_LEFT);
             }
         }
         let Some(name) = name else {
-            return Ok(());
+            return;
         };
         let above = [left - TICK_LENGTH, top - 1.1 * style::AXIS_NAME.size];
-        canvas.text(name, above, style::AXIS_NAME_LEFT)
+        canvas.text(name, above, style::AXIS_NAME_LEFT);
     }
 
     /// Writes the name of the lower axis under labels of so many lines.
-    fn draw_name_below(
-        &self,
-        canvas: &Canvas<'_>,
-        name: &str,
-        lines: usize,
-    ) -> Result<(), FigureError> {
+    fn draw_name_below(&self, canvas: &mut Canvas, name: &str, lines: usize) {
         let Area {
             left,
             right,
@@ -206,7 +198,7 @@ impl PlaneAxes {
         } = self.area;
         let labels = (0.4 + LINE * lines as f64) * style::TICK.size;
         let below = bottom + TICK_LENGTH + 2.0 * GAP + labels;
-        canvas.text(name, [0.5 * (left + right), below], style::AXIS_NAME)
+        canvas.text(name, [0.5 * (left + right), below], style::AXIS_NAME);
     }
 }
 

@@ -3,20 +3,18 @@
 //! The colours are those of Okabe and Ito, which readers with any kind of colour vision tell
 //! apart.
 
-use plotters::style::RGBAColor;
-use plotters::style::text_anchor::HPos;
-
 use crate::canvas::{Lettering, Stroke};
+use crate::svg::{Anchor, Color};
 
-pub(crate) const WHITE: RGBAColor = RGBAColor(255, 255, 255, 1.0);
-const BLACK: RGBAColor = RGBAColor(25, 25, 25, 1.0);
-const DARK: RGBAColor = RGBAColor(85, 85, 85, 1.0);
-const GREY: RGBAColor = RGBAColor(150, 150, 150, 1.0);
-const PALE: RGBAColor = RGBAColor(186, 186, 186, 1.0);
-const LIGHT: RGBAColor = RGBAColor(222, 222, 222, 1.0);
-const BLUE: RGBAColor = RGBAColor(0, 114, 178, 1.0);
-const GREEN: RGBAColor = RGBAColor(0, 158, 115, 1.0);
-const VERMILLION: RGBAColor = RGBAColor(213, 94, 0, 1.0);
+pub(crate) const WHITE: Color = Color::new(255, 255, 255);
+const BLACK: Color = Color::new(25, 25, 25);
+const DARK: Color = Color::new(85, 85, 85);
+const GREY: Color = Color::new(150, 150, 150);
+const PALE: Color = Color::new(186, 186, 186);
+const LIGHT: Color = Color::new(222, 222, 222);
+const BLUE: Color = Color::new(0, 114, 178);
+const GREEN: Color = Color::new(0, 158, 115);
+const VERMILLION: Color = Color::new(213, 94, 0);
 
 /// Lines on the walls of the box of axes.
 pub(crate) const GRID: Stroke = Stroke::solid(LIGHT, 0.8);
@@ -30,13 +28,13 @@ pub(crate) const UNDEFORMED: Stroke = Stroke::solid(PALE, 4.4);
 /// Links under load, or the deflected trajectory.
 pub(crate) const DEFORMED: Stroke = Stroke::solid(BLUE, 2.4);
 /// From points to where they are displaced.
-pub(crate) const DEFLECTION: Stroke = Stroke::solid(RGBAColor(0, 114, 178, 0.45), 0.9);
+pub(crate) const DEFLECTION: Stroke = Stroke::solid(BLUE.opacity(0.45), 0.9);
 /// A rigid body without load.
 pub(crate) const UNDEFORMED_SPOKE: Stroke = Stroke::solid(PALE, 2.2);
-pub(crate) const UNDEFORMED_FILL: RGBAColor = RGBAColor(186, 186, 186, 0.35);
+pub(crate) const UNDEFORMED_FILL: Color = PALE.opacity(0.35);
 /// A rigid body under load.
 pub(crate) const BODY: Stroke = Stroke::solid(GREEN, 2.4);
-pub(crate) const BODY_FILL: RGBAColor = RGBAColor(0, 158, 115, 0.3);
+pub(crate) const BODY_FILL: Color = GREEN.opacity(0.3);
 /// Spokes of a rigid body, inside its outline.
 pub(crate) const BODY_SPOKE: Stroke = Stroke::solid(GREEN, 1.4);
 /// Axes of joints.
@@ -46,13 +44,13 @@ pub(crate) const JOINT_AXIS: Stroke = Stroke {
     dashes: &[7.0, 2.6, 1.2, 2.6],
 };
 /// Marks of what is held to the ground, and of where a trajectory starts.
-pub(crate) const MARK: RGBAColor = BLACK;
+pub(crate) const MARK: Color = BLACK;
 pub(crate) const MARK_STROKE: Stroke = Stroke::solid(BLACK, 1.2);
 /// Points of a second method.
 pub(crate) const SECOND: Stroke = Stroke::solid(VERMILLION, 1.5);
 pub(crate) const SECOND_RADIUS: f64 = 4.2;
 
-const fn lettering(size: f64, color: RGBAColor, anchor: HPos) -> Lettering {
+const fn lettering(size: f64, color: Color, anchor: Anchor) -> Lettering {
     Lettering {
         size,
         color,
@@ -60,29 +58,29 @@ const fn lettering(size: f64, color: RGBAColor, anchor: HPos) -> Lettering {
     }
 }
 
-pub(crate) const TITLE: Lettering = lettering(21.0, BLACK, HPos::Left);
-pub(crate) const SUBTITLE: Lettering = lettering(15.0, DARK, HPos::Left);
-pub(crate) const CAPTION: Lettering = lettering(14.0, DARK, HPos::Left);
-pub(crate) const LEGEND: Lettering = lettering(14.5, BLACK, HPos::Left);
-pub(crate) const TICK: Lettering = lettering(13.0, DARK, HPos::Center);
-pub(crate) const AXIS_NAME: Lettering = lettering(15.0, BLACK, HPos::Center);
+pub(crate) const TITLE: Lettering = lettering(21.0, BLACK, Anchor::Start);
+pub(crate) const SUBTITLE: Lettering = lettering(15.0, DARK, Anchor::Start);
+pub(crate) const CAPTION: Lettering = lettering(14.0, DARK, Anchor::Start);
+pub(crate) const LEGEND: Lettering = lettering(14.5, BLACK, Anchor::Start);
+pub(crate) const TICK: Lettering = lettering(13.0, DARK, Anchor::Middle);
+pub(crate) const AXIS_NAME: Lettering = lettering(15.0, BLACK, Anchor::Middle);
 /// Labels of ticks that end at their tick.
-pub(crate) const TICK_RIGHT: Lettering = lettering(13.0, DARK, HPos::Left);
-pub(crate) const TICK_LEFT: Lettering = lettering(13.0, DARK, HPos::Right);
-pub(crate) const AXIS_NAME_LEFT: Lettering = lettering(15.0, BLACK, HPos::Left);
-pub(crate) const PANEL: Lettering = lettering(14.5, BLACK, HPos::Center);
+pub(crate) const TICK_RIGHT: Lettering = lettering(13.0, DARK, Anchor::Start);
+pub(crate) const TICK_LEFT: Lettering = lettering(13.0, DARK, Anchor::End);
+pub(crate) const AXIS_NAME_LEFT: Lettering = lettering(15.0, BLACK, Anchor::Start);
+pub(crate) const PANEL: Lettering = lettering(14.5, BLACK, Anchor::Middle);
 /// Heading of a group of bars, names beside bars, and labels at their ends.
-pub(crate) const GROUP: Lettering = lettering(15.0, BLACK, HPos::Left);
-pub(crate) const BAR_NAME: Lettering = lettering(14.0, BLACK, HPos::Right);
-pub(crate) const BAR_LABEL: Lettering = lettering(13.0, BLACK, HPos::Left);
+pub(crate) const GROUP: Lettering = lettering(15.0, BLACK, Anchor::Start);
+pub(crate) const BAR_NAME: Lettering = lettering(14.0, BLACK, Anchor::End);
+pub(crate) const BAR_LABEL: Lettering = lettering(13.0, BLACK, Anchor::Start);
 /// Shares of a whole, and those against it.
-pub(crate) const BAR: RGBAColor = BLUE;
-pub(crate) const BAR_AGAINST: RGBAColor = VERMILLION;
-pub(crate) const CONTOUR_LABEL: Lettering = lettering(11.5, BLACK, HPos::Center);
-pub(crate) const CONTOUR_HALO: RGBAColor = RGBAColor(255, 255, 255, 0.78);
+pub(crate) const BAR: Color = BLUE;
+pub(crate) const BAR_AGAINST: Color = VERMILLION;
+pub(crate) const CONTOUR_LABEL: Lettering = lettering(11.5, BLACK, Anchor::Middle);
+pub(crate) const CONTOUR_HALO: Color = WHITE.opacity(0.78);
 /// Contours over light and over dark colours.
-pub(crate) const CONTOUR: Stroke = Stroke::solid(RGBAColor(25, 25, 25, 0.75), 0.9);
-pub(crate) const CONTOUR_ON_DARK: Stroke = Stroke::solid(RGBAColor(255, 255, 255, 0.8), 0.9);
+pub(crate) const CONTOUR: Stroke = Stroke::solid(BLACK.opacity(0.75), 0.9);
+pub(crate) const CONTOUR_ON_DARK: Stroke = Stroke::solid(WHITE.opacity(0.8), 0.9);
 /// Poses without a result.
 pub(crate) const MISSING: Stroke = Stroke::solid(GREY, 1.0);
 /// Radius of the dots at the points of a line \[pixels\].
@@ -101,13 +99,13 @@ pub(crate) const SERIES: [Stroke; 6] = [
         dashes: &[2.0, 4.5],
     },
     Stroke {
-        color: RGBAColor(204, 121, 167, 1.0),
+        color: Color::new(204, 121, 167),
         width: 2.2,
         dashes: &[9.0, 4.0, 2.0, 4.0],
     },
-    Stroke::solid(RGBAColor(230, 159, 0, 1.0), 2.2),
+    Stroke::solid(Color::new(230, 159, 0), 2.2),
     Stroke {
-        color: RGBAColor(86, 180, 233, 1.0),
+        color: Color::new(86, 180, 233),
         width: 2.2,
         dashes: &[14.0, 5.0],
     },

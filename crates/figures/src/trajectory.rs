@@ -72,7 +72,7 @@ impl TrajectoryFigure {
                     .copied(),
             ),
         };
-        page.svg(|canvas, view| draw(canvas, view, &self.commanded, &deflected, &second))
+        Ok(page.svg(|canvas, view| draw(canvas, view, &self.commanded, &deflected, &second)))
     }
 
     /// The figure as a PNG file.
@@ -162,25 +162,26 @@ fn subtitle(factor: f64) -> String {
 }
 
 fn draw(
-    canvas: &Canvas<'_>,
+    canvas: &mut Canvas,
     view: &View,
     commanded: &[Point],
     deflected: &[Point],
     second: &[Point],
-) -> Result<(), FigureError> {
+) {
     let project =
         |points: &[Point]| -> Vec<_> { points.iter().map(|p| view.project(*p)).collect() };
     let [commanded, deflected, second] = [commanded, deflected, second].map(project);
     for k in TrajectoryFigure::marked(commanded.len()) {
-        canvas.line(&[commanded[k], deflected[k]], style::DEFLECTION)?;
+        canvas.line(&[commanded[k], deflected[k]], style::DEFLECTION);
     }
-    canvas.line(&commanded, style::UNDEFORMED)?;
-    canvas.line(&deflected, style::DEFORMED)?;
+    canvas.line(&commanded, style::UNDEFORMED);
+    canvas.line(&deflected, style::DEFORMED);
     for path in [&commanded, &deflected] {
-        page::start_mark(canvas, path[0])?;
+        page::start_mark(canvas, path[0]);
     }
-    let mut second = second.iter();
-    second.try_for_each(|at| page::second_mark(canvas, *at))
+    for at in second {
+        page::second_mark(canvas, at);
+    }
 }
 
 #[cfg(test)]

@@ -8,11 +8,11 @@ use thiserror::Error;
 /// A place in a text file: what an error message points at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Location {
-    /// The file, as it was named.
+    /// The file, as it was named; the name of the argument for what a program hands in.
     pub path: PathBuf,
-    /// Line, from 1.
+    /// Line, from 1; 0 where the whole of an argument is meant.
     pub line: usize,
-    /// Column in characters, from 1.
+    /// Column in characters, from 1; 0 where the whole of an argument is meant.
     pub column: usize,
     /// Number of characters of that line that are meant, at least 1.
     pub width: usize,
@@ -22,7 +22,10 @@ pub struct Location {
 
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.path.display(), self.line, self.column)
+        match self.line {
+            0 => write!(f, "{}", self.path.display()),
+            line => write!(f, "{}:{line}:{}", self.path.display(), self.column),
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 //! `hyperstat_assembly`, or a [`Batch`] of [`Job`]s. SI units; vectors in global axes; a pose is
 //! x y z \[m\] and a rotation vector rx ry rz \[rad\] from the home orientation.
 
+mod builtin;
 mod error;
 mod file;
 mod job;
@@ -20,15 +21,21 @@ mod write;
 pub use error::{LoadError, Location};
 pub use file::mechanism::Mechanism;
 pub use file::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
+pub use hyperstat_closure::{Drive, LoopClosure, Reached, Target};
 pub use job::batch::{Batch, Job};
 pub use job::commanded::Commanded;
 pub use job::design::Design;
 pub use job::figures::{Along, ColorScale, Figure, Scale};
-pub use job::value::{Value, Varied};
+pub use job::made::{JobLoad, JobMechanism, JobPoses};
+pub use job::vary::Varied;
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };
 pub use prebuilt::PoseError;
 pub use text::files;
+#[cfg(feature = "fs")]
+pub use text::files::Disk;
+pub use text::files::{Files, MemoryFiles};
 pub use text::names::nearest;
+pub use text::value::Value;
 pub use write::{WriteError, write};

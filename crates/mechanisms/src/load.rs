@@ -7,10 +7,11 @@ use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::batch::Batch;
-use crate::parameters;
+use crate::text::files::Files;
 use crate::text::fragment::Fragment;
 use crate::text::named::{is_batch, mechanism_in};
 use crate::text::source::Source;
+use crate::text::tree::Node;
 
 /// What a file holds.
 #[derive(Debug)]
@@ -26,8 +27,8 @@ pub enum Input {
 ///
 /// # Errors
 /// The file cannot be read, or the first mistake in it or in a file that it names.
-pub fn load(path: &Path, registry: &Registry) -> Result<Input, LoadError> {
-    read(&Source::read(path)?, registry)
+pub fn load(path: &Path, files: &dyn Files, registry: &Registry) -> Result<Input, LoadError> {
+    read(&Source::read(path, files)?, registry)
 }
 
 /// Reads a mechanism or a batch from `text`, which messages call `path`; other files that it
@@ -35,16 +36,25 @@ pub fn load(path: &Path, registry: &Registry) -> Result<Input, LoadError> {
 ///
 /// # Errors
 /// As [`load`].
-pub fn load_str(text: &str, path: &Path, registry: &Registry) -> Result<Input, LoadError> {
-    read(&Source::new(path, text), registry)
+pub fn load_str(
+    text: &str,
+    path: &Path,
+    files: &dyn Files,
+    registry: &Registry,
+) -> Result<Input, LoadError> {
+    read(&Source::new(path, text, files), registry)
 }
 
 /// Reads a mechanism file.
 ///
 /// # Errors
 /// As [`load`]; a file that holds a batch.
-pub fn load_mechanism(path: &Path, registry: &Registry) -> Result<Mechanism, LoadError> {
-    read_mechanism(&Source::read(path)?, registry)
+pub fn load_mechanism(
+    path: &Path,
+    files: &dyn Files,
+    registry: &Registry,
+) -> Result<Mechanism, LoadError> {
+    read_mechanism(&Source::read(path, files)?, registry)
 }
 
 /// Reads a mechanism from `text`, which messages call `path`.
@@ -54,17 +64,18 @@ pub fn load_mechanism(path: &Path, registry: &Registry) -> Result<Mechanism, Loa
 pub fn mechanism_from_str(
     text: &str,
     path: &Path,
+    files: &dyn Files,
     registry: &Registry,
 ) -> Result<Mechanism, LoadError> {
-    read_mechanism(&Source::new(path, text), registry)
+    read_mechanism(&Source::new(path, text, files), registry)
 }
 
 /// Reads a batch file.
 ///
 /// # Errors
 /// As [`load`]; a file that holds a mechanism.
-pub fn load_batch(path: &Path, registry: &Registry) -> Result<Batch, LoadError> {
-    read_batch(&Source::read(path)?, registry)
+pub fn load_batch(path: &Path, files: &dyn Files, registry: &Registry) -> Result<Batch, LoadError> {
+    read_batch(&Source::read(path, files)?, registry)
 }
 
 /// Reads a batch from `text`, which messages call `path`; other files that it names are found
@@ -72,8 +83,13 @@ pub fn load_batch(path: &Path, registry: &Registry) -> Result<Batch, LoadError> 
 ///
 /// # Errors
 /// As [`load_batch`].
-pub fn batch_from_str(text: &str, path: &Path, registry: &Registry) -> Result<Batch, LoadError> {
-    read_batch(&Source::new(path, text), registry)
+pub fn batch_from_str(
+    text: &str,
+    path: &Path,
+    files: &dyn Files,
+    registry: &Registry,
+) -> Result<Batch, LoadError> {
+    read_batch(&Source::new(path, text, files), registry)
 }
 
 impl Input {
@@ -92,18 +108,18 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
         return Batch::read(value, registry).map(Input::Batch);
     }
     match value.variant("") {
-        Ok((kind, _)) if parameters::find(kind.text()).is_some() => {
+        Ok((kind, _)) if registry.prebuilt(kind.text()).is_some() => {
             return Err(kind
                 .error(format!("`{}` stands in a job of a batch", kind.text()))
                 .with_help("write `(jobs: [(name: \"…\", mechanism: …, poses: …)])`"));
         }
         _ => {}
     }
-    Mechanism::read(value, registry).map(Input::Mechanism)
+    Mechanism::read(Node::of(value), registry).map(Input::Mechanism)
 }
 
 fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism, LoadError> {
-    Mechanism::read(mechanism_in(source)?, registry)
+    Mechanism::read(Node::of(mechanism_in(source)?), registry)
 }
 
 fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {

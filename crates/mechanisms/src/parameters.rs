@@ -1,5 +1,6 @@
 //! Prebuilt mechanisms of a batch file: their parameters.
 
+mod arguments;
 mod exechon;
 mod hexapod;
 mod legs;
@@ -16,6 +17,7 @@ use hyperstat_elements::{Material, Section};
 use hyperstat_joints::Dof;
 
 use crate::error::LoadError;
+use crate::file::registry::Registry;
 use crate::file::{joints, materials, through};
 use crate::prebuilt::{
     Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
@@ -23,18 +25,17 @@ use crate::prebuilt::{
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 
-/// A kind of prebuilt mechanism in a batch file.
-#[derive(Debug)]
-pub(crate) struct Kind {
+/// A kind of prebuilt mechanism.
+struct Kind {
     /// Its name.
-    pub(crate) name: &'static str,
+    name: &'static str,
     /// Names of its parameters.
     fields: &'static [&'static str],
     read: fn(&Fields<'_>) -> Result<Box<dyn Prebuilt>, LoadError>,
 }
 
 /// The prebuilt mechanisms.
-pub(crate) const KINDS: &[Kind] = &[
+const KINDS: &[Kind] = &[
     Kind {
         name: "Delta",
         fields: &[
@@ -72,24 +73,13 @@ pub(crate) const KINDS: &[Kind] = &[
     tripteron::KIND,
 ];
 
-/// The prebuilt mechanism of this name.
-pub(crate) fn find(name: &str) -> Option<&'static Kind> {
-    KINDS.iter().find(|kind| kind.name == name)
-}
-
-/// Reads the parameters of a prebuilt mechanism; `whole` is the mechanism, `arguments` what
-/// stands in its parentheses.
-pub(crate) fn read(
-    kind: &Kind,
-    whole: Fragment<'_>,
-    arguments: Option<Fragment<'_>>,
-) -> Result<Box<dyn Prebuilt>, LoadError> {
-    let owner = format!("`{}`", kind.name);
-    let fields = match arguments {
-        Some(given) => Fields::read(given, owner, kind.fields)?.within(whole),
-        None => Fields::none(whole, owner),
-    };
-    (kind.read)(&fields)
+/// Registers the prebuilt mechanisms.
+pub(crate) fn register(registry: &mut Registry) {
+    for kind in KINDS {
+        registry.register_prebuilt(kind.name, kind.fields, |arguments| {
+            (kind.read)(arguments.fields())
+        });
+    }
 }
 
 fn delta(fields: &Fields<'_>) -> Result<Delta, LoadError> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hyperstat_assembly::{Model, solve};
 use hyperstat_mechanisms::prebuilt::Prebuilt;
-use hyperstat_mechanisms::{Batch, Registry, batch_from_str, load_batch, load_mechanism};
+use hyperstat_mechanisms::{Batch, Disk, Registry, batch_from_str, load_batch, load_mechanism};
 
 use super::FLOOR;
 use crate::{stiffness, stiffness_difference, vector_differences};
@@ -12,7 +12,7 @@ use crate::{stiffness, stiffness_difference, vector_differences};
 /// A batch of one job, of this mechanism in one pose.
 fn batch(mechanism: &str, pose: &str) -> Batch {
     let text = format!("(jobs: [(name: \"j\", mechanism: {mechanism}, poses: List([{pose}]))])");
-    let batch = batch_from_str(&text, Path::new("j.ron"), &Registry::builtin());
+    let batch = batch_from_str(&text, Path::new("j.ron"), &Disk, &Registry::builtin());
     batch.unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -45,7 +45,7 @@ pub fn assert_batch_reads(text: &str, pose_text: &str, mechanism: &dyn Prebuilt,
 pub fn assert_example_is_prebuilt(name: &str) {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
     let registry = Registry::builtin();
-    let batch = load_batch(&examples.join("prebuilt.ron"), &registry);
+    let batch = load_batch(&examples.join("prebuilt.ron"), &Disk, &registry);
     let batch = batch.unwrap_or_else(|error| panic!("{error}"));
     let job = batch.jobs.iter().find(|job| job.name == name);
     let job = job.expect("the job");
@@ -58,7 +58,7 @@ pub fn assert_example_is_prebuilt(name: &str) {
     let expected = solve(&model).expect("a solution");
 
     let file = examples.join(name.replace('-', "_")).with_extension("ron");
-    let written = load_mechanism(&file, &registry).unwrap_or_else(|error| panic!("{error}"));
+    let written = load_mechanism(&file, &Disk, &registry).unwrap_or_else(|error| panic!("{error}"));
     let found = solve(&written.model).expect("a solution");
     let difference = stiffness_difference(&stiffness(&found), &stiffness(&expected));
     assert!(difference < 1e-12, "{name}: K_o {difference:e}");

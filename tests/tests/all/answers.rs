@@ -7,7 +7,7 @@ use hyperstat_assembly::{
 };
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::{DofSet, Revolute};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::{build, reference_folder, reference_text};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector6};
 
@@ -26,7 +26,7 @@ const MECHANISMS: [&str; 10] = [
 ];
 
 fn read(text: &str) -> Model {
-    mechanism_from_str(text, &reference_folder(), &Registry::builtin())
+    mechanism_from_str(text, &reference_folder(), &Disk, &Registry::builtin())
         .expect("a valid file")
         .model
 }
@@ -342,7 +342,7 @@ fn sensitivities_of_a_tapered_console() {
         )
     };
     let read = |text: &str| {
-        mechanism_from_str(text, Path::new("."), &Registry::builtin())
+        mechanism_from_str(text, Path::new("."), &Disk, &Registry::builtin())
             .expect("a valid file")
             .model
     };

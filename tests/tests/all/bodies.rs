@@ -8,7 +8,7 @@ use hyperstat_assembly::{
 };
 use hyperstat_elements::{Beam, Section, SectionShape, element_frame, rotate_matrix12};
 use hyperstat_joints::{DofSet, Fixed, Revolute, frame_from_axis};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::agreement::{
     compliances_agree, nearly_singular, stiffnesses_agree, wrenches_agree,
 };
@@ -383,7 +383,7 @@ fn the_flexible_example_is_its_beam() {
         .expect("the arm");
     let (_, after) = flexible.split_once('\n').expect("a line");
     let [found, expected] = [text.clone(), format!("{before}{after}")].map(|text| {
-        let mechanism = mechanism_from_str(&text, &path, &Registry::builtin());
+        let mechanism = mechanism_from_str(&text, &path, &Disk, &Registry::builtin());
         solve(&mechanism.expect("a mechanism").model).expect("a solution")
     });
     assert_same(&found, &expected);

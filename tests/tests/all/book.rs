@@ -212,8 +212,13 @@ fn every_ron_block_is_read_by_the_loader() {
             // Files that a block names are found beside the examples.
             let path = root().join("examples/block.ron");
             let place = page.place(block);
-            let input = hyperstat_mechanisms::load_str(&block.text, &path, &registry)
-                .unwrap_or_else(|error| panic!("{place}: {error}"));
+            let input = hyperstat_mechanisms::load_str(
+                &block.text,
+                &path,
+                &hyperstat_mechanisms::Disk,
+                &registry,
+            )
+            .unwrap_or_else(|error| panic!("{place}: {error}"));
             if let Input::Mechanism(mechanism) = &input {
                 hyperstat_assembly::solve(&mechanism.model)
                     .unwrap_or_else(|error| panic!("{place}: {error}"));
@@ -312,8 +317,12 @@ fn the_sketches_are_drawn_from_the_source() {
 #[test]
 fn the_first_mechanism_is_what_the_tutorial_says() {
     let path = root().join("examples/portal.ron");
-    let mechanism = hyperstat_mechanisms::load_mechanism(&path, &Registry::builtin())
-        .unwrap_or_else(|error| panic!("{error}"));
+    let mechanism = hyperstat_mechanisms::load_mechanism(
+        &path,
+        &hyperstat_mechanisms::Disk,
+        &Registry::builtin(),
+    )
+    .unwrap_or_else(|error| panic!("{error}"));
     let solution = hyperstat_assembly::solve(&mechanism.model).expect("it is held");
     assert_eq!((solution.mobility, solution.overconstraint), (1, 0));
     let compliance = solution.output.compliance.expect("it has no free motion");

@@ -25,7 +25,7 @@ use std::path::Path;
 use hyperstat_assembly::{Axes, LineLoad, LoadCase, LoadSet, Model, SegmentId, solve};
 use hyperstat_elements::{Elasticity, Material};
 use hyperstat_joints::Fixed;
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::build::{
     assert_printed, assert_printed_in_single, connection, general, material, member, node,
     weld_to_ground,
@@ -110,7 +110,8 @@ fn four_beams_from_a_file() {
     output: ("d", "1"),
 )"#;
     let path = Path::new("frame3dd_b.ron");
-    let mechanism = mechanism_from_str(text, path, &Registry::builtin()).expect("a mechanism");
+    let mechanism =
+        mechanism_from_str(text, path, &Disk, &Registry::builtin()).expect("a mechanism");
     let solution = solve(&mechanism.model).expect("a solution");
     let found = solution.output.displacement;
     assert_printed("node 1", &found.as_slice()[..3], &LINEAR);

@@ -20,7 +20,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{Model, solve};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::build::{assert_printed, general, material, node, weld_to_ground};
 use nalgebra::{Point3, Vector3, Vector6};
 
@@ -103,6 +103,7 @@ fn one_bent_beam_from_a_file() {
     output: ("frame", "N3"),
 )"#;
     let path = Path::new("logan_p5_30.ron");
-    let mechanism = mechanism_from_str(text, path, &Registry::builtin()).expect("a mechanism");
+    let mechanism =
+        mechanism_from_str(text, path, &Disk, &Registry::builtin()).expect("a mechanism");
     check(&mechanism.model);
 }

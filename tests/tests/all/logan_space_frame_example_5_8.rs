@@ -17,7 +17,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{Model, solve};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::build::{assert_printed, general, material, member, node, weld_to_ground};
 use nalgebra::{Point3, Vector6};
 
@@ -102,6 +102,7 @@ fn three_beams_from_a_file() {
     output: ("b4", "N1"),
 )"#;
     let path = Path::new("logan_5_8.ron");
-    let mechanism = mechanism_from_str(text, path, &Registry::builtin()).expect("a mechanism");
+    let mechanism =
+        mechanism_from_str(text, path, &Disk, &Registry::builtin()).expect("a mechanism");
     check(&mechanism.model);
 }

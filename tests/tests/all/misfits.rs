@@ -8,7 +8,7 @@ use hyperstat_assembly::{
     JointId, LANES, LoadSet, Model, NodeId, Prepared, Solution, SolveError, solve,
 };
 use hyperstat_joints::Dof;
-use hyperstat_mechanisms::{Registry, load_mechanism, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, load_mechanism, mechanism_from_str};
 use hyperstat_reference::ReferenceError;
 use hyperstat_tests::agreement::agrees_with_reference;
 use hyperstat_tests::prebuilt::{legs, links};
@@ -27,7 +27,7 @@ const FLOORS: [f64; 2] = [1e-5, 1.0];
 /// A reference mechanism without its loads.
 fn unloaded(name: &str) -> Model {
     let path = reference_folder().join(format!("{name}.ron"));
-    let mechanism = load_mechanism(&path, &Registry::builtin()).expect("a valid file");
+    let mechanism = load_mechanism(&path, &Disk, &Registry::builtin()).expect("a valid file");
     let mut model = mechanism.model;
     model.clear_loads();
     model
@@ -387,7 +387,8 @@ const FLOATING: &str = r#"(
 #[test]
 fn a_floating_mechanism_keeps_the_digits_of_its_own_forces() {
     let file = Path::new("floating.ron");
-    let mechanism = mechanism_from_str(FLOATING, file, &Registry::builtin()).expect("a file");
+    let mechanism =
+        mechanism_from_str(FLOATING, file, &Disk, &Registry::builtin()).expect("a file");
     let found = solve(&mechanism.model).expect("a solution");
     assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     assert_eq!(found.output.free_motions.len(), 6);

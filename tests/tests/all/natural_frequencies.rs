@@ -13,7 +13,7 @@ use hyperstat_assembly::{
 };
 use hyperstat_elements::{Elasticity, MassShape, Material, RigidMass};
 use hyperstat_joints::{Fixed, Planar};
-use hyperstat_mechanisms::{Registry, batch_from_str};
+use hyperstat_mechanisms::{Disk, Registry, batch_from_str};
 use hyperstat_reference::natural_frequencies;
 use hyperstat_tests::build::{
     circle, connection, general, has_printed_digits, member, node, weld_to_ground,
@@ -48,7 +48,7 @@ fn delta(joint_stiffness: &str) -> Model {
             {joint_stiffness}
         ))])"
     );
-    let batch = batch_from_str(&text, Path::new("delta.ron"), &Registry::builtin()).unwrap();
+    let batch = batch_from_str(&text, Path::new("delta.ron"), &Disk, &Registry::builtin()).unwrap();
     let mut model = batch.jobs[0].model().unwrap();
     let platform = node(&model, "platform", "P");
     model.add_mass(platform, RigidMass::with_moments(1.0, [1e-3; 3]).unwrap());

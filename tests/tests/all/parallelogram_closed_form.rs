@@ -25,7 +25,7 @@ use std::path::Path;
 
 use hyperstat_assembly::{Model, Solution, solve};
 use hyperstat_joints::{Revolute, frame_from_axis};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::build::{connection, general, material, node};
 use hyperstat_tests::{moved, stiffness, turned, turned_matrix};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
@@ -254,7 +254,8 @@ fn from_a_file() {
     output: ("coupler", "P"),
 )"#;
     let path = Path::new("parallelogram.ron");
-    let mechanism = mechanism_from_str(text, path, &Registry::builtin()).expect("a mechanism");
+    let mechanism =
+        mechanism_from_str(text, path, &Disk, &Registry::builtin()).expect("a mechanism");
     let solution = solve(&mechanism.model).expect("a free output is a result");
     check_freedom(&solution, &Rotation3::identity()).expect("free along y");
     let same = Parallelogram {

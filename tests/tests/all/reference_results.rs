@@ -1,7 +1,7 @@
 //! The reference mechanisms through the real loader, against results true to every printed digit.
 
 use hyperstat_assembly::{Solution, solve};
-use hyperstat_mechanisms::{Mechanism, Registry, load_mechanism};
+use hyperstat_mechanisms::{Disk, Mechanism, Registry, load_mechanism};
 use hyperstat_tests::{
     reference_folder, reference_text, stiffness, stiffness_difference, vector_differences,
 };
@@ -17,7 +17,7 @@ fn vector(value: &Value) -> Vector6<f64> {
 
 fn load(name: &str) -> (Mechanism, Value) {
     let path = reference_folder().join(format!("{name}.ron"));
-    let mechanism = load_mechanism(&path, &Registry::builtin()).expect("a valid file");
+    let mechanism = load_mechanism(&path, &Disk, &Registry::builtin()).expect("a valid file");
     let expected = reference_text(&format!("{name}.json"));
     (
         mechanism,

@@ -9,7 +9,12 @@ use hyperstat_tests::extended;
 use hyperstat_tests::vector_differences;
 
 fn model(text: &str) -> Model {
-    let input = hyperstat_mechanisms::load_str(text, "block.ron".as_ref(), &Registry::builtin());
+    let input = hyperstat_mechanisms::load_str(
+        text,
+        "block.ron".as_ref(),
+        &hyperstat_mechanisms::Disk,
+        &Registry::builtin(),
+    );
     match input {
         Ok(Input::Mechanism(mechanism)) => mechanism.model,
         Ok(_) => panic!("a batch"),

@@ -5,7 +5,7 @@
 use std::mem::discriminant;
 
 use hyperstat_assembly::{Model, Prepared, solve};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::agreement::{
     agrees_with_reference, displacements_agree, nearly_singular, stiffnesses_agree,
 };
@@ -34,7 +34,7 @@ const MECHANISMS: [&str; 12] = [
 
 fn mechanism(name: &str) -> Model {
     let text = reference_text(&format!("{name}.ron"));
-    mechanism_from_str(&text, &reference_folder(), &Registry::builtin())
+    mechanism_from_str(&text, &reference_folder(), &Disk, &Registry::builtin())
         .expect("a valid file")
         .model
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use hyperstat_assembly::{JointStiffness, Member, Model, Tapering, solve};
 use hyperstat_elements::{Section, SectionShape};
 use hyperstat_joints::Universal;
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::agreement::agrees_with_reference;
 use hyperstat_tests::build::{circle, connection, member, node, steel, weld_to_ground};
 use hyperstat_tests::{stiffness, stiffness_difference};
@@ -121,7 +121,8 @@ fn tapers_and_sections_are_read_along_a_beam() {
             output: ("arm", "C"),
         )"#;
         let text = text.replace("BODY", bodies);
-        let mechanism = mechanism_from_str(&text, Path::new("console.ron"), &Registry::builtin());
+        let mechanism =
+            mechanism_from_str(&text, Path::new("console.ron"), &Disk, &Registry::builtin());
         let mechanism = mechanism.unwrap_or_else(|error| panic!("{error}"));
         solve(&mechanism.model).expect("a solution")
     };

@@ -5,7 +5,7 @@ use hyperstat_assembly::{
     ModalOptions, ModalPlan, ModalSensitivities, Prepared, Sensitivity, Solution, solve,
 };
 use hyperstat_elements::{MassShape, RotaryInertia};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::{reference_folder, reference_text};
 use nalgebra::Matrix6;
 
@@ -66,7 +66,7 @@ struct Results {
 }
 
 fn results(text: &str) -> Results {
-    let read = mechanism_from_str(text, &reference_folder(), &Registry::builtin());
+    let read = mechanism_from_str(text, &reference_folder(), &Disk, &Registry::builtin());
     let mechanism = read.unwrap_or_else(|error| panic!("{error}\n{text}"));
     let mut model = mechanism.model.clone();
     mechanism.name_values(&mut model);

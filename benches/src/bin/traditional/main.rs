@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/src/images");
     fs::create_dir_all(&folder)?;
-    fs::write(folder.join("traditional.svg"), figure::svg(&cases)?)?;
+    fs::write(folder.join("traditional.svg"), figure::svg(&cases))?;
     eprintln!("wrote docs/src/images/traditional.svg");
     Ok(())
 }

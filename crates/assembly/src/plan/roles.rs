@@ -5,6 +5,7 @@ use hyperstat_model::{Directions, Geometry, Model, NodeId, SegmentId, segment_be
 use nalgebra::{Matrix6, Vector6};
 
 use super::clusters::LONGEST_CLUSTER;
+use crate::sets::Sets;
 
 /// A joint softer than this share of the beam's own stiffness keeps coordinates of its own: across the
 /// beam's axes a matrix of doubles holds its stiffness to 1e-16 over this share, whatever formed
@@ -142,34 +143,27 @@ pub(crate) fn stiff_directions(directions: &Directions, own: &Vector6<f64>) -> D
 
 /// Sets of segments joined at absorbed joints, kept short.
 pub(crate) struct Runs {
-    parent: Vec<usize>,
+    sets: Sets,
+    /// Segments in the run of each root.
     length: Vec<usize>,
 }
 
 impl Runs {
     fn new(count: usize) -> Self {
         Self {
-            parent: (0..count).collect(),
+            sets: Sets::new(count),
             length: vec![1; count],
         }
     }
 
-    fn find(&mut self, mut k: usize) -> usize {
-        while self.parent[k] != k {
-            self.parent[k] = self.parent[self.parent[k]];
-            k = self.parent[k];
-        }
-        k
-    }
-
     /// Joins two runs unless they are one already (a ring) or would grow too long.
     fn join(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.find(a), self.find(b));
+        let (a, b) = (self.sets.root(a), self.sets.root(b));
         let length = self.length[a] + self.length[b];
         if a == b || length > LONGEST_CLUSTER {
             return false;
         }
-        self.parent[b] = a;
+        self.sets.join(a, b);
         self.length[a] = length;
         true
     }

@@ -18,6 +18,7 @@ use crate::posture::Posture;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
 use crate::room;
 use crate::room::MOST_ELIMINATED;
+use crate::sets::Sets;
 use crate::state::acting::Acting;
 use crate::state::floor::Floor;
 use crate::state::preload::loose_preload;
@@ -340,18 +341,10 @@ fn groups(
     joints: &[usize],
     ends: impl Fn(usize) -> [Option<usize>; 2],
 ) -> Vec<Group> {
-    let mut group_of: Vec<usize> = (0..carriers).collect();
-    fn find(group_of: &mut [usize], mut k: usize) -> usize {
-        while group_of[k] != k {
-            group_of[k] = group_of[group_of[k]];
-            k = group_of[k];
-        }
-        k
-    }
+    let mut group_of = Sets::new(carriers);
     for &joint in joints {
         if let [Some(a), Some(b)] = ends(joint) {
-            let (a, b) = (find(&mut group_of, a), find(&mut group_of, b));
-            group_of[b] = a;
+            group_of.join(a, b);
         }
     }
     let mut groups: Vec<Group> = Vec::new();
@@ -360,7 +353,7 @@ fn groups(
         let Some(carrier) = ends(joint).into_iter().flatten().next() else {
             continue;
         };
-        let root = find(&mut group_of, carrier);
+        let root = group_of.root(carrier);
         if place[root] == usize::MAX {
             place[root] = groups.len();
             groups.push(Group {
@@ -371,7 +364,7 @@ fn groups(
         groups[place[root]].joints.push(joint);
     }
     for carrier in 0..carriers {
-        let root = find(&mut group_of, carrier);
+        let root = group_of.root(carrier);
         if place[root] != usize::MAX {
             groups[place[root]].carriers.push(carrier);
         }

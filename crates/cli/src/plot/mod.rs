@@ -1,32 +1,19 @@
 //! `hyperstat plot`: figures from the tables that `hyperstat run` writes, of mechanisms, and of what
 //! `hyperstat solve --why` found.
 
-mod coordinates;
-mod error;
-mod lines;
-mod map;
 mod mechanism;
-mod plane;
-mod quantity;
-mod rows;
 mod solved;
-mod table;
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{ColorScale, Scale, TrajectoryFigure};
+use hyperstat_figures::{ColorScale, Scale};
 use hyperstat_mechanisms::Registry;
+use hyperstat_study::figure::{self, Choice, Drawing, Lines, Map};
+use hyperstat_study::table::TableReader;
 
 use crate::args;
-use crate::drawing::{self, Drawing};
-use crate::error::CliError;
+use crate::error::{CliError, MAP, SHAPE};
 use crate::outputs;
-pub(crate) use error::PlotError;
-use lines::Lines;
-pub(crate) use map::{Map, figure as map};
-pub(crate) use quantity::{Drawn, instead_of, is_frequency};
-pub(crate) use rows::Choice;
-pub(crate) use table::Table;
 
 /// A figure, and its files without their extensions.
 struct Plotted {
@@ -62,7 +49,7 @@ pub(crate) fn run(
 ) -> Result<bool, CliError> {
     let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
-    for path in drawing.write(&stem)? {
+    for path in write(&drawing, &stem)? {
         told += &format!("{}\n", path.display());
     }
     let caption = drawing.caption().map_err(|source| CliError::Figure {
@@ -72,6 +59,34 @@ pub(crate) fn run(
     told += &format!("{caption}\n");
     tell(&told)?;
     Ok(true)
+}
+
+/// Writes a figure as `STEM.svg` and `STEM.png`; both are drawn before the first is written.
+pub(crate) fn write(drawing: &Drawing, stem: &Path) -> Result<[PathBuf; 2], CliError> {
+    let [as_svg, as_png] = files(stem);
+    let cannot_draw = |path: &Path, source| CliError::Figure {
+        path: path.into(),
+        source,
+    };
+    let svg = drawing
+        .svg()
+        .map_err(|source| cannot_draw(&as_svg, source))?;
+    let png = drawing
+        .png()
+        .map_err(|source| cannot_draw(&as_png, source))?;
+    outputs::write(&as_svg, svg.as_bytes())?;
+    outputs::write(&as_png, &png)?;
+    Ok([as_svg, as_png])
+}
+
+/// The files `STEM.svg` and `STEM.png` of a figure.
+pub(crate) fn files(stem: &Path) -> [PathBuf; 2] {
+    ["svg", "png"].map(|extension| {
+        let mut path = stem.as_os_str().to_owned();
+        path.push(".");
+        path.push(extension);
+        PathBuf::from(path)
+    })
 }
 
 /// The files of a figure without their extensions: as the command line says, or of the `name` beside
@@ -107,10 +122,10 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
             refuse(args, "solved already", chosen)?;
             solved::figure(args)
         }
-        (Some(option), _) => Err(CliError::Plot(PlotError::NoMechanism {
+        (Some(option), _) => Err(CliError::NoMechanism {
             path: args.file.clone(),
             option,
-        })),
+        }),
     }
 }
 
@@ -119,10 +134,10 @@ fn refuse<const N: usize>(
     args: &args::Plot,
     what: &'static str,
     options: [(&'static str, bool); N],
-) -> Result<(), PlotError> {
+) -> Result<(), CliError> {
     let given = options.into_iter().find(|(_, given)| *given);
     given.map_or(Ok(()), |(option, _)| {
-        Err(PlotError::NoChoice {
+        Err(CliError::NoChoice {
             path: args.file.clone(),
             option,
             what,
@@ -132,14 +147,14 @@ fn refuse<const N: usize>(
 
 /// The figure of a table.
 fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
-    let table = &Table::open(&args.file)?;
+    let table = &TableReader::open(&args.file)?;
     let title = args.title.clone();
     let choice = Choice {
         design: args.design,
         pose: args.pose,
     };
     // One design, where no more are asked for.
-    let first = rows::first_design(table)?;
+    let first = figure::first_design(table)?;
     let one_design = Choice {
         design: choice.design.or(first).or(Some(0)),
         ..choice
@@ -150,7 +165,7 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         (None, None) => "trajectory".into(),
     };
     let stem = stem_of(args, &format!("{}-{kind}", table.job()));
-    let files = drawing::files(&stem);
+    let files = files(&stem);
     outputs::refuse(
         files.iter().map(|path| &**path),
         std::slice::from_ref(&args.file),
@@ -166,7 +181,7 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             choice: one_design,
             title,
         };
-        Drawing::Map(map::figure(table, &map)?)
+        Drawing::Map(figure::map(table, &map)?)
     } else if let Some(values) = &args.kind.lines {
         let over = args.over.clone().unwrap_or_else(|| "pose".into());
         // Along what varies from design to design: one pose of each.
@@ -184,9 +199,9 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
             over,
             title,
         };
-        Drawing::Lines(lines::figure(table, &lines)?)
+        Drawing::Lines(figure::lines(table, &lines)?)
     } else {
-        Drawing::Trajectory(trajectory(
+        Drawing::Trajectory(figure::trajectory(
             table,
             one_design,
             magnified(args.scale.as_ref())?,
@@ -196,62 +211,27 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
     Ok(Plotted { drawing, stem })
 }
 
-/// The poses with a result as a trajectory, commanded and deflected.
-fn trajectory(
-    table: &Table,
-    choice: Choice,
-    scale: Scale,
-    title: Option<String>,
-) -> Result<TrajectoryFigure, PlotError> {
-    let names = ["x", "y", "z", "dx", "dy", "dz"];
-    let columns: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
-    let columns = table.read(&columns)?;
-    let mut figure = TrajectoryFigure {
-        title: title.unwrap_or_else(|| {
-            let design = choice.design.filter(|_| table.varies());
-            drawing::title(&table.job(), design, None, None)
-        }),
-        commanded: Vec::new(),
-        displacement: Vec::new(),
-        second: None,
-        scale,
-    };
-    for row in choice.rows(table)? {
-        let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
-        if let Some([x, y, z, dx, dy, dz]) = numbers.as_deref() {
-            figure.commanded.push([*x, *y, *z]);
-            figure.displacement.push([*dx, *dy, *dz]);
-        }
-    }
-    match figure.commanded.is_empty() {
-        true => Err(PlotError::Nothing {
-            path: table.path().into(),
-        }),
-        false => Ok(figure),
-    }
-}
-
 /// A magnification from the command line.
-fn magnified(scale: Option<&args::Scale>) -> Result<Scale, PlotError> {
+fn magnified(scale: Option<&args::Scale>) -> Result<Scale, CliError> {
     match scale {
         None => Ok(Scale::Auto),
         Some(args::Scale::Factor(factor)) => Ok(Scale::Factor(*factor)),
-        Some(other) => Err(PlotError::Scale {
+        Some(other) => Err(CliError::Scale {
             given: other.to_string(),
-            of: error::SHAPE,
+            of: SHAPE,
         }),
     }
 }
 
 /// How the colours of a map go with its values, from the command line.
-fn colors(scale: Option<&args::Scale>) -> Result<ColorScale, PlotError> {
+fn colors(scale: Option<&args::Scale>) -> Result<ColorScale, CliError> {
     match scale {
         None => Ok(ColorScale::Auto),
         Some(args::Scale::Linear) => Ok(ColorScale::Linear),
         Some(args::Scale::Log) => Ok(ColorScale::Log),
-        Some(other) => Err(PlotError::Scale {
+        Some(other) => Err(CliError::Scale {
             given: other.to_string(),
-            of: error::MAP,
+            of: MAP,
         }),
     }
 }

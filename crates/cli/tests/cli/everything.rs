@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_mechanisms::{Input, Registry, load};
+use hyperstat_mechanisms::{Disk, Input, Registry, load};
 
 use super::support::{Bench, Outcome};
 
@@ -23,7 +23,7 @@ fn files(folder: &str) -> Vec<File> {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "ron") {
             let path = path.canonicalize().unwrap();
-            let jobs = match load(&path, &Registry::builtin()).unwrap() {
+            let jobs = match load(&path, &Disk, &Registry::builtin()).unwrap() {
                 Input::Batch(batch) => batch.jobs.into_iter().map(|job| job.name).collect(),
                 Input::Mechanism(_) => Vec::new(),
             };

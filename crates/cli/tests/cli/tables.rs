@@ -1,15 +1,11 @@
 //! The tables of `hyperstat run`: CSV and Parquet hold the same doubles, and the number of threads
-//! changes no byte.
+//! changes no byte. The reader is that of the library that writes them; `tests/read-back` reads such
+//! files with Arrow's.
 
 use std::fs::{self, File};
 
-use parquet2::encoding::Encoding;
-use parquet2::encoding::hybrid_rle::HybridRleDecoder;
-use parquet2::metadata::{ColumnChunkMetaData, FileMetaData};
-use parquet2::page::{Page, split_buffer};
-use parquet2::read::{decompress, get_page_iterator, read_metadata};
-use parquet2::schema::Repetition;
-use parquet2::schema::types::{ParquetType, PhysicalType};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
 
 use crate::support::{Bench, delta_batch};
 
@@ -146,25 +142,29 @@ fn same_cells(bench: &Bench, path: &str, count: usize) -> usize {
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), count);
 
-    let mut file = File::open(bench.path(&format!("{path}.parquet"))).unwrap();
-    let metadata = read_metadata(&mut file).unwrap();
-    assert_eq!(metadata.num_rows, count);
-    let fields = metadata.schema().fields().iter();
-    let fields: Vec<&str> = fields.map(|f| f.name()).collect();
+    let file = File::open(bench.path(&format!("{path}.parquet"))).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let schema = reader.metadata().file_metadata().schema_descr_ptr();
+    let fields: Vec<&str> = schema.columns().iter().map(|c| c.name()).collect();
     assert_eq!(fields, names);
+    let mut columns = vec![Vec::new(); names.len()];
+    for row in reader.get_row_iter(None).unwrap() {
+        for (column, (_, field)) in columns.iter_mut().zip(row.unwrap().get_column_iter()) {
+            column.push(Cell::of(field));
+        }
+    }
     let mut nulls = 0;
     for (place, name) in names.iter().enumerate() {
-        let column = read(&metadata, &mut file, place);
-        assert_eq!(column.len(), count, "{name}");
-        for (row, cell) in rows.iter().zip(column) {
+        assert_eq!(columns[place].len(), count, "{name}");
+        for (row, cell) in rows.iter().zip(&columns[place]) {
             let expected = match row[place] {
                 "" => Cell::Null,
                 text if *name == "status" => Cell::Text(text.into()),
                 text if ["pose", "design"].contains(name) => Cell::Whole(text.parse().unwrap()),
                 text => Cell::Double(text.parse::<f64>().unwrap().to_bits()),
             };
-            nulls += usize::from(cell == Cell::Null);
-            assert_eq!(cell, expected, "{name} of pose {}", row[0]);
+            nulls += usize::from(*cell == Cell::Null);
+            assert_eq!(*cell, expected, "{name} of pose {}", row[0]);
         }
     }
     nulls
@@ -179,82 +179,14 @@ enum Cell {
     Text(String),
 }
 
-/// A column of a Parquet file, read by a library that has nothing in common with the one that wrote
-/// it.
-fn read(metadata: &FileMetaData, file: &mut File, place: usize) -> Vec<Cell> {
-    let groups = metadata.row_groups.iter();
-    groups
-        .flat_map(|group| read_chunk(&group.columns()[place], file))
-        .collect()
-}
-
-fn read_chunk(column: &ColumnChunkMetaData, file: &mut File) -> Vec<Cell> {
-    let ParquetType::PrimitiveType(kind) = &column.descriptor().base_type else {
-        panic!("a column of columns");
-    };
-    let plain = |values: &[u8]| -> Vec<Cell> {
-        match kind.physical_type {
-            PhysicalType::Int64 => eights(values)
-                .map(|bytes| Cell::Whole(i64::from_le_bytes(bytes)))
-                .collect(),
-            PhysicalType::Double => eights(values)
-                .map(|bytes| Cell::Double(u64::from_le_bytes(bytes)))
-                .collect(),
-            PhysicalType::ByteArray => texts(values),
+impl Cell {
+    fn of(field: &Field) -> Self {
+        match field {
+            Field::Null => Self::Null,
+            Field::Long(number) => Self::Whole(*number),
+            Field::Double(number) => Self::Double(number.to_bits()),
+            Field::Str(text) => Self::Text(text.clone()),
             other => panic!("{other:?}"),
         }
-    };
-    let pages = get_page_iterator(column, file, None, Vec::new(), usize::MAX).unwrap();
-    let mut dictionary = Vec::new();
-    let mut cells = Vec::new();
-    for page in pages {
-        let page = match decompress(page.unwrap(), &mut Vec::new()).unwrap() {
-            Page::Dict(page) => {
-                dictionary = plain(&page.buffer);
-                continue;
-            }
-            Page::Data(page) => page,
-        };
-        let (_, levels, values) = split_buffer(&page).unwrap();
-        let mut found = match page.encoding() {
-            Encoding::Plain => plain(values),
-            _ => indices(&values[1..], values[0], page.num_values())
-                .map(|index| dictionary[index as usize].clone())
-                .collect(),
-        }
-        .into_iter();
-        if kind.field_info.repetition == Repetition::Required {
-            cells.extend(found);
-            continue;
-        }
-        for level in indices(levels, 1, page.num_values()) {
-            cells.push(match level {
-                0 => Cell::Null,
-                _ => found.next().unwrap(),
-            });
-        }
-        assert_eq!(found.next(), None);
     }
-    cells
-}
-
-fn eights(values: &[u8]) -> impl Iterator<Item = [u8; 8]> {
-    values.chunks(8).map(|bytes| bytes.try_into().unwrap())
-}
-
-/// Texts, each after its length in four bytes.
-fn texts(mut values: &[u8]) -> Vec<Cell> {
-    let mut texts = Vec::new();
-    while let Some((length, rest)) = values.split_first_chunk() {
-        let (text, rest) = rest.split_at(u32::from_le_bytes(*length) as usize);
-        texts.push(Cell::Text(String::from_utf8(text.into()).unwrap()));
-        values = rest;
-    }
-    texts
-}
-
-/// Small whole numbers of so many bits.
-fn indices(values: &[u8], bits: u8, count: usize) -> impl Iterator<Item = u32> {
-    let decoder = HybridRleDecoder::try_new(values, u32::from(bits), count).unwrap();
-    decoder.map(|index| index.unwrap())
 }

@@ -1,68 +1,105 @@
-//! `solve --vtu`, read back by `vtkio`, a reader of VTK files of other authorship: points, cells and
-//! arrays hold the numbers of closed forms and those that `solve` itself prints.
+//! `solve --vtu`, read back as XML: points, cells and arrays hold the numbers of closed forms and those
+//! that `solve` itself prints. `tests/read-back` reads such files with VTK's own reader.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use std::fs;
 use std::ops::Index;
 use std::path::Path;
 
+use roxmltree::{Document, Node};
 use serde_json::Value;
-use vtkio::Vtk;
-use vtkio::model::{Attribute, CellType, DataSet, VertexNumbers};
 
 use crate::support::{Bench, CANTILEVER, assert_near, delta_batch, numbers};
 
-/// What the reader found in a file.
+/// VTK's numbers of the kinds of cells.
+const VERTEX: usize = 1;
+const LINE: usize = 3;
+
+/// What stands in a file.
 struct Grid {
     points: Vec<Vec<f64>>,
-    cells: Vec<(CellType, Vec<usize>)>,
+    /// The kind of each and its points.
+    cells: Vec<(usize, Vec<usize>)>,
     /// By name, in rows of its components.
     arrays: BTreeMap<String, Vec<Vec<f64>>>,
 }
 
+/// The element `name` in another.
+fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Node<'a, 'd> {
+    let mut found = node.children().filter(|child| child.has_tag_name(name));
+    let only = found.next().unwrap_or_else(|| panic!("no `{name}`"));
+    assert!(found.next().is_none(), "more than one `{name}`");
+    only
+}
+
+/// Name and rows of an array of text.
+fn array(node: Node<'_, '_>) -> (String, Vec<Vec<f64>>) {
+    let attribute = |name: &str| node.attribute(name);
+    assert_eq!(attribute("format"), Some("ascii"));
+    let components = attribute("NumberOfComponents").map_or(1, |n| n.parse().unwrap());
+    let words = node.text().unwrap().split_ascii_whitespace();
+    let numbers: Vec<f64> = words.map(|word| word.parse().unwrap()).collect();
+    assert_eq!(numbers.len() % components, 0);
+    let rows = numbers.chunks(components).map(<[f64]>::to_vec).collect();
+    (attribute("Name").unwrap().into(), rows)
+}
+
+/// All arrays in an element, by name.
+fn arrays(node: Node<'_, '_>) -> BTreeMap<String, Vec<Vec<f64>>> {
+    let arrays = node.children().filter(|child| child.is_element());
+    let mut found = BTreeMap::new();
+    for (name, rows) in arrays.map(array) {
+        assert!(found.insert(name.clone(), rows).is_none(), "two `{name}`");
+    }
+    found
+}
+
+/// An array of whole numbers.
+fn whole(rows: &[Vec<f64>]) -> Vec<usize> {
+    let numbers = rows.iter().flatten();
+    numbers
+        .map(|number| {
+            assert!(*number >= 0.0 && number.fract() == 0.0, "{number}");
+            *number as usize
+        })
+        .collect()
+}
+
 impl Grid {
     fn read(path: &Path) -> Self {
-        let file = Vtk::import(path).unwrap_or_else(|error| panic!("{error:?}"));
-        let DataSet::UnstructuredGrid { pieces, .. } = file.data else {
-            panic!("no unstructured grid");
-        };
-        let [piece] = <[_; 1]>::try_from(pieces).unwrap();
-        let piece = piece.into_loaded_piece_data(None).unwrap();
-        let rows = |numbers: Vec<f64>, of: usize| -> Vec<Vec<f64>> {
-            numbers.chunks(of).map(<[f64]>::to_vec).collect()
-        };
-        let points = rows(piece.points.cast_into().unwrap(), 3);
-        let VertexNumbers::XML {
-            connectivity,
-            offsets,
-        } = piece.cells.cell_verts
-        else {
-            panic!("cells of the old format");
-        };
+        let text = fs::read_to_string(path).unwrap();
+        let document = Document::parse(&text).unwrap();
+        let root = document.root_element();
+        assert_eq!(root.tag_name().name(), "VTKFile");
+        assert_eq!(root.attribute("type"), Some("UnstructuredGrid"));
+        let piece = child(child(root, "UnstructuredGrid"), "Piece");
+        let count = |name: &str| piece.attribute(name).unwrap().parse::<usize>().unwrap();
+        let (_, points) = array(child(child(piece, "Points"), "DataArray"));
+        let of_cells = arrays(child(piece, "Cells"));
+        let of_cells = |name: &str| whole(&of_cells[name]);
+        let (connectivity, ends) = (of_cells("connectivity"), of_cells("offsets"));
         let mut start = 0;
-        let cells = offsets.iter().zip(piece.cells.types).map(|(end, kind)| {
-            let of_cell = &connectivity[start..*end as usize];
-            start = *end as usize;
-            (kind, of_cell.iter().map(|point| *point as usize).collect())
+        let cells = ends.iter().zip(of_cells("types")).map(|(end, kind)| {
+            let points = connectivity[start..*end].to_vec();
+            start = *end;
+            (kind, points)
         });
-        let cells: Vec<(CellType, Vec<usize>)> = cells.collect();
-        let mut arrays = BTreeMap::new();
-        let counts = [points.len(), cells.len()];
-        for (attributes, count) in [piece.data.point, piece.data.cell].into_iter().zip(counts) {
-            for attribute in attributes {
-                let Attribute::DataArray(array) = attribute else {
-                    panic!("{attribute:?}");
-                };
-                let components = array.num_comp();
-                let values = rows(array.data.cast_into().unwrap(), components);
-                assert_eq!(values.len(), count, "{}", array.name);
-                assert!(arrays.insert(array.name, values).is_none());
+        let cells: Vec<(usize, Vec<usize>)> = cells.collect();
+        assert_eq!(points.len(), count("NumberOfPoints"));
+        assert_eq!(cells.len(), count("NumberOfCells"));
+        assert_eq!(ends.last(), Some(&connectivity.len()));
+        let mut all = BTreeMap::new();
+        for (kind, count) in [("PointData", points.len()), ("CellData", cells.len())] {
+            for (name, rows) in arrays(child(piece, kind)) {
+                assert_eq!(rows.len(), count, "{name}");
+                assert!(all.insert(name, rows).is_none());
             }
         }
         let grid = Self {
             points,
             cells,
-            arrays,
+            arrays: all,
         };
         grid.assert_whole();
         grid
@@ -71,10 +108,10 @@ impl Grid {
     /// Every cell is of points that there are, as many as its kind has.
     fn assert_whole(&self) {
         for (kind, points) in &self.cells {
-            let count = match kind {
-                CellType::Vertex => 1,
-                CellType::Line => 2,
-                other => panic!("{other:?}"),
+            let count = match *kind {
+                VERTEX => 1,
+                LINE => 2,
+                other => panic!("a cell of kind {other}"),
             };
             assert_eq!(points.len(), count);
             assert!(points.iter().all(|point| *point < self.points.len()));

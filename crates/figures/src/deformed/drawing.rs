@@ -1,10 +1,9 @@
 //! The drawing of a mechanism in its box of axes.
 
 use crate::canvas::{Canvas, Stroke};
-use crate::error::FigureError;
 use crate::geometry::{PagePoint, Point, View, hull, mean};
+use crate::svg::Color;
 use crate::{page, style};
-use plotters::style::RGBAColor;
 
 /// What is drawn of a joint axis, over the mechanism's size.
 pub(super) const AXIS_LENGTH: f64 = 0.07;
@@ -31,7 +30,7 @@ pub(super) struct Part<'a> {
 
 /// How a rigid body is drawn.
 struct BodyStyle {
-    fill: RGBAColor,
+    fill: Color,
     outline: Stroke,
     spoke: Stroke,
 }
@@ -49,23 +48,23 @@ impl Drawing<'_> {
     }
 
     /// Draws all, from what is to be in the background on.
-    pub(super) fn draw(&self, canvas: &Canvas<'_>, view: &View) -> Result<(), FigureError> {
+    pub(super) fn draw(&self, canvas: &mut Canvas, view: &View) {
         let undeformed = BodyStyle {
             fill: style::UNDEFORMED_FILL,
             outline: style::UNDEFORMED,
             spoke: style::UNDEFORMED_SPOKE,
         };
         for body in &self.rigid {
-            draw_body(canvas, view, body.undeformed, &undeformed)?;
+            draw_body(canvas, view, body.undeformed, &undeformed);
         }
         for curve in &self.curves {
-            canvas.line(&projected(view, curve.undeformed), style::UNDEFORMED)?;
+            canvas.line(&projected(view, curve.undeformed), style::UNDEFORMED);
         }
         for point in self.ground {
-            page::ground_mark(canvas, view.project(*point))?;
+            page::ground_mark(canvas, view.project(*point));
         }
         for axis in &self.axes {
-            canvas.line(&projected(view, axis), style::JOINT_AXIS)?;
+            canvas.line(&projected(view, axis), style::JOINT_AXIS);
         }
         let deformed = BodyStyle {
             fill: style::BODY_FILL,
@@ -73,36 +72,31 @@ impl Drawing<'_> {
             spoke: style::BODY_SPOKE,
         };
         for body in &self.rigid {
-            draw_body(canvas, view, &body.deformed, &deformed)?;
+            draw_body(canvas, view, &body.deformed, &deformed);
         }
         for curve in &self.curves {
-            canvas.line(&projected(view, &curve.deformed), style::DEFORMED)?;
+            canvas.line(&projected(view, &curve.deformed), style::DEFORMED);
         }
-        self.draw_second(canvas, view)
+        self.draw_second(canvas, view);
     }
 
     /// Draws the points of the second method, but only one of those in the same place.
-    fn draw_second(&self, canvas: &Canvas<'_>, view: &View) -> Result<(), FigureError> {
+    fn draw_second(&self, canvas: &mut Canvas, view: &View) {
         let mut marks = projected(view, &self.second);
         marks.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         marks.dedup_by(|a, b| (a[0] - b[0]).hypot(a[1] - b[1]) < SAME_PLACE);
-        marks
-            .into_iter()
-            .try_for_each(|at| page::second_mark(canvas, at))
+        for at in marks {
+            page::second_mark(canvas, at);
+        }
     }
 }
 
-fn draw_body(
-    canvas: &Canvas<'_>,
-    view: &View,
-    points: &[Point],
-    style: &BodyStyle,
-) -> Result<(), FigureError> {
+fn draw_body(canvas: &mut Canvas, view: &View, points: &[Point], style: &BodyStyle) {
     let center = view.project(mean(points));
     let points = projected(view, points);
     let outline = hull(&points);
     if outline.len() > 2 {
-        page::outlined(canvas, &outline, style.fill, style.outline)?;
+        page::outlined(canvas, &outline, style.fill, style.outline);
     }
     // Without an outline to hold them together, the spokes are the body.
     let spoke = if outline.len() > 2 {
@@ -110,9 +104,9 @@ fn draw_body(
     } else {
         style.outline
     };
-    points
-        .iter()
-        .try_for_each(|point| canvas.line(&[center, *point], spoke))
+    for point in points {
+        canvas.line(&[center, point], spoke);
+    }
 }
 
 fn projected(view: &View, points: &[Point]) -> Vec<PagePoint> {

@@ -1,7 +1,6 @@
 //! Colours of values, linear or logarithmic, and the bar that tells them.
 
 use colorous::VIRIDIS;
-use plotters::style::RGBAColor;
 
 use super::{ColorScale, MapFigure};
 use crate::canvas::{Canvas, Stroke, WIDTH, text_width};
@@ -10,6 +9,7 @@ use crate::geometry::Area;
 use crate::page::{MARGIN, fitted};
 use crate::plane_axes::{TICK_LENGTH, Ticks};
 use crate::quantity::Scaled;
+use crate::svg::Color;
 use crate::{numbers, style};
 
 /// Number of shades from one end of the colours to the other.
@@ -113,7 +113,7 @@ impl Colors {
 
     /// The tones from which each shade is used, ascending, with its colour; the first is below
     /// all values.
-    pub(super) fn shades(&self) -> impl Iterator<Item = (f64, RGBAColor)> {
+    pub(super) fn shades(&self) -> impl Iterator<Item = (f64, Color)> {
         let [least, most] = self.tones;
         (0..SHADES).map(move |k| {
             let part = k as f64 / SHADES as f64;
@@ -127,7 +127,7 @@ impl Colors {
     }
 
     /// The colour of a value.
-    pub(super) fn of(&self, value: f64) -> RGBAColor {
+    pub(super) fn of(&self, value: f64) -> Color {
         color(self.part(self.tone(value)))
     }
 
@@ -154,12 +154,7 @@ impl Colors {
 
     /// Draws the bar, with the name and the unit of the quantity above it over so much room to its
     /// left. It has a tip where values are beyond its end.
-    pub(super) fn draw_bar(
-        &self,
-        canvas: &Canvas<'_>,
-        bar: Area,
-        name_room: f64,
-    ) -> Result<(), FigureError> {
+    pub(super) fn draw_bar(&self, canvas: &mut Canvas, bar: Area, name_room: f64) {
         let Area {
             left,
             top,
@@ -185,10 +180,10 @@ impl Colors {
         }
         for (tone, label, stroke) in self.contours() {
             let y = height(self.part(tone));
-            canvas.line(&[[left, y], [right, y]], stroke)?;
+            canvas.line(&[[left, y], [right, y]], stroke);
             let beside = [right + TICK_LENGTH, y];
-            canvas.line(&[[right, y], beside], style::AXIS)?;
-            canvas.text(&label, [beside[0] + 5.0, y], style::TICK_RIGHT)?;
+            canvas.line(&[[right, y], beside], style::AXIS);
+            canvas.text(&label, [beside[0] + 5.0, y], style::TICK_RIGHT);
         }
         let frame = [
             [left, last],
@@ -199,12 +194,12 @@ impl Colors {
             [left, first],
             [left, last],
         ];
-        canvas.line(&frame, style::AXIS)?;
-        self.draw_name(canvas, [left - name_room, top - 17.0])
+        canvas.line(&frame, style::AXIS);
+        self.draw_name(canvas, [left - name_room, top - 17.0]);
     }
 
     /// Writes name and unit, from `at` to the right: in two lines where there is no room for one.
-    fn draw_name(&self, canvas: &Canvas<'_>, at: [f64; 2]) -> Result<(), FigureError> {
+    fn draw_name(&self, canvas: &mut Canvas, at: [f64; 2]) {
         let lettering = style::AXIS_NAME_LEFT;
         let room = f64::from(WIDTH) - MARGIN - at[0];
         let unit = match &*self.scaled.unit {
@@ -216,8 +211,8 @@ impl Colors {
             return fitted(canvas, whole.trim_end(), at, room, lettering);
         }
         let above = [at[0], at[1] - 1.25 * lettering.size];
-        fitted(canvas, &self.name, above, room, lettering)?;
-        canvas.text(&unit, at, lettering)
+        fitted(canvas, &self.name, above, room, lettering);
+        canvas.text(&unit, at, lettering);
     }
 }
 
@@ -249,9 +244,9 @@ fn round_factors([first, last]: [f64; 2]) -> Vec<f64> {
     }
 }
 
-fn color(part: f64) -> RGBAColor {
+fn color(part: f64) -> Color {
     let color = VIRIDIS.eval_continuous(part);
-    RGBAColor(color.r, color.g, color.b, 1.0)
+    Color::new(color.r, color.g, color.b)
 }
 
 #[cfg(test)]

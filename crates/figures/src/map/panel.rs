@@ -5,7 +5,6 @@ use super::layout::{Layout, Place};
 use super::{MapPanel, Samples};
 use crate::canvas::{Canvas, text_width};
 use crate::contours::Field;
-use crate::error::FigureError;
 use crate::geometry::PagePoint;
 use crate::page::fitted;
 use crate::paths;
@@ -27,12 +26,12 @@ const MARKS_APART: f64 = 8.0;
 
 /// Draws a panel in its place.
 pub(super) fn draw(
-    canvas: &Canvas<'_>,
+    canvas: &mut Canvas,
     panel: &MapPanel,
     place: &Place,
     layout: &Layout,
     colors: &Colors,
-) -> Result<(), FigureError> {
+) {
     let axes = &place.axes;
     let factors = layout.scaled.each_ref().map(|scaled| scaled.factor);
     match &panel.samples {
@@ -42,16 +41,16 @@ pub(super) fn draw(
                 scaled.collect::<Vec<_>>()
             });
             let (x, y) = (&x, &y);
-            draw_grid(canvas, axes, &Field { x, y, values }, colors)?;
+            draw_grid(canvas, axes, &Field { x, y, values }, colors);
         }
         Samples::Points { at, values } => {
-            axes.draw_grid(canvas)?;
+            axes.draw_grid(canvas);
             let radius = (120.0 / (at.len() as f64).sqrt()).clamp(2.5, 7.0);
             for ([x, y], value) in at.iter().zip(values) {
                 let at = axes.at([x * factors[0], y * factors[1]]);
                 match value {
-                    Some(value) => canvas.disc(at, radius, colors.of(*value))?,
-                    None => cross(canvas, at)?,
+                    Some(value) => canvas.disc(at, radius, colors.of(*value)),
+                    None => cross(canvas, at),
                 }
             }
         }
@@ -60,22 +59,17 @@ pub(super) fn draw(
         let label = &*layout.scaled[axis].label;
         place.labels[axis].then_some(label)
     });
-    axes.draw(canvas, names)?;
+    axes.draw(canvas, names);
     if panel.name.is_empty() {
-        return Ok(());
+        return;
     }
     let area = axes.area;
     let middle = [0.5 * (area.left + area.right), area.top - 14.0];
     let room = area.right - area.left - 90.0;
-    fitted(canvas, &panel.name, middle, room, style::PANEL)
+    fitted(canvas, &panel.name, middle, room, style::PANEL);
 }
 
-fn draw_grid(
-    canvas: &Canvas<'_>,
-    axes: &PlaneAxes,
-    field: &Field<'_>,
-    colors: &Colors,
-) -> Result<(), FigureError> {
+fn draw_grid(canvas: &mut Canvas, axes: &PlaneAxes, field: &Field<'_>, colors: &Colors) {
     let on_page = |line: Vec<PagePoint>| -> Vec<PagePoint> {
         line.into_iter().map(|point| axes.at(point)).collect()
     };
@@ -108,7 +102,7 @@ fn draw_grid(
     for (tone, label, stroke) in colors.contours() {
         let lines: Vec<_> = fine.lines(tone).into_iter().map(on_page).collect();
         for line in &lines {
-            canvas.line(line, stroke)?;
+            canvas.line(line, stroke);
         }
         let longest = lines
             .iter()
@@ -120,19 +114,14 @@ fn draw_grid(
     for (at, label) in &labels {
         let [x, y] = half_size(label);
         let halo = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[dx, dy]| [at[0] + dx, at[1] + dy]);
-        canvas.polygon(&halo, style::CONTOUR_HALO)?;
-        canvas.text(label, *at, style::CONTOUR_LABEL)?;
+        canvas.polygon(&halo, style::CONTOUR_HALO);
+        canvas.text(label, *at, style::CONTOUR_LABEL);
     }
-    draw_lone(canvas, axes, field, colors)
+    draw_lone(canvas, axes, field, colors);
 }
 
 /// Draws the points without a value, and those with one that are at no cell.
-fn draw_lone(
-    canvas: &Canvas<'_>,
-    axes: &PlaneAxes,
-    field: &Field<'_>,
-    colors: &Colors,
-) -> Result<(), FigureError> {
+fn draw_lone(canvas: &mut Canvas, axes: &PlaneAxes, field: &Field<'_>, colors: &Colors) {
     let (columns, rows) = (field.x.len(), field.y.len());
     let stride = |ticks: &[f64], pixels: f64| {
         let apart = pixels / (ticks.len() - 1) as f64;
@@ -154,23 +143,21 @@ fn draw_lone(
         for i in 0..columns {
             let at = axes.at([field.x[i], field.y[j]]);
             match field.values[i + j * columns] {
-                None if i % strides[0] == 0 && j % strides[1] == 0 => cross(canvas, at)?,
-                Some(value) if !in_cell(i, j) => canvas.disc(at, 3.5, colors.of(value))?,
+                None if i % strides[0] == 0 && j % strides[1] == 0 => cross(canvas, at),
+                Some(value) if !in_cell(i, j) => canvas.disc(at, 3.5, colors.of(value)),
                 _ => {}
             }
         }
     }
-    Ok(())
 }
 
 /// The mark of a point without a value.
-fn cross(canvas: &Canvas<'_>, [x, y]: PagePoint) -> Result<(), FigureError> {
+fn cross(canvas: &mut Canvas, [x, y]: PagePoint) {
     const HALF: f64 = 2.6;
     for side in [-HALF, HALF] {
         let line = [[x - HALF, y - side], [x + HALF, y + side]];
-        canvas.line(&line, style::MISSING)?;
+        canvas.line(&line, style::MISSING);
     }
-    Ok(())
 }
 
 /// A place on a contour for its label that is inside the panel and clear of other labels.

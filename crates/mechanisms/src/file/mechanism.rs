@@ -2,7 +2,9 @@
 
 use std::collections::HashSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use hyperstat_closure::{LoopClosure, Reached, Target};
 use hyperstat_model::{BodyId, JointId, Model};
 use nalgebra::Point3;
 
@@ -10,13 +12,18 @@ use super::home::Home;
 use super::loads::Acting;
 use super::registry::Registry;
 use super::through::{Tables, check_name};
-use super::value_names::{Given, Replaced};
+use super::value_names::Given;
 use crate::error::{LoadError, Location};
 use crate::file::{bodies, joints, loads, materials, nodes, value_names};
+use crate::prebuilt::PoseError;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
-use crate::text::source::Place;
+use crate::text::paths;
+use crate::text::replace::{Replacement, refused, tree_with};
+use crate::text::source::{Place, Source};
 use crate::text::table::Table;
+use crate::text::tree::{Node, Steps};
+use crate::text::value::Value;
 
 /// A mechanism read from a file: its model, and the place of every part of it.
 #[derive(Debug, Clone)]
@@ -27,18 +34,21 @@ pub struct Mechanism {
     joints: Vec<Place>,
     loads: Vec<Place>,
     output: Place,
-    /// The file's text.
-    root: Place,
+    /// The file's value.
+    root: Arc<Node>,
     /// What the segments are given by.
     given: Vec<Given>,
-    /// Whether the masses are the file's own.
-    own_masses: bool,
+    /// What a job says of what acts, and with it whether the masses are the file's own.
+    acting: Option<Acting>,
+    registry: Registry,
     unused_points: Vec<String>,
 }
 
 impl Mechanism {
     /// Reads the value of a mechanism file.
-    pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
+    pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
+        let root = Arc::new(root);
+        let fragment = Fragment::of_node(&root);
         let known = [
             "name",
             "materials",
@@ -92,9 +102,10 @@ impl Mechanism {
             joints,
             loads,
             output: output.place(),
-            root: fragment.place(),
+            root: Arc::clone(&root),
             given,
-            own_masses: true,
+            acting: None,
+            registry: registry.clone(),
             unused_points,
         })
     }
@@ -105,7 +116,7 @@ impl Mechanism {
         if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
             self.loads = loads;
         }
-        self.own_masses = !acting.has_masses();
+        self.acting = Some(acting.clone());
         Ok(())
     }
 
@@ -121,10 +132,90 @@ impl Mechanism {
         self.name_others(&[], model);
     }
 
-    /// The same where something stands in for parts of the text.
-    pub(crate) fn name_others(&self, replaced: &Replaced, model: &mut Model) {
-        let root = Fragment::at(&self.root);
-        value_names::of_file(root, replaced, &self.given, self.own_masses, model);
+    /// The same where some values are varied.
+    pub(crate) fn name_others(&self, varied: &[Steps], model: &mut Model) {
+        let masses = !self.acting.as_ref().is_some_and(Acting::has_masses);
+        value_names::of_file(&self.root, varied, &self.given, masses, model);
+    }
+
+    /// The same mechanism with other values in some places, named by their paths as `vary` names them,
+    /// such as `sections.rod.diameter`, in the file's units. Its text is not read again.
+    ///
+    /// ```
+    /// # use hyperstat_mechanisms::{Disk, LoadError, Registry, load_mechanism};
+    /// # let path = "../../examples/portal.ron".as_ref();
+    /// let portal = load_mechanism(path, &Disk, &Registry::builtin())?;
+    /// let thicker = portal.with_values(&[("sections.rod.diameter", 0.02)])?;
+    /// # assert!(thicker.model.segments()[0].section.area() > portal.model.segments()[0].section.area());
+    /// let error = portal.with_values(&[("sections.rod.diameter", -0.02)]).unwrap_err();
+    /// assert_eq!(error.location().unwrap().to_string(), "sections.rod.diameter");
+    /// # Ok::<(), LoadError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A path that leads nowhere, two of which one is a part of the other, and what is wrong with the
+    /// mechanism that the values make, at the value that is to blame; its place is named by its path.
+    pub fn with_values<P: AsRef<str>, V: Clone + Into<Value>>(
+        &self,
+        values: &[(P, V)],
+    ) -> Result<Self, LoadError> {
+        let mut found: Vec<(&str, Steps, Node)> = Vec::with_capacity(values.len());
+        for (path, value) in values {
+            let path = path.as_ref();
+            let name = Source::argument(path, format!("{path:?}"), None);
+            let key = Place::whole(&name);
+            let steps = paths::find(&self.root, Fragment::at(&key))?;
+            let overlaps = |other: &&(&str, Steps, Node)| paths::overlap(&other.1, &steps);
+            if let Some((other, ..)) = found.iter().find(overlaps) {
+                return Err(paths::overlapping(other, Fragment::at(&key)));
+            }
+            let old = self.root.find(&steps);
+            let value = value.clone().into().written(old);
+            let value = Source::argument(path, value, Some(self.root.source()));
+            found.push((path, steps, Node::of(Fragment::of_file(&value)?)));
+        }
+        let replacements: Vec<Replacement<'_>> = (found.iter())
+            .map(|(path, steps, value)| Replacement {
+                path,
+                steps,
+                value: value.clone(),
+            })
+            .collect();
+        let read = |tree: &Node| {
+            let mut mechanism = Self::read(tree.clone(), &self.registry)?;
+            if let Some(acting) = &self.acting {
+                mechanism.replace(acting)?;
+            }
+            Ok(mechanism)
+        };
+        read(&tree_with(&self.root, &replacements, |_| true)).map_err(|error| {
+            let all = Source::argument("values", String::new(), None);
+            refused(
+                error,
+                "",
+                &self.root,
+                &replacements,
+                &Place::whole(&all),
+                |location| found.iter().any(|(path, ..)| *location.path == **path),
+                |tree| read(tree).is_ok(),
+                |value| Value::of(value).to_string(),
+            )
+        })
+    }
+
+    /// Puts the mechanism at a target of its output or its drives, by loop closure that begins in the
+    /// file's configuration. Whoever asks for many targets makes one [`LoopClosure`] of the model.
+    ///
+    /// # Errors
+    /// A target that is out of reach, singular or reached in another assembly mode only; a mechanism that
+    /// cannot be moved.
+    pub fn place_at(&self, target: &Target<'_>) -> Result<Reached, PoseError> {
+        Ok(LoopClosure::new(&self.model)?.place_at(target)?)
+    }
+
+    /// The file's value.
+    pub(crate) fn root(&self) -> &Node {
+        &self.root
     }
 
     /// The points of the file that no body runs through, in its order.

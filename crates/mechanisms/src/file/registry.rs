@@ -1,4 +1,4 @@
-//! The joint kinds that a file may name.
+//! The kinds of joints and of prebuilt mechanisms that a file may name.
 
 use std::fmt;
 use std::sync::Arc;
@@ -8,19 +8,30 @@ use nalgebra::{Rotation3, Vector3};
 use serde::de::DeserializeOwned;
 
 use crate::error::LoadError;
-use crate::file::kinds;
+use crate::prebuilt::Prebuilt;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
 
-/// The joint kinds that a file may name, each with its reader.
-#[derive(Clone)]
+/// The kinds of joints and of prebuilt mechanisms that a file may name, each with its reader.
+#[derive(Clone, Default)]
 pub struct Registry {
     kinds: Vec<Kind>,
+    prebuilts: Vec<PrebuiltKind>,
 }
 
 type Reader = dyn Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync;
 type Writer = dyn Fn(&dyn Joint, &Rotation3<f64>) -> Vec<(&'static str, Argument)> + Send + Sync;
+
+type Builder = dyn Fn(&Arguments<'_>) -> Result<Box<dyn Prebuilt>, LoadError> + Send + Sync;
+
+/// A kind of prebuilt mechanism.
+#[derive(Clone)]
+pub(crate) struct PrebuiltKind {
+    name: String,
+    parameters: &'static [&'static str],
+    reader: Arc<Builder>,
+}
 
 #[derive(Clone)]
 struct Kind {
@@ -31,12 +42,9 @@ struct Kind {
 }
 
 impl Registry {
-    /// The built-in joint kinds: `Fixed`, `Revolute`, `Prismatic`, `Cylindrical`, `Screw`,
-    /// `Universal`, `Spherical` and `Planar`.
-    pub fn builtin() -> Self {
-        let mut registry = Self { kinds: Vec::new() };
-        kinds::register(&mut registry);
-        registry
+    /// No kinds at all.
+    pub fn empty() -> Self {
+        Self::default()
     }
 
     /// Adds a joint kind, or replaces the one of this name. A file may give the named
@@ -74,6 +82,33 @@ impl Registry {
         }
     }
 
+    /// Adds a kind of prebuilt mechanism, or replaces the one of this name: a job then names it as
+    /// `name(parameter: …)`. A file may give the named `parameters` and no others; `reader` makes the
+    /// mechanism from those it gives.
+    pub fn register_prebuilt(
+        &mut self,
+        name: &str,
+        parameters: &'static [&'static str],
+        reader: impl Fn(&Arguments<'_>) -> Result<Box<dyn Prebuilt>, LoadError> + Send + Sync + 'static,
+    ) {
+        self.prebuilts.retain(|kind| kind.name != name);
+        self.prebuilts.push(PrebuiltKind {
+            name: name.into(),
+            parameters,
+            reader: Arc::new(reader),
+        });
+    }
+
+    /// Names of all kinds of prebuilt mechanisms.
+    pub fn prebuilts(&self) -> impl Iterator<Item = &str> {
+        self.prebuilts.iter().map(|kind| kind.name.as_str())
+    }
+
+    /// The kind of prebuilt mechanism of this name.
+    pub(crate) fn prebuilt(&self, name: &str) -> Option<&PrebuiltKind> {
+        self.prebuilts.iter().find(|kind| kind.name == name)
+    }
+
     /// The arguments of a joint as a file gives them; `None` where its kind has no writer.
     pub(crate) fn arguments(
         &self,
@@ -84,7 +119,7 @@ impl Registry {
         kind.writer.as_ref().map(|writer| writer(joint, frame))
     }
 
-    /// Names of all kinds.
+    /// Names of all kinds of joints.
     pub fn kinds(&self) -> impl Iterator<Item = &str> {
         self.kinds.iter().map(|kind| kind.name.as_str())
     }
@@ -121,20 +156,46 @@ fn check_x_axis(given: Fragment<'_>, kind: &Kind) -> Result<(), LoadError> {
     }
 }
 
-impl fmt::Debug for Registry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.kinds()).finish()
+impl PrebuiltKind {
+    /// Reads a mechanism of this kind: `Kind`, `Kind()` or `Kind(parameter: …)`.
+    pub(crate) fn read(&self, whole: Fragment<'_>) -> Result<Box<dyn Prebuilt>, LoadError> {
+        let (_, arguments) = whole.variant("a prebuilt mechanism")?;
+        let owner = format!("`{}`", self.name);
+        let fields = match arguments {
+            Some(given) => Fields::read(given, owner, self.parameters)?.within(whole),
+            None => Fields::none(whole, owner),
+        };
+        (self.reader)(&Arguments { fields })
     }
 }
 
-/// The arguments of a joint kind as a file gives them, such as
+impl fmt::Debug for PrebuiltKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+impl fmt::Debug for Registry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list()
+            .entries(self.kinds())
+            .entries(self.prebuilts())
+            .finish()
+    }
+}
+
+/// The arguments of a kind of joint or prebuilt mechanism as a file gives them, such as
 /// `(axis: (0.0, 0.0, 1.0), pitch: 0.005)`. Every error points at the value it is about.
 #[derive(Debug)]
 pub struct Arguments<'a> {
     fields: Fields<'a>,
 }
 
-impl Arguments<'_> {
+impl<'a> Arguments<'a> {
+    pub(crate) fn fields(&self) -> &Fields<'a> {
+        &self.fields
+    }
+
     /// Whether an argument is given.
     pub fn has(&self, name: &str) -> bool {
         self.fields.get(name).is_some()

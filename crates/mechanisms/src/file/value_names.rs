@@ -1,22 +1,15 @@
 //! Which values of a model stand where in its text, as `vary` takes them.
 //!
-//! Of a mechanism file it is known from reading it; of a prebuilt mechanism it is found by changing
-//! one number of the text at a time.
+//! Of a mechanism file it is known from reading it; a prebuilt mechanism says it of itself
+//! ([`Prebuilt::origins`](crate::prebuilt::Prebuilt::origins)).
 
 use std::collections::{HashMap, HashSet};
-use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_joints::Dof;
 use hyperstat_model::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 
-use crate::text::fragment::Fragment;
-use crate::text::paths;
-use crate::text::source::Place;
-
-/// Part by which a number is made larger: any that does not vanish does, since values are looked
-/// for that are the number itself, before and after.
-pub(crate) const PART: f64 = 1.0 / 1024.0;
+use crate::text::tree::{Node, Number, Steps};
 
 /// What a segment of a mechanism file is given by: names of the tables' entries.
 #[derive(Debug, Clone)]
@@ -25,20 +18,17 @@ pub(crate) struct Given {
     pub(crate) material: Arc<str>,
 }
 
-/// Parts of a text, with what stands in for them.
-pub(crate) type Replaced = [(Range<usize>, Place)];
-
-/// Names values of a file's model by their paths in `root`, its text. `given` says what its
+/// Names values of a file's model by their paths in `root`, in which some values are `varied`. `given` says what its
 /// segments are given by, `masses` whether its masses are the file's. Stiffnesses that several
 /// joints have alike are left without names: they are one parameter.
 pub(crate) fn of_file(
-    root: Fragment<'_>,
-    replaced: &Replaced,
+    root: &Node,
+    varied: &[Steps],
     given: &[Given],
     masses: bool,
     model: &mut Model,
 ) {
-    let numbers = numbers(root, replaced);
+    let numbers = numbers(root, varied);
     let paths: HashSet<String> = numbers.into_iter().map(|number| number.path).collect();
     let alike = |model: &Model, joint: JointId| {
         let joint = &model.joints()[joint.0];
@@ -97,34 +87,15 @@ fn letter(direction: Dof) -> &'static str {
     ["x", "y", "z", "u", "v", "w"][direction.index()]
 }
 
-/// A number that `vary` takes.
-pub(crate) struct Number<'a> {
-    pub(crate) path: String,
-    /// As it is written in the text.
-    pub(crate) written: Fragment<'a>,
-    /// Its value, or that of what stands in for it.
-    pub(crate) value: f64,
-}
-
-/// The numbers of a text that `vary` takes, beside what it has taken already.
-pub(crate) fn numbers<'a>(root: Fragment<'a>, replaced: &Replaced) -> Vec<Number<'a>> {
-    let number = |(path, written): (String, Fragment<'a>)| {
-        let span = written.span();
-        let instead = replaced.iter().find(|(at, _)| *at == span);
-        let overlaps = |at: &Range<usize>| at.start < span.end && span.start < at.end;
-        if instead.is_none() && replaced.iter().any(|(at, _)| overlaps(at)) {
-            return None; // a part of something that varies as a whole
-        }
-        let value = instead.map_or(written, |(_, place)| Fragment::at(place));
-        let value = value.number().ok()?;
-        Some(Number {
-            path,
-            written,
-            value,
-        })
+/// The numbers of a tree that `vary` takes, beside what is `varied` already: of that the numbers, but
+/// nothing inside of what varies as a whole.
+pub(crate) fn numbers(root: &Node, varied: &[Steps]) -> Vec<Number> {
+    let inside = |number: &Number| {
+        let longer = |steps: &&Steps| number.steps.len() > steps.len();
+        let mut around = varied.iter().filter(longer);
+        around.any(|steps| number.steps.starts_with(steps))
     };
-    paths::numbers(root)
-        .into_iter()
-        .filter_map(number)
-        .collect()
+    let mut numbers = root.numbers();
+    numbers.retain(|number| !inside(number));
+    numbers
 }

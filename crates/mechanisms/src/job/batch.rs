@@ -1,6 +1,5 @@
 //! A batch: jobs, each a mechanism in one or many poses.
 
-use std::cell::RefCell;
 use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,8 +11,7 @@ use super::design::{Design, Designs};
 use super::figures::{Figure, Known};
 use super::poses::Poses;
 use super::subject::{Recipe, Subject};
-use super::value::{Value, Varied};
-use super::vary::Variation;
+use super::vary::{Variation, Varied};
 use crate::error::{LoadError, Location};
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
@@ -21,8 +19,8 @@ use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
-use crate::text::overlay::Overlay;
 use crate::text::source::Place;
+use crate::text::value::Value;
 
 /// The jobs of a batch file, in its order, all of them checked.
 #[derive(Debug)]
@@ -44,9 +42,11 @@ pub struct Job {
     /// Natural frequencies to find at every pose.
     pub modes: Option<ModalOptions>,
     /// Where each figure stands.
-    figure_places: Vec<Place>,
-    recipe: Recipe,
-    poses: Arc<Poses>,
+    pub(super) figure_places: Vec<Place>,
+    /// What is written of it, by field.
+    pub(super) written: Vec<(&'static str, Place)>,
+    pub(super) recipe: Recipe,
+    pub(super) poses: Arc<Poses>,
     /// Where `vary` is given.
     designs: Option<Designs>,
     /// Names of the cases.
@@ -54,7 +54,7 @@ pub struct Job {
     /// The first design that can be, and its number.
     first: Arc<Subject>,
     first_design: usize,
-    place: Place,
+    pub(super) place: Place,
 }
 
 impl Batch {
@@ -65,28 +65,14 @@ impl Batch {
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
         for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
-            let known = [
-                "name",
-                "mechanism",
-                "poses",
-                "loads",
-                "cases",
-                "gravity",
-                "masses",
-                "misfits",
-                "preloads",
-                "figures",
-                "vary",
-                "zip",
-                "modes",
-            ];
-            let fields = Fields::read(fragment, "a job", &known)?;
+            let fields = Fields::read(fragment, "a job", &FIELDS)?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
                 return Err(same_name(at, &name, first, &other));
             }
-            jobs.push(Job::read(name, &fields, at.place(), registry)?);
+            let recipe = Recipe::find(&fields, registry)?;
+            jobs.push(Job::read(name, &fields, at.place(), recipe, None)?);
         }
         if jobs.is_empty() {
             return Err(list
@@ -103,6 +89,23 @@ impl Batch {
     }
 }
 
+/// The fields of a job.
+pub(super) const FIELDS: [&str; 13] = [
+    "name",
+    "mechanism",
+    "poses",
+    "loads",
+    "cases",
+    "gravity",
+    "masses",
+    "misfits",
+    "preloads",
+    "figures",
+    "vary",
+    "zip",
+    "modes",
+];
+
 /// The error of the name `at`, which makes the same files as the one `first`.
 fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
     if name == other {
@@ -117,7 +120,7 @@ fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> 
 }
 
 /// Reads a name that can be the stem of a file's name.
-fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
+pub(super) fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
     let name = fragment.string()?;
     let allowed = |c: char| c.is_ascii_alphanumeric() || "_-.".contains(c);
     if name.is_empty() || name.starts_with('.') || !name.chars().all(allowed) {
@@ -132,20 +135,19 @@ fn job_name(fragment: Fragment<'_>) -> Result<String, LoadError> {
 }
 
 impl Job {
-    fn read(
+    /// Reads the fields of a job of this mechanism; its `poses` too, unless they are known.
+    pub(super) fn read(
         name: String,
         fields: &Fields<'_>,
         place: Place,
-        registry: &Registry,
+        recipe: Recipe,
+        poses: Option<Arc<Poses>>,
     ) -> Result<Self, LoadError> {
-        let recipe = Recipe::find(fields, registry)?;
-        let known = RefCell::default();
-        let learning = Overlay::learning(&known);
-        let written = match fields.get("vary") {
-            Some(_) => recipe.read(recipe.root().under(&learning))?,
-            None => recipe.read(recipe.root())?,
+        let written = recipe.read(recipe.root())?;
+        let poses = match poses {
+            Some(poses) => poses,
+            None => Arc::new(written.poses(fields)?),
         };
-        let poses = written.poses(fields)?;
         let mut first = recipe.load(written, &poses, None)?;
         let cases = recipe.cases(&first)?;
         let figures = match fields.get("figures") {
@@ -163,7 +165,7 @@ impl Job {
         let mut first_design = 0;
         let designs = match Variation::read(fields, recipe.root(), poses.len())? {
             Some(variation) => {
-                let designs = Designs::new(variation, known.into_inner());
+                let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
                 Some(designs)
             }
@@ -174,8 +176,9 @@ impl Job {
             figures,
             figure_places,
             modes,
+            written: fields.places(&FIELDS),
             recipe,
-            poses: Arc::new(poses),
+            poses,
             designs,
             cases,
             first: Arc::new(first),
@@ -264,13 +267,13 @@ impl Job {
     /// them ([`Model::name_value`]): of a file as [`Mechanism::name_values`], of a prebuilt one those
     /// that stand in the model as they are written.
     pub fn name_values(&self, design: &Design, model: &mut Model) {
-        let replaced = match &self.designs {
-            Some(designs) => designs.replaced(design.number),
-            None => Vec::new(),
+        let (varied, tree) = match &self.designs {
+            Some(designs) => (designs.steps(), &designs.tree(design.number, &self.recipe)),
+            None => (Vec::new(), self.recipe.root()),
         };
         match design.mechanism() {
-            Some(mechanism) => mechanism.name_others(&replaced, model),
-            None => value_names::of_prebuilt(&self.recipe, &replaced, &design.subject, model),
+            Some(mechanism) => mechanism.name_others(&varied, model),
+            None => value_names::of_prebuilt(tree, &varied, &design.subject, model),
         }
     }
 

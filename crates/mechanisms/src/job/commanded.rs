@@ -56,12 +56,12 @@ impl Poses {
 mod tests {
     use std::path::Path;
 
-    use crate::{Registry, batch_from_str};
+    use crate::{Disk, Registry, batch_from_str};
 
     fn commanded(mechanism: &str, poses: &str) -> Vec<(String, usize)> {
         let batch = format!(r#"(jobs: [(name: "a", mechanism: {mechanism}, poses: {poses})])"#);
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/a.ron");
-        let batch = batch_from_str(&batch, &path, &Registry::builtin()).unwrap();
+        let batch = batch_from_str(&batch, &path, &Disk, &Registry::builtin()).unwrap();
         let all = batch.jobs[0].commanded().into_iter();
         all.map(|c| (c.name, c.values.len())).collect()
     }

@@ -1,20 +1,18 @@
 //! One design of a job: its mechanism with one choice of the varied values.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_model::{Geometry, Model};
 
 use super::poses::Poses;
 use super::subject::{Checked, Recipe, Subject};
-use super::value::{Value, Varied};
-use super::vary::Variation;
+use super::vary::{Variation, Varied};
 use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::prebuilt::PoseError;
-use crate::text::fragment::Fragment;
-use crate::text::overlay::{Known, Overlay};
-use crate::text::source::Place;
+use crate::text::replace::{refused, tree_with};
+use crate::text::tree::{Node, Steps};
+use crate::text::value::Value;
 
 /// One design of a job, in all of the job's poses; made by [`Job::design`](crate::Job::design).
 #[derive(Debug, Clone)]
@@ -75,8 +73,6 @@ impl Design {
 pub(crate) struct Designs {
     variation: Variation,
     varied: Vec<Varied>,
-    /// The mechanism's text, taken apart.
-    known: Known,
 }
 
 /// Designs that are tried before a job runs: all, if they are no more, else the first and so many
@@ -84,12 +80,10 @@ pub(crate) struct Designs {
 const TRIED: usize = 10_000;
 
 impl Designs {
-    /// `known` is what was learnt from reading the mechanism as it is written.
-    pub(crate) fn new(variation: Variation, known: Known) -> Self {
+    pub(crate) fn new(variation: Variation) -> Self {
         Self {
             varied: variation.varied(),
             variation,
-            known,
         }
     }
 
@@ -132,13 +126,17 @@ impl Designs {
     /// The varied values of a design.
     pub(crate) fn values(&self, number: usize) -> Vec<Value> {
         let places = self.variation.design(number);
-        places.iter().map(Value::at).collect()
+        places.iter().map(|own| Value::of(&own.value)).collect()
     }
 
-    /// What stands in for which bytes of the mechanism's text in a design.
-    pub(crate) fn replaced(&self, number: usize) -> Vec<(Range<usize>, Place)> {
-        let values = self.variation.design(number);
-        self.variation.spans().zip(values).collect()
+    /// The ways to what varies, in the mechanism's tree.
+    pub(crate) fn steps(&self) -> Vec<Steps> {
+        self.variation.steps().cloned().collect()
+    }
+
+    /// The mechanism's tree in a design.
+    pub(crate) fn tree(&self, number: usize, recipe: &Recipe) -> Node {
+        tree_with(recipe.root(), &self.variation.design(number), |_| true)
     }
 
     /// Makes a design of a job with these poses; `similar` is another one.
@@ -155,66 +153,21 @@ impl Designs {
     }
 
     fn read(&self, number: usize, recipe: &Recipe) -> Result<Checked, LoadError> {
-        let values = self.variation.design(number);
-        let checked = self.read_with(&values, |_| true, recipe);
+        let checked = recipe.read(&self.tree(number, recipe));
         checked.map_err(|error| self.refused(number, recipe, error))
     }
 
-    /// Reads the mechanism with those of the varied values, by their number, that are `taken`.
-    fn read_with(
-        &self,
-        values: &[Place],
-        taken: impl Fn(usize) -> bool,
-        recipe: &Recipe,
-    ) -> Result<Checked, LoadError> {
-        let spans = self.variation.spans().zip(values).enumerate();
-        let spans = spans.filter(|(k, _)| taken(*k));
-        let replaced = spans.map(|(_, (span, value))| (span, Fragment::at(value)));
-        let overlay = Overlay::new(replaced.collect(), &self.known);
-        recipe.read(recipe.root().under(&overlay))
-    }
-
-    /// The loader's error about a design, at the value that is to blame: the one at which it
-    /// stands; else one that is wrong among the values as they are written; else all of them.
+    /// The loader's error about a design, at the value that is to blame.
     fn refused(&self, number: usize, recipe: &Recipe, error: LoadError) -> LoadError {
-        let LoadError::At {
-            location,
-            message,
-            help,
-            unreadable,
-        } = error
-        else {
-            return error;
-        };
-        if self.variation.holds(&location) {
-            let message = format!("design {number}: {message}");
-            return LoadError::At {
-                location,
-                message,
-                help,
-                unreadable,
-            };
-        }
-        let values = self.variation.design(number);
-        let alone = |k: &usize| {
-            self.read_with(&values, |other| other == *k, recipe)
-                .is_err()
-        };
-        let blamed = (0..values.len()).find(alone);
-        let place = blamed.map_or(&self.variation.place, |k| &values[k]);
-        let values = values.iter().zip(&self.varied).enumerate();
-        let values = values.filter(|(k, _)| blamed.is_none_or(|blamed| blamed == *k));
-        let words =
-            values.map(|(_, (value, varied))| format!("`{}` = {}", varied.path, Value::at(value)));
-        let words: Vec<String> = words.collect();
-        LoadError::At {
-            message: format!(
-                "design {number}, {}: {message} ({location})",
-                words.join(", ")
-            ),
-            location: Box::new(place.location()),
-            help,
-            unreadable,
-        }
+        refused(
+            error,
+            &format!("design {number}"),
+            recipe.root(),
+            &self.variation.design(number),
+            &self.variation.place,
+            |location| self.variation.holds(location),
+            |tree| recipe.read(tree).is_ok(),
+            |value| Value::of(value).to_string(),
+        )
     }
 }

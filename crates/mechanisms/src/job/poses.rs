@@ -6,6 +6,7 @@ use crate::prebuilt::PoseCoordinate;
 use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
+use crate::text::source::Place;
 use crate::text::values::Values;
 use crate::text::{csv, named, names};
 
@@ -65,6 +66,29 @@ impl Poses {
         }
     }
 
+    /// A table whose columns are coordinates of the output; `whole` is the argument, `at` names a part of
+    /// it.
+    pub(crate) fn table(
+        columns: &[String],
+        rows: &[f64],
+        given: &Given<'_>,
+        whole: &Place,
+        at: impl Fn(&str) -> Place,
+    ) -> Result<Self, LoadError> {
+        let named = columns.iter().map(|name| (name.as_str(), at(name)));
+        let places = csv::pose_columns(named, whole)?;
+        let mut poses = Vec::with_capacity(rows.len() / places.len());
+        for (k, row) in rows.chunks_exact(places.len()).enumerate() {
+            let mut pose = [0.0; 6];
+            for ((&value, &place), name) in row.iter().zip(&places).zip(columns) {
+                given.check(place, value, || at(&format!("{k}.{name}")))?;
+                pose[place] = value;
+            }
+            poses.push(pose);
+        }
+        Ok(Self::List(poses))
+    }
+
     /// Reads `Csv(…)`, `List(…)` or `Grid(…)`.
     pub(crate) fn read(fragment: Fragment<'_>, given: &Given<'_>) -> Result<Self, LoadError> {
         let expected = "poses, `Csv(\"file.csv\")`, `List([…])` or `Grid(…)`";
@@ -104,7 +128,7 @@ fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>,
         let mut pose = [0.0; 6];
         for (k, number) in numbers.iter().enumerate() {
             pose[k] = number.number()?;
-            given.check(k, pose[k], &number.place())?;
+            given.check(k, pose[k], || number.place())?;
         }
         poses.push(pose);
     }
@@ -133,7 +157,7 @@ fn grid(
         };
         *axis = Values::read(field, "three values, `(first, last, count)`")?;
         for value in axis.ends() {
-            given.check(index, value, &field.place())?;
+            given.check(index, value, || field.place())?;
         }
     }
     let total = axes

@@ -1,6 +1,6 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_model::{Geometry, Model, NodeId};
+use hyperstat_model::{Geometry, Model, NodeId, ValuePlace};
 use nalgebra::{Rotation3, Vector3};
 
 use super::mover::Mover;
@@ -10,23 +10,22 @@ use crate::error::LoadError;
 use crate::file::home::Home;
 use crate::file::loads::Acting;
 use crate::file::mechanism::Mechanism;
-use crate::file::registry::Registry;
-use crate::parameters;
-use crate::parameters::Kind;
+use crate::file::registry::{PrebuiltKind, Registry};
 use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
+use crate::text::tree::Node;
 use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug)]
 pub(crate) struct Recipe {
-    /// Where the mechanism stands: the value of its file, or the prebuilt one in the job.
-    root: Place,
+    /// The mechanism: the value of its file, or the prebuilt one in the job.
+    root: Node,
     /// Kind of a prebuilt mechanism; `None` is a file.
-    kind: Option<&'static Kind>,
+    kind: Option<PrebuiltKind>,
     acting: Acting,
     registry: Registry,
 }
@@ -72,16 +71,15 @@ impl Recipe {
             let expected = "one path, `File(\"file.ron\")`";
             let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
             let [path] = arguments.array(expected)?;
-            (named::mechanism_at(path)?, None)
+            (Node::at(&named::mechanism_at(path)?), None)
         } else {
-            let Some(kind) = parameters::find(name.text()) else {
-                let known = parameters::KINDS.iter().map(|kind| kind.name);
-                let known = std::iter::once("File").chain(known);
+            let Some(kind) = registry.prebuilt(name.text()) else {
+                let known = std::iter::once("File").chain(registry.prebuilts());
                 return Err(name
                     .error(format!("unknown mechanism `{}`", name.text()))
                     .with_help(names::help(name.text(), "mechanisms", known)));
             };
-            (whole.place(), Some(kind))
+            (Node::of(whole), Some(kind.clone()))
         };
         Ok(Self {
             root,
@@ -91,9 +89,34 @@ impl Recipe {
         })
     }
 
+    /// A mechanism that a program hands in, of a `kind` if it is prebuilt, and what acts on it.
+    pub(crate) fn of(
+        root: Node,
+        kind: Option<PrebuiltKind>,
+        fields: &Fields<'_>,
+        registry: &Registry,
+    ) -> Self {
+        Self {
+            root,
+            kind,
+            acting: Acting::find(fields),
+            registry: registry.clone(),
+        }
+    }
+
+    /// The same mechanism with what these fields say of what acts.
+    pub(crate) fn with_acting(&self, fields: &Fields<'_>) -> Self {
+        Self {
+            root: self.root.clone(),
+            kind: self.kind.clone(),
+            acting: Acting::find(fields),
+            registry: self.registry.clone(),
+        }
+    }
+
     /// The mechanism as it is written.
-    pub(crate) fn root(&self) -> Fragment<'_> {
-        Fragment::at(&self.root)
+    pub(crate) fn root(&self) -> &Node {
+        &self.root
     }
 
     /// Names of the cases, which do not depend on what varies; `subject` is any design.
@@ -106,18 +129,15 @@ impl Recipe {
         Ok(self.acting.cases()?.unwrap_or_else(of_file))
     }
 
-    /// Reads and checks the mechanism: [`Recipe::root`], or what an overlay makes of it.
-    pub(crate) fn read(&self, root: Fragment<'_>) -> Result<Checked, LoadError> {
-        match self.kind {
+    /// Reads and checks the mechanism: [`Recipe::root`], or that with other values in some places.
+    pub(crate) fn read(&self, root: &Node) -> Result<Checked, LoadError> {
+        match &self.kind {
             None => {
-                let mut mechanism = Mechanism::read(root, &self.registry)?;
+                let mut mechanism = Mechanism::read(root.clone(), &self.registry)?;
                 mechanism.replace(&self.acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
-            Some(kind) => {
-                let (_, arguments) = root.variant("a prebuilt mechanism")?;
-                parameters::read(kind, root, arguments).map(Checked::Prebuilt)
-            }
+            Some(kind) => kind.read(Fragment::of_node(root)).map(Checked::Prebuilt),
         }
     }
 
@@ -180,14 +200,49 @@ impl Checked {
         };
         match (fields.get("poses"), given.coordinates.len()) {
             (None, 0) => Ok(Poses::Own),
-            (Some(poses), 0) => Err(poses
-                .error(format!("`{}` takes no poses", given.kind))
-                .with_help("leave `poses` out")),
+            (Some(poses), 0) => Err(given.takes_none(&poses.place())),
             (Some(poses), _) => Poses::read(poses, &given),
-            (None, _) => Err(fields
-                .required("mechanism")?
-                .error(format!("`{}` needs `poses`", given.kind))
-                .with_help("add `poses: List([(x, y, z)])`, `Csv(\"file.csv\")` or `Grid(…)`")),
+            (None, _) => Err(given.needs_some(&fields.required("mechanism")?.place())),
+        }
+    }
+
+    /// The poses that a program asks of it: `columns` of `rows`; `whole` is the argument, `at` names a
+    /// part of it.
+    pub(crate) fn poses_of(
+        &self,
+        columns: &[String],
+        rows: &[f64],
+        whole: &Place,
+        at: impl Fn(&str) -> Place,
+    ) -> Result<Poses, LoadError> {
+        match self {
+            Self::File(mechanism) => {
+                Targets::table(columns, rows, &mechanism.model, whole, at).map(Poses::Asked)
+            }
+            Self::Prebuilt(mechanism) => {
+                let given = Given {
+                    kind: mechanism.kind(),
+                    coordinates: mechanism.coordinates(),
+                };
+                if given.coordinates.is_empty() {
+                    return Err(given.takes_none(whole));
+                }
+                Poses::table(columns, rows, &given, whole, at)
+            }
+        }
+    }
+
+    /// The mechanism's own configuration as its only pose; `mechanism` is where it stands.
+    pub(crate) fn own_pose(&self, mechanism: &Place) -> Result<Poses, LoadError> {
+        match self {
+            Self::Prebuilt(own) if !own.coordinates().is_empty() => {
+                let given = Given {
+                    kind: own.kind(),
+                    coordinates: own.coordinates(),
+                };
+                Err(given.needs_some(mechanism))
+            }
+            _ => Ok(Poses::Own),
         }
     }
 }
@@ -204,17 +259,18 @@ impl Subject {
         }
     }
 
-    /// The model that another prebuilt mechanism of the same kind has in the pose of this one's
-    /// own; `None` where it has none there.
-    pub(crate) fn model_like(&self, other: &Checked) -> Option<Model> {
-        match (self, other) {
-            (Self::Prebuilt { template, .. }, Checked::Prebuilt(other)) => {
-                let pose = template.as_ref().ok()?.pose;
-                let (target, count) = given(other.as_ref(), &pose);
-                other.model(&target[..count]).ok()
-            }
-            _ => None,
-        }
+    /// Which parameter every value of a prebuilt mechanism's model comes from; nothing is known of one
+    /// that reaches no pose, and of a file here.
+    pub(crate) fn origins(&self) -> Vec<(ValuePlace, String)> {
+        let Self::Prebuilt {
+            mechanism,
+            template: Ok(template),
+        } = self
+        else {
+            return Vec::new();
+        };
+        let (target, count) = given(mechanism.as_ref(), &template.pose);
+        mechanism.origins(&target[..count]).unwrap_or_default()
     }
 
     /// The coordinates of pose `number` (from 0) that are known of every design before it is reached:

@@ -42,25 +42,16 @@ const EXPECTED: &str =
 impl Targets {
     /// Reads the poses of a job whose mechanism is `model`.
     pub(crate) fn read(fragment: Fragment<'_>, model: &Model) -> Result<Self, LoadError> {
-        let closure = LoopClosure::new(model).map_err(|error| {
-            fragment
-                .error(format!("the mechanism cannot be moved: {error}"))
-                .with_help("leave `poses` out: the job has the configuration in the file")
-        })?;
+        let closure = movable(model, &fragment.place())?;
         let (kind, arguments) = fragment.variant(EXPECTED)?;
         let arguments = || arguments.ok_or_else(|| fragment.expected(EXPECTED));
         match kind.text() {
             "Csv" => {
                 let [path] = arguments()?.array("one path, `Csv(\"file.csv\")`")?;
-                let (columns, rows) = csv::named(&named::read_named(path)?, coordinate)?;
-                let asked = |row: Vec<f64>| {
-                    let mut asked = [None; 6];
-                    for (column, value) in columns.iter().zip(row) {
-                        asked[*column] = Some(value);
-                    }
-                    asked
-                };
-                Ok(Self::List(rows.into_iter().map(asked).collect()))
+                let (columns, rows) = csv::named(&named::read_named(path)?, csv::coordinate)?;
+                Ok(Self::List(
+                    rows.iter().map(|row| asked(&columns, row)).collect(),
+                ))
             }
             "List" => {
                 let [list] = arguments()?.array("one list, `List([(x, y, z), …])`")?;
@@ -78,14 +69,7 @@ impl Targets {
                 let table = named::read_named(path)?;
                 let drive = |name: &str, place: &Place| drive(name, place, model, &closure);
                 let (drives, rows) = csv::named(&table, drive)?;
-                let name = |(joint, direction): &(JointId, Dof)| {
-                    format!("{}.{direction}", model.joints()[joint.0].name)
-                };
-                Ok(Self::Drives {
-                    names: drives.iter().map(name).collect(),
-                    drives,
-                    rows,
-                })
+                Ok(Self::of_drives(drives, rows, model))
             }
             other => Err(kind
                 .error(format!("unknown kind of poses `{other}`"))
@@ -95,6 +79,40 @@ impl Targets {
                     ["Csv", "List", "Grid", "Drives"],
                 ))),
         }
+    }
+
+    /// Values of these drives, a row a pose.
+    fn of_drives(drives: Vec<(JointId, Dof)>, rows: Vec<Vec<f64>>, model: &Model) -> Self {
+        let name = |(joint, direction): &(JointId, Dof)| {
+            format!("{}.{direction}", model.joints()[joint.0].name)
+        };
+        Self::Drives {
+            names: drives.iter().map(name).collect(),
+            drives,
+            rows,
+        }
+    }
+
+    /// A table whose columns are coordinates of the output or drives of `model`, all of one kind; `at`
+    /// names the place of a column.
+    pub(crate) fn table(
+        columns: &[String],
+        rows: &[f64],
+        model: &Model,
+        whole: &Place,
+        at: impl Fn(&str) -> Place,
+    ) -> Result<Self, LoadError> {
+        let closure = movable(model, whole)?;
+        let rows = rows.chunks_exact(columns.len().max(1));
+        if columns.iter().any(|name| name.contains('.')) {
+            let drives = distinct(columns, &at, |name, place| {
+                drive(name, place, model, &closure)
+            })?;
+            let rows = rows.map(<[f64]>::to_vec).collect();
+            return Ok(Self::of_drives(drives, rows, model));
+        }
+        let columns = distinct(columns, &at, csv::coordinate)?;
+        Ok(Self::List(rows.map(|row| asked(&columns, row)).collect()))
     }
 
     /// Number of poses.
@@ -148,14 +166,42 @@ impl Targets {
     }
 }
 
-/// A column of a table of poses.
-fn coordinate(name: &str, place: &Place) -> Result<usize, LoadError> {
-    let found = csv::COLUMNS.iter().position(|known| *known == name);
-    found.ok_or_else(|| {
+/// The mechanism as one that can be moved; else the error of the poses at `place`.
+fn movable(model: &Model, place: &Place) -> Result<LoopClosure, LoadError> {
+    LoopClosure::new(model).map_err(|error| {
         place
-            .error(format!("unknown column `{}`", csv::shortened(name)))
-            .with_help(names::help(name, "columns", csv::COLUMNS))
+            .error(format!("the mechanism cannot be moved: {error}"))
+            .with_help("leave `poses` out: the job has the configuration in the file")
     })
+}
+
+/// What a row of a table asks of the output.
+fn asked(columns: &[usize], row: &[f64]) -> [Option<f64>; 6] {
+    let mut asked = [None; 6];
+    for (column, value) in columns.iter().zip(row) {
+        asked[*column] = Some(*value);
+    }
+    asked
+}
+
+/// What columns of these names mean, each given once.
+fn distinct<C: PartialEq>(
+    names: &[String],
+    at: impl Fn(&str) -> Place,
+    column: impl Fn(&str, &Place) -> Result<C, LoadError>,
+) -> Result<Vec<C>, LoadError> {
+    let mut columns = Vec::new();
+    for name in names {
+        let place = at(name);
+        let meant = column(name, &place)?;
+        if columns.contains(&meant) {
+            return Err(place
+                .error(format!("the column `{name}` is given twice"))
+                .with_help("leave one of them out"));
+        }
+        columns.push(meant);
+    }
+    Ok(columns)
 }
 
 /// A column of a table of drives: `joint.direction`.

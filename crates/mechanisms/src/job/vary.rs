@@ -1,14 +1,24 @@
 //! What varies in a job: paths to values of its mechanism, and the values each of them takes.
 
-use std::ops::Range;
-
-use super::value::{Value, Varied};
 use crate::error::{LoadError, Location};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
-use crate::text::source::{Place, Source};
+use crate::text::replace::Replacement;
+use crate::text::source::Place;
+use crate::text::tree::{Node, Steps};
+use crate::text::value::Value;
 use crate::text::values::Values;
 use crate::text::{names, paths};
+
+/// What varies from design to design of a job.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Varied {
+    /// Its path in the mechanism as it is written, such as `rod.section.diameter`.
+    pub path: String,
+    /// Whether all of its values are numbers.
+    pub numeric: bool,
+}
 
 /// The designs of a job: all combinations of some values, or the values side by side.
 #[derive(Debug)]
@@ -26,8 +36,8 @@ pub(crate) struct Variation {
 struct Axis {
     /// Its path in the mechanism.
     path: String,
-    /// Where it stands in the mechanism's text.
-    span: Range<usize>,
+    /// The way to it in the mechanism's tree.
+    steps: Steps,
     /// Where its values stand.
     place: Place,
     values: AxisValues,
@@ -36,8 +46,7 @@ struct Axis {
 #[derive(Debug)]
 enum AxisValues {
     Range(Values),
-    /// Where each stands.
-    List(Vec<Range<usize>>),
+    List(Vec<Node>),
 }
 
 impl Variation {
@@ -45,7 +54,7 @@ impl Variation {
     /// `poses`.
     pub(crate) fn read(
         fields: &Fields<'_>,
-        root: Fragment<'_>,
+        root: &Node,
         poses: usize,
     ) -> Result<Option<Self>, LoadError> {
         let zip = fields.get("zip");
@@ -60,7 +69,7 @@ impl Variation {
         let zip = zip.map_or(Ok(false), |zip| zip.parse("`true` or `false`"))?;
         let mut axes = Vec::<Axis>::new();
         for entry in map.map()? {
-            let span = paths::find(root, entry.key)?.span();
+            let steps = paths::find(root, entry.key)?;
             if let Some(field) = replacing(fields, &entry.name) {
                 return Err(entry
                     .key
@@ -70,20 +79,15 @@ impl Variation {
                     ))
                     .with_help(format!("leave `{field}` out of the job, or vary another value")));
             }
-            let within = |a: &Range<usize>, b: &Range<usize>| a.start >= b.start && a.end <= b.end;
-            let overlaps = |axis: &&Axis| within(&axis.span, &span) || within(&span, &axis.span);
+            let overlaps = |axis: &&Axis| paths::overlap(&axis.steps, &steps);
             if let Some(other) = axes.iter().find(overlaps) {
-                let message = format!("`{}` and `{}` overlap", other.path, entry.name);
-                return Err(entry
-                    .key
-                    .error(message)
-                    .with_help("one is a part of the other: vary the whole or its parts"));
+                return Err(paths::overlapping(&other.path, entry.key));
             }
             axes.push(Axis {
                 values: AxisValues::read(entry.value)?,
                 path: entry.name,
                 place: entry.value.place(),
-                span,
+                steps,
             });
         }
         if axes.is_empty() {
@@ -117,42 +121,45 @@ impl Variation {
 
     /// What varies, in the order of the file.
     pub(crate) fn varied(&self) -> Vec<Varied> {
-        let number = |axis: &Axis, k| matches!(Value::at(&axis.value(k)), Value::Number(_));
+        let number = |value: &Node| matches!(Value::of(value), Value::Number(_));
         let varied = |axis: &Axis| Varied {
             path: axis.path.clone(),
             numeric: match &axis.values {
                 AxisValues::Range(_) => true,
-                AxisValues::List(spans) => (0..spans.len()).all(|k| number(axis, k)),
+                AxisValues::List(values) => values.iter().all(number),
             },
         };
         self.axes.iter().map(varied).collect()
     }
 
-    /// Where the value of every path stands in the mechanism's text.
-    pub(crate) fn spans(&self) -> impl Iterator<Item = Range<usize>> {
-        self.axes.iter().map(|axis| axis.span.clone())
+    /// The way to the value of every path in the mechanism's tree.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = &Steps> {
+        self.axes.iter().map(|axis| &axis.steps)
     }
 
-    /// The values of design `k`, from 0, as texts of their own or as they stand in the file: the
-    /// first path runs fastest.
-    pub(crate) fn design(&self, k: usize) -> Vec<Place> {
+    /// The values of design `k`, from 0: the first path runs fastest.
+    pub(crate) fn design(&self, k: usize) -> Vec<Replacement<'_>> {
         let mut rest = k;
-        let value = |axis: &Axis| {
+        let mut values = Vec::with_capacity(self.axes.len());
+        for axis in &self.axes {
             let count = axis.values.len();
-            let own = rest % count;
+            values.push(Replacement {
+                path: &axis.path,
+                steps: &axis.steps,
+                value: axis.value(rest % count),
+            });
             if !self.zip {
                 rest /= count;
             }
-            axis.value(own)
-        };
-        self.axes.iter().map(value).collect()
+        }
+        values
     }
 
     /// Whether a location is inside of the map `vary`.
     pub(crate) fn holds(&self, location: &Location) -> bool {
         let Place { source, span } = &self.place;
         let offset = source.offset(location.line, location.column);
-        location.path == source.path() && span.contains(&offset)
+        location.path == self.place.location().path && span.contains(&offset)
     }
 
     /// Designs among which every value of every path is found, `most` of a path at most, or all
@@ -203,18 +210,10 @@ fn same_length(axes: &[Axis]) -> Result<usize, LoadError> {
 
 impl Axis {
     /// Value number `k`, from 0.
-    fn value(&self, k: usize) -> Place {
+    fn value(&self, k: usize) -> Node {
         match &self.values {
-            AxisValues::List(spans) => Place {
-                source: self.place.source.clone(),
-                span: spans[k].clone(),
-            },
-            AxisValues::Range(values) => {
-                let text = written(values.get(k));
-                let span = 0..text.len();
-                let source = Source::made(text, self.place.clone());
-                Place { source, span }
-            }
+            AxisValues::List(values) => values[k].clone(),
+            AxisValues::Range(values) => Node::number(values.get(k), self.place.clone()),
         }
     }
 }
@@ -244,7 +243,7 @@ impl AxisValues {
                     .error("the list of values is empty")
                     .with_help("give at least one value"));
             }
-            return Ok(Self::List(items.into_iter().map(Fragment::span).collect()));
+            return Ok(Self::List(items.into_iter().map(Node::of).collect()));
         }
         match fragment.variant(expected)? {
             (kind, Some(arguments)) if kind.text() == "Range" => {
@@ -262,18 +261,7 @@ impl AxisValues {
     fn len(&self) -> usize {
         match self {
             Self::Range(values) => values.len(),
-            Self::List(spans) => spans.len(),
+            Self::List(values) => values.len(),
         }
-    }
-}
-
-/// The shortest number that reads back to the same double; whole ones as what counts is written.
-fn written(number: f64) -> String {
-    /// Whole numbers up to here are written without a point.
-    const LARGEST: f64 = 1e15;
-    if number.fract() == 0.0 && number.abs() < LARGEST {
-        format!("{number:.0}")
-    } else {
-        format!("{number:?}")
     }
 }

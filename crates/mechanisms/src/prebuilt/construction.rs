@@ -4,7 +4,9 @@
 use std::{fmt, slice};
 
 use hyperstat_joints::{Dof, DofSet, Joint};
-use hyperstat_model::{Connection, Geometry, JointStiffness, Model, ModelError, NodeId};
+use hyperstat_model::{
+    Connection, Geometry, JointId, JointStiffness, Model, ModelError, NodeId, SegmentId, ValuePlace,
+};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::prebuilt::{Link, PoseError, check_numbering};
@@ -47,7 +49,8 @@ pub(super) type NamedPoint = (Name, Point3<f64>);
 pub(super) struct BeamPart<'a, const N: usize> {
     pub(super) name: Name,
     pub(super) points: [NamedPoint; N],
-    pub(super) link: &'a Link,
+    /// Its section and material, and the parameter that they are.
+    pub(super) link: (&'static str, &'a Link),
     /// Direction of local y, not along any of its segments.
     pub(super) y_axis: Vector3<f64>,
     /// Elements a segment is divided into.
@@ -98,6 +101,16 @@ impl<'a> JointPart<'a> {
             free: Free::Drive(stiffness),
             ..self
         }
+    }
+
+    /// Its stiffness in every direction.
+    fn elasticity(&self) -> [Option<f64>; 6] {
+        let free = self.joint.free();
+        Dof::ALL.map(|d| match (free.contains(d), self.free) {
+            (false, _) => self.stiffness[d.index()],
+            (true, Free::Drive(stiffness)) => stiffness,
+            (true, Free::Passive) => None,
+        })
     }
 
     /// The joint at a point of another name.
@@ -181,12 +194,13 @@ impl Builder {
 impl Parts for Builder {
     fn beam<const N: usize>(&mut self, beam: BeamPart<'_, N>) {
         let points = named(&beam.points);
+        let (_, link) = beam.link;
         self.add(|model| {
             model.add_beam(
                 &beam.name.to_string(),
                 &borrowed(&points),
-                &beam.link.material,
-                &beam.link.section,
+                &link.material,
+                &link.section,
                 Some(beam.y_axis),
                 beam.elements,
             )
@@ -199,15 +213,11 @@ impl Parts for Builder {
     }
 
     fn joint(&mut self, part: JointPart<'_>) {
-        let free = part.joint.free();
-        let (locked, drive) = match part.free {
-            Free::Passive => (DofSet::EMPTY, None),
-            Free::Drive(stiffness) => (free, stiffness),
+        let locked = match part.free {
+            Free::Passive => DofSet::EMPTY,
+            Free::Drive(_) => part.joint.free(),
         };
-        let stiffness = Dof::ALL.map(|d| match free.contains(d) {
-            true => drive,
-            false => part.stiffness[d.index()],
-        });
+        let stiffness = part.elasticity();
         let point = part.at.to_string();
         self.add(|model| {
             let node = |body: Option<Name>| -> Option<NodeId> {
@@ -237,6 +247,67 @@ fn borrowed(points: &[(String, Point3<f64>)]) -> Vec<(&str, Point3<f64>)> {
         .iter()
         .map(|(name, at)| (name.as_str(), *at))
         .collect()
+}
+
+/// Which parameter every value of a configuration's model comes from: links are named by their beams,
+/// stiffnesses are `joint_stiffness` and `drive_stiffness`.
+pub(super) fn origins(configuration: &impl Configuration) -> Vec<(ValuePlace, String)> {
+    let mut origins = Origins::default();
+    configuration.walk(&mut origins);
+    origins.found
+}
+
+/// Notes where values come from.
+#[derive(Default)]
+struct Origins {
+    segments: usize,
+    joints: usize,
+    found: Vec<(ValuePlace, String)>,
+}
+
+impl Parts for Origins {
+    fn beam<const N: usize>(&mut self, beam: BeamPart<'_, N>) {
+        for _ in 1..N {
+            let segment = SegmentId(self.segments);
+            self.segments += 1;
+            self.found
+                .extend(link_origins(segment, beam.link.0, beam.link.1));
+        }
+    }
+
+    fn rigid<const N: usize>(&mut self, _: Name, _: [NamedPoint; N]) {}
+
+    fn joint(&mut self, part: JointPart<'_>) {
+        let joint = JointId(self.joints);
+        self.joints += 1;
+        let free = part.joint.free();
+        for (direction, stiffness) in Dof::ALL.into_iter().zip(part.elasticity()) {
+            let name = match (free.contains(direction), stiffness) {
+                (_, None) => continue,
+                (true, _) => "drive_stiffness".into(),
+                (false, _) => format!("joint_stiffness.{direction}"),
+            };
+            self.found
+                .push((ValuePlace::Stiffness { joint, direction }, name));
+        }
+    }
+}
+
+/// Where the values of a segment come from whose link is the parameter `path`.
+fn link_origins(segment: SegmentId, path: &str, link: &Link) -> Vec<(ValuePlace, String)> {
+    let dimensions = link.section.dimensions().into_iter().map(|(dimension, _)| {
+        let place = ValuePlace::Dimension {
+            segment,
+            second: false,
+            dimension,
+        };
+        (place, format!("{path}.section.{dimension}"))
+    });
+    let constants = link.material.constants().into_iter().map(|(constant, _)| {
+        let place = ValuePlace::Constant { segment, constant };
+        (place, format!("{path}.material.{constant}"))
+    });
+    dimensions.chain(constants).collect()
 }
 
 /// Counts the parts.

@@ -98,6 +98,17 @@ pub struct ParameterError {
 }
 
 impl PoseError {
+    /// The outcome in a word, as in the column `status` of tables: `unreachable`, `singular`, `branch`, or
+    /// `failed` for all else. A pose that is reached is `ok`.
+    pub fn status(&self) -> &'static str {
+        match self {
+            Self::Unreachable { .. } => "unreachable",
+            Self::Singular { .. } => "singular",
+            Self::Branch { .. } => "branch",
+            _ => "failed",
+        }
+    }
+
     #[cold]
     pub(super) fn unreachable(what: String) -> Self {
         Self::Unreachable { what }

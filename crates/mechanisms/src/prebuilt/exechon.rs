@@ -1,7 +1,7 @@
 //! The Exechon tripod (2-UPR + SPR): parameters, model and poses.
 
 use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical, Universal};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3, center};
 
 use super::construction::{
@@ -247,8 +247,12 @@ impl Configuration for Posed<'_> {
                 y_axis: leg.axis,
                 elements: exechon.elements,
             };
-            parts.beam(half("housing", [foot, middle], &exechon.housing));
-            parts.beam(half("ram", [middle, head], &exechon.ram));
+            parts.beam(half(
+                "housing",
+                [foot, middle],
+                ("housing", &exechon.housing),
+            ));
+            parts.beam(half("ram", [middle, head], ("ram", &exechon.ram)));
         }
         let b = |index: usize| self.legs[index].points()[2];
         let centre = (Name::alone("P"), self.centre);
@@ -293,6 +297,10 @@ impl Prebuilt for Exechon {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("exechon", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_3;
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{Configuration, Name, PLATFORM, Parts};
@@ -191,6 +191,10 @@ impl Prebuilt for Hexapod {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("hexapod", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -1,7 +1,7 @@
 //! The linear delta: parameters, model and poses.
 
 use hyperstat_joints::{Joint, Prismatic, Spherical};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
@@ -172,7 +172,7 @@ impl Configuration for Posed<'_> {
             let rod = |word, points| BeamPart {
                 name: name(word),
                 points,
-                link: &self.linear_delta.rod,
+                link: ("rod", &self.linear_delta.rod),
                 y_axis: limb.y_axis,
                 elements: self.linear_delta.elements,
             };
@@ -232,6 +232,10 @@ impl Prebuilt for LinearDelta {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("linear delta", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

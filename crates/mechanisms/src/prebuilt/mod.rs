@@ -75,6 +75,7 @@ mod limbs;
 mod linear_delta;
 mod orthoglide;
 mod parameter;
+mod placing;
 mod planar_three_rrr;
 mod rail;
 mod single_freedom;
@@ -92,8 +93,9 @@ mod zero_torsion;
 
 use std::fmt::Debug;
 
+use hyperstat_closure::Drive;
 use hyperstat_elements::{Material, Section};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 
 pub use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 pub use crate::prebuilt::error::{ParameterError, PoseError};
@@ -133,6 +135,16 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// of reach or singular.
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError>;
 
+    /// Which parameter each value of the model at `pose` comes from, by the path that it has in a
+    /// batch file, such as `rod.section.diameter`. By these sensitivities and budgets name what they
+    /// are about. Values that are not a parameter as it is written have no origin; none by default.
+    ///
+    /// # Errors
+    /// As [`Prebuilt::model`].
+    fn origins(&self, _pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(Vec::new())
+    }
+
     /// Brings `geometry`, which has the numbering of [`Prebuilt::model`]'s, to `pose`, and
     /// returns the whole pose x y z (m) rx ry rz (rad) of the output. Allocates nothing unless
     /// it fails; where it fails it leaves `geometry` as it was.
@@ -140,6 +152,38 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// # Errors
     /// As [`Prebuilt::model`]; a geometry of another model.
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError>;
+
+    /// Where all parts are at `pose`, in a geometry of its own.
+    ///
+    /// # Errors
+    /// As [`Prebuilt::model`].
+    fn place_at(&self, pose: &[f64]) -> Result<Placed, PoseError> {
+        let mut geometry = self.model(pose)?.geometry().clone();
+        let pose = self.place(pose, &mut geometry)?;
+        Ok(Placed { geometry, pose })
+    }
+
+    /// By how much every drive moves (m, rad) from the pose `from` to the pose `to`: the locked or elastic
+    /// directions that are free by their joints' kinds, of the second body relative to the first. Ball
+    /// joints' directions have no values and are left out.
+    ///
+    /// # Errors
+    /// As [`Prebuilt::model`] of either pose; the way between the two is singular or changes the assembly
+    /// mode; a mechanism that loop closure cannot move.
+    fn drives_between(&self, from: &[f64], to: &[f64]) -> Result<Vec<Drive>, PoseError> {
+        let model = self.model(from)?;
+        let from = self.place(from, &mut model.geometry().clone())?;
+        placing::drives_between(&model, &from, &self.place_at(to)?)
+    }
+}
+
+/// A prebuilt mechanism at a pose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placed {
+    /// Where all parts are: a geometry of the mechanism's models.
+    pub geometry: Geometry,
+    /// The output's whole pose x y z (m) rx ry rz (rad).
+    pub pose: [f64; 6],
 }
 
 /// A coordinate of the output's pose: its position (m), and the rotation vector (rad) from its

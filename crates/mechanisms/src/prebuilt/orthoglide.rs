@@ -1,7 +1,7 @@
 //! The Orthoglide (3-PRPaR): parameters, model and poses.
 
 use hyperstat_joints::{Prismatic, Revolute};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
@@ -230,8 +230,8 @@ impl Posed<'_> {
             name: Name::limb(word, index),
             points,
             link: match N {
-                2 => &self.orthoglide.rod,
-                _ => &self.orthoglide.bar,
+                2 => ("rod", &self.orthoglide.rod),
+                _ => ("bar", &self.orthoglide.bar),
             },
             y_axis: limb.parallelogram_axis,
             elements: self.orthoglide.elements,
@@ -275,6 +275,10 @@ impl Prebuilt for Orthoglide {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("orthoglide", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -1,7 +1,7 @@
 //! The planar 3-RRR: parameters, model and poses.
 
 use hyperstat_joints::Revolute;
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts};
@@ -150,8 +150,8 @@ impl Configuration for Posed<'_> {
                 y_axis: Vector3::z(),
                 elements: planar.elements,
             };
-            parts.beam(link("proximal", [a, b], &planar.proximal));
-            parts.beam(link("distal", [b, c], &planar.distal));
+            parts.beam(link("proximal", [a, b], ("proximal", &planar.proximal)));
+            parts.beam(link("distal", [b, c], ("distal", &planar.distal)));
         }
         let [x, y, ..] = self.pose;
         let centre = (Name::alone("P"), Point3::new(x, y, 0.0));
@@ -196,6 +196,10 @@ impl Prebuilt for PlanarThreeRrr {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("planar 3-RRR", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -2,7 +2,7 @@
 
 use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, DofSet, Fixed};
-use hyperstat_model::{Connection, Geometry, JointStiffness, Model, NodeId};
+use hyperstat_model::{Connection, Geometry, JointStiffness, Model, NodeId, ValuePlace};
 use nalgebra::{Point3, Rotation3};
 
 use crate::prebuilt::{
@@ -113,6 +113,27 @@ impl Prebuilt for SingleFreedom {
         }
         model.set_output(bc[1]);
         Ok(model)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        let model = self.model(pose)?;
+        let origin = |(place, _)| {
+            let path = match place {
+                ValuePlace::Dimension {
+                    segment, dimension, ..
+                } => {
+                    format!("sections.{}.{dimension}", segment.0)
+                }
+                ValuePlace::Constant { constant, .. } => format!("material.{constant}"),
+                ValuePlace::Stiffness { joint, .. } => {
+                    let first = model.joints()[joint.0].name == "B";
+                    format!("joint_stiffness.{}", if first { 0 } else { 1 })
+                }
+                _ => return None,
+            };
+            Some((place, path))
+        };
+        Ok(model.values().into_iter().filter_map(origin).collect())
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

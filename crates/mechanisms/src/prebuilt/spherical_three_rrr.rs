@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use hyperstat_joints::Revolute;
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts};
@@ -241,8 +241,13 @@ impl Posed<'_> {
             y_axis,
             elements: spherical.elements,
         };
-        parts.beam(link("proximal", proximal, *ab, &spherical.proximal));
-        parts.beam(link("distal", distal, *bc, &spherical.distal));
+        parts.beam(link(
+            "proximal",
+            proximal,
+            *ab,
+            ("proximal", &spherical.proximal),
+        ));
+        parts.beam(link("distal", distal, *bc, ("distal", &spherical.distal)));
     }
 
     /// Points evenly along the arc between two directions, both included.
@@ -298,6 +303,10 @@ impl Prebuilt for SphericalThreeRrr {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("spherical 3-RRR", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -223,14 +223,14 @@ impl Leg {
         parts.beam(BeamPart {
             name: self.name("cylinder"),
             points: [(self.name("B"), base), mouth],
-            link: &parameters.cylinder,
+            link: ("leg.cylinder", &parameters.cylinder),
             y_axis: self.y_axis,
             elements,
         });
         parts.beam(BeamPart {
             name: self.name("piston"),
             points: [mouth, self.platform_point()],
-            link: &parameters.piston,
+            link: ("leg.piston", &parameters.piston),
             y_axis: self.y_axis,
             elements,
         });

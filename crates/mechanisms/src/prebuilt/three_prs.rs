@@ -1,7 +1,7 @@
 //! The 3-PRS: parameters, model and poses.
 
 use hyperstat_joints::{Joint, Prismatic, Revolute, Spherical};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{
@@ -125,7 +125,7 @@ impl Configuration for Posed<'_> {
             parts.beam(BeamPart {
                 name: Name::limb("rod", index),
                 points: [self.carriage(index), self.corner(index)],
-                link: &self.three_prs.rod,
+                link: ("rod", &self.three_prs.rod),
                 // The axis of the hinge.
                 y_axis: tangent(index),
                 elements: self.three_prs.elements,
@@ -186,6 +186,10 @@ impl Prebuilt for ThreePrs {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("3-PRS", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

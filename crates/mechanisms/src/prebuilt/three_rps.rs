@@ -1,6 +1,6 @@
 //! The 3-RPS: parameters, model and poses.
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::Point3;
 
 use super::construction::{Configuration, Name, PLATFORM, Parts};
@@ -140,6 +140,10 @@ impl Prebuilt for ThreeRps {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("3-RPS", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -1,7 +1,7 @@
 //! The Tricept (3-UPS + UP): parameters, model and poses.
 
 use hyperstat_joints::{Fixed, Joint, Prismatic, Universal};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
@@ -169,14 +169,14 @@ impl Configuration for Posed<'_> {
         parts.beam(BeamPart {
             name: TUBE,
             points: [foot, mouth],
-            link: &tricept.tube,
+            link: ("tube", &tricept.tube),
             y_axis: self.second_axis,
             elements: tricept.elements,
         });
         parts.beam(BeamPart {
             name: SPLINE,
             points: [mouth, centre],
-            link: &tricept.spline,
+            link: ("spline", &tricept.spline),
             y_axis: self.second_axis,
             elements: tricept.elements,
         });
@@ -230,6 +230,10 @@ impl Prebuilt for Tricept {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("tricept", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -1,7 +1,7 @@
 //! The Tripteron (3-PRRR): parameters, model and poses.
 
 use hyperstat_joints::{Prismatic, Revolute};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
@@ -170,8 +170,8 @@ impl Configuration for Posed<'_> {
                 y_axis: limb.axis,
                 elements: tripteron.elements,
             };
-            parts.beam(link("proximal", [a, b], &tripteron.proximal));
-            parts.beam(link("distal", [b, c], &tripteron.distal));
+            parts.beam(link("proximal", [a, b], ("proximal", &tripteron.proximal)));
+            parts.beam(link("distal", [b, c], ("distal", &tripteron.distal)));
         }
         let centre = (Name::alone("P"), self.centre);
         let c = |index: usize| joints_of(self.limbs[index].points, index)[2];
@@ -220,6 +220,10 @@ impl Prebuilt for Tripteron {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("tripteron", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

@@ -35,7 +35,7 @@ pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6
         for (cell, &column) in cells.into_iter().zip(&columns) {
             let place = place(cell);
             pose[column] = number(&place)?;
-            given.check(column, pose[column], &place)?;
+            given.check(column, pose[column], || place)?;
         }
         poses.push(pose);
     }
@@ -222,16 +222,22 @@ fn columns(
     place: &impl Fn(Range<usize>) -> Place,
 ) -> Result<Vec<usize>, LoadError> {
     separated(table, &header)?;
+    let cells = cells(table.text(), &header);
+    let names = cells.map(|cell| (unquoted(&table.text()[cell.clone()]), place(cell)));
+    pose_columns(names, &place(header.clone()))
+}
+
+/// The place in a pose of every column of these names: the first three or all six; `header` is where they
+/// stand.
+pub(crate) fn pose_columns<'n>(
+    names: impl Iterator<Item = (&'n str, Place)>,
+    header: &Place,
+) -> Result<Vec<usize>, LoadError> {
     let mut columns = Vec::new();
-    for cell in cells(table.text(), &header) {
-        let name = unquoted(&table.text()[cell.clone()]);
-        let Some(column) = COLUMNS.iter().position(|known| *known == name) else {
-            return Err(place(cell)
-                .error(format!("unknown column `{}`", shortened(name)))
-                .with_help(names::help(name, "columns", COLUMNS)));
-        };
+    for (name, place) in names {
+        let column = coordinate(name, &place)?;
         if columns.contains(&column) {
-            return Err(place(cell)
+            return Err(place
                 .error(format!("the column `{name}` is given twice"))
                 .with_help("the columns are x,y,z or x,y,z,rx,ry,rz"));
         }
@@ -239,11 +245,21 @@ fn columns(
     }
     let wanted = if columns.len() <= 3 { 3 } else { 6 };
     if let Some(missing) = (0..wanted).find(|column| !columns.contains(column)) {
-        return Err(place(header)
+        return Err(header
             .error(format!("the column `{}` is missing", COLUMNS[missing]))
             .with_help("the columns are x,y,z or x,y,z,rx,ry,rz"));
     }
     Ok(columns)
+}
+
+/// The place in a pose of a column of this name.
+pub(crate) fn coordinate(name: &str, place: &Place) -> Result<usize, LoadError> {
+    let found = COLUMNS.iter().position(|known| *known == name);
+    found.ok_or_else(|| {
+        place
+            .error(format!("unknown column `{}`", shortened(name)))
+            .with_help(names::help(name, "columns", COLUMNS))
+    })
 }
 
 /// The lines that are not blank, without their line breaks.
@@ -279,6 +295,7 @@ mod tests {
 
     use super::*;
     use crate::prebuilt::PoseCoordinate;
+    use crate::text::files::MemoryFiles;
 
     const DELTA: Given<'_> = Given {
         kind: "Delta",
@@ -286,7 +303,7 @@ mod tests {
     };
 
     fn table(text: &str) -> Result<Vec<[f64; 6]>, String> {
-        let source = Source::new(Path::new("p.csv"), text);
+        let source = Source::new(Path::new("p.csv"), text, &MemoryFiles::new());
         read(&source, &DELTA).map_err(|error| error.to_string())
     }
 

@@ -3,6 +3,7 @@
 use hyperstat_elements::ElementError;
 
 use super::fragment::{Fragment, first_at};
+use super::source::Place;
 use crate::error::LoadError;
 use crate::text::names;
 
@@ -61,6 +62,18 @@ impl<'a> Fields<'a> {
         }
     }
 
+    /// Fields that are known; errors about all of them point at `whole`.
+    pub(crate) fn of(
+        whole: Fragment<'a>,
+        owner: impl Into<String>,
+        values: Vec<(&'a str, Fragment<'a>)>,
+    ) -> Self {
+        Self {
+            values,
+            ..Self::none(whole, owner)
+        }
+    }
+
     /// What has the fields, in words.
     pub(crate) fn owner(&self) -> &str {
         &self.owner
@@ -75,6 +88,12 @@ impl<'a> Fields<'a> {
     pub(crate) fn get(&self, name: &str) -> Option<Fragment<'a>> {
         let of_name = |(field, value): &(&str, _)| (*field == name).then_some(*value);
         self.values.iter().find_map(of_name)
+    }
+
+    /// Where each of the fields that are given stands, of those that are `known`.
+    pub(crate) fn places(&self, known: &[&'static str]) -> Vec<(&'static str, Place)> {
+        let place = |name: &&'static str| Some((*name, self.get(name)?.place()));
+        known.iter().filter_map(place).collect()
     }
 
     /// The value of a field that must be given.

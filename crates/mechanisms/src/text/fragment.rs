@@ -14,8 +14,8 @@ use ron::extensions::Extensions;
 use ron::value::RawValue;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-use super::overlay::{Form, Overlay};
 use super::source::{Place, Source};
+use super::tree::{Content, Named, Node};
 use crate::error::LoadError;
 use crate::text::{slips, syntax};
 
@@ -24,8 +24,8 @@ use crate::text::{slips, syntax};
 pub(crate) struct Fragment<'a> {
     source: &'a Arc<Source>,
     text: &'a str,
-    /// What stands in for parts of the text.
-    overlay: Option<&'a Overlay<'a>>,
+    /// The value, taken apart.
+    node: Option<&'a Node>,
 }
 
 /// An entry `"name": value` of a map.
@@ -58,7 +58,7 @@ impl<'a> Fragment<'a> {
         Self {
             source,
             text: text_of(raw),
-            overlay: None,
+            node: None,
         }
     }
 
@@ -67,28 +67,35 @@ impl<'a> Fragment<'a> {
         Self {
             source: &place.source,
             text: place.source.text().get(place.span.clone()).unwrap_or(""),
-            overlay: None,
+            node: None,
         }
     }
 
-    /// The same value, with what `overlay` says of its parts.
-    pub(crate) fn under(self, overlay: &'a Overlay<'a>) -> Self {
+    /// The value of a tree.
+    pub(crate) fn of_node(node: &'a Node) -> Self {
         Self {
-            overlay: Some(overlay),
-            ..self
+            source: node.source(),
+            text: node.text(),
+            node: Some(node),
         }
     }
 
     /// A part of this fragment's text.
     pub(crate) fn part(self, text: &'a str) -> Self {
-        Self { text, ..self }
+        Self {
+            text,
+            node: None,
+            ..self
+        }
     }
 
-    /// A value inside this one, or what stands in for it.
-    fn inner(self, text: &'a str) -> Self {
-        let inner = self.part(text);
-        let replacement = self.overlay.and_then(|overlay| overlay.replacement(inner));
-        replacement.unwrap_or(inner)
+    /// The part of this fragment's text between these bytes of the source.
+    fn between(self, span: &Range<usize>) -> Self {
+        self.part(self.source.text().get(span.clone()).unwrap_or(""))
+    }
+
+    fn content(self) -> Option<&'a Content> {
+        self.node.map(|node| &node.content)
     }
 
     pub(crate) fn text(self) -> &'a str {
@@ -145,8 +152,8 @@ impl<'a> Fragment<'a> {
 
     /// A finite number.
     pub(crate) fn number(self) -> Result<f64, LoadError> {
-        if let Some(number) = self.overlay.and_then(|overlay| overlay.number(self)) {
-            return Ok(number);
+        if let Some(Content::Number(number)) = self.content() {
+            return Ok(*number);
         }
         let number: f64 = self.parse("a number")?;
         if !number.is_finite() {
@@ -154,9 +161,6 @@ impl<'a> Fragment<'a> {
                 .error(format!("`{}` is not a finite number", self.text))
                 .unreadable()
                 .with_help("give a number such as 0.25 or 2.1e11"));
-        }
-        if let Some(overlay) = self.overlay {
-            overlay.learn_number(self, number);
         }
         Ok(number)
     }
@@ -183,40 +187,21 @@ impl<'a> Fragment<'a> {
     }
 
     fn unquoted(self, expected: &str) -> Result<String, LoadError> {
-        if let Some(string) = self.overlay.and_then(|overlay| overlay.string(self)) {
-            return Ok(string);
+        match self.content() {
+            Some(Content::Text(text)) => Ok((**text).into()),
+            _ => self.parse(expected),
         }
-        let string: String = self.parse(expected)?;
-        if let Some(overlay) = self.overlay {
-            overlay.learn_string(self, &string);
-        }
-        Ok(string)
-    }
-
-    /// The parts that `read` takes this fragment apart into, or that are known.
-    fn parts(
-        self,
-        form: Form,
-        read: impl FnOnce() -> Result<Vec<&'a str>, LoadError>,
-    ) -> Result<Vec<&'a str>, LoadError> {
-        if let Some(parts) = self.overlay.and_then(|overlay| overlay.parts(self, form)) {
-            return Ok(parts);
-        }
-        let parts = read()?;
-        if let Some(overlay) = self.overlay {
-            let parts = parts.iter().map(|text| self.part(text).span());
-            overlay.learn_parts(self, form, parts.collect());
-        }
-        Ok(parts)
     }
 
     /// A tuple `(…, …)` of any length; `expected` says in words what it is.
     pub(crate) fn tuple(self, expected: &str) -> Result<Vec<Self>, LoadError> {
-        let parts = self.parts(Form::Tuple, || {
-            let Tuple(items) = self.parse(expected)?;
-            Ok(items.into_iter().map(text_of).collect())
-        })?;
-        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
+        if let Some(Content::Tuple(items)) = self.content() {
+            return Ok(items.iter().map(Self::of_node).collect());
+        }
+        let Tuple(items) = self.parse(expected)?;
+        Ok((items.into_iter())
+            .map(|raw| self.part(text_of(raw)))
+            .collect())
     }
 
     /// A tuple of `N` values.
@@ -248,11 +233,13 @@ impl<'a> Fragment<'a> {
 
     /// A list `[…, …]`.
     pub(crate) fn list(self, expected: &str) -> Result<Vec<Self>, LoadError> {
-        let parts = self.parts(Form::List, || {
-            let items: Vec<&RawValue> = self.parse(expected)?;
-            Ok(items.into_iter().map(text_of).collect())
-        })?;
-        Ok(parts.into_iter().map(|text| self.inner(text)).collect())
+        if let Some(Content::List(items)) = self.content() {
+            return Ok(items.iter().map(Self::of_node).collect());
+        }
+        let items: Vec<&RawValue> = self.parse(expected)?;
+        Ok((items.into_iter())
+            .map(|raw| self.part(text_of(raw)))
+            .collect())
     }
 
     /// Three finite numbers.
@@ -274,58 +261,63 @@ impl<'a> Fragment<'a> {
 
     /// A map `{ "name": value, … }` in the order of the file; a name given twice is an error.
     pub(crate) fn map(self) -> Result<Vec<Entry<'a>>, LoadError> {
-        let parts = self.parts(Form::Map, || {
-            let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
-            let mut seen = HashMap::new();
-            let mut parts = Vec::with_capacity(2 * pairs.len());
-            for (key, value) in pairs {
-                let key = self.part(text_of(key));
-                let name = key.unquoted(NAME)?;
-                if let Some(first) = seen.insert(name.clone(), key) {
-                    return Err(key
-                        .error(format!("the name \"{name}\" is given twice"))
-                        .with_help(first_at(first)));
-                }
-                parts.extend([key.text, text_of(value)]);
+        if let Some(Content::Map(named)) = self.content() {
+            let entry = |own: &'a Named| Entry {
+                name: (*own.name).into(),
+                key: self.between(&own.at),
+                value: Self::of_node(&own.value),
+            };
+            return Ok(named.iter().map(entry).collect());
+        }
+        let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
+        let mut seen = HashMap::new();
+        let mut entries = Vec::with_capacity(pairs.len());
+        for (key, value) in pairs {
+            let key = self.part(text_of(key));
+            let name = key.unquoted(NAME)?;
+            if let Some(first) = seen.insert(name.clone(), key) {
+                return Err(key
+                    .error(format!("the name \"{name}\" is given twice"))
+                    .with_help(first_at(first)));
             }
-            Ok(parts)
-        })?;
-        let entry = |pair: &[&'a str]| {
-            let key = self.part(pair[0]);
-            Ok(Entry {
-                name: key.unquoted(NAME)?,
+            entries.push(Entry {
+                name,
                 key,
-                value: self.inner(pair[1]),
-            })
-        };
-        parts.chunks_exact(2).map(entry).collect()
+                value: self.part(text_of(value)),
+            });
+        }
+        Ok(entries)
     }
 
     /// The fields of a struct `(name: value, …)` in the order of the file: names and values.
     pub(crate) fn named(self, expected: &str) -> Result<Vec<(Self, Self)>, LoadError> {
-        let parts = self.parts(Form::Named, || {
-            let Named(fields) = self.parse(expected)?;
-            let pair = |(name, raw)| [name, text_of(raw)];
-            Ok(fields.into_iter().flat_map(pair).collect())
-        })?;
-        let pair = |pair: &[&'a str]| (self.part(pair[0]), self.inner(pair[1]));
-        Ok(parts.chunks_exact(2).map(pair).collect())
+        if let Some(Content::Fields(named)) = self.content() {
+            let pair = |own: &'a Named| (self.between(&own.at), Self::of_node(&own.value));
+            return Ok(named.iter().map(pair).collect());
+        }
+        self.pieces().ok_or_else(|| self.expected(expected))
+    }
+
+    /// The fields of a struct as its text has them; `None` of anything else, a tuple too.
+    pub(super) fn pieces(self) -> Option<Vec<(Self, Self)>> {
+        let Pieces(fields) = options().from_str(self.text).ok()?;
+        let pair = |(name, raw)| (self.part(name), self.part(text_of(raw)));
+        Some(fields.into_iter().map(pair).collect())
     }
 
     /// A kind and its arguments: `Kind(…)` or `Kind`, whose arguments are `None`.
     pub(crate) fn variant(self, expected: &str) -> Result<(Self, Option<Self>), LoadError> {
-        let parts = self.parts(Form::Variant, || {
-            let wrong = |_| self.expected(expected);
-            let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
-            let Identifier(kind) =
-                Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
-            let rest = deserializer.remainder().trim();
-            Ok([kind, rest][..if rest.is_empty() { 1 } else { 2 }].to_vec())
-        })?;
-        Ok((
-            self.part(parts[0]),
-            parts.get(1).map(|rest| self.part(rest)),
-        ))
+        if let Some(Content::Kind(kind, inner)) = self.content() {
+            let inner = inner.as_deref().map(Self::of_node);
+            return Ok((self.between(kind), inner));
+        }
+        let wrong = |_| self.expected(expected);
+        let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
+        let Identifier(kind) =
+            Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
+        let rest = deserializer.remainder().trim();
+        let inner = (!rest.is_empty()).then(|| self.part(rest));
+        Ok((self.part(kind), inner))
     }
 }
 
@@ -391,22 +383,22 @@ impl<'de> Deserialize<'de> for Pairs<'de> {
     }
 }
 
-struct Named<'a>(Vec<(&'a str, &'a RawValue)>);
+struct Pieces<'a>(Vec<(&'a str, &'a RawValue)>);
 
-impl<'de> Deserialize<'de> for Named<'de> {
+impl<'de> Deserialize<'de> for Pieces<'de> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Fields;
         impl<'de> Visitor<'de> for Fields {
-            type Value = Named<'de>;
+            type Value = Pieces<'de>;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("named fields")
             }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<'de>, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pieces<'de>, A::Error> {
                 let mut fields = Vec::new();
                 while let Some((Identifier(name), value)) = map.next_entry()? {
                     fields.push((name, value));
                 }
-                Ok(Named(fields))
+                Ok(Pieces(fields))
             }
         }
         deserializer.deserialize_struct("", &[], Fields)

@@ -5,13 +5,15 @@
 //! diameter of `rod: (section: Circle(diameter: 0.014), …)`.
 
 use super::fragment::Fragment;
+use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
 
-/// The value of `root` that the path written at `key` leads to.
-pub(crate) fn find<'a>(root: Fragment<'a>, key: Fragment<'_>) -> Result<Fragment<'a>, LoadError> {
+/// The steps to the value of `root` that the path written at `key` leads to.
+pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
     let path = key.string()?;
     let (mut value, mut rest) = (root, path.as_str());
+    let mut steps = Steps::new();
     loop {
         let walked = path.len() - rest.len();
         let step = Step {
@@ -19,86 +21,26 @@ pub(crate) fn find<'a>(root: Fragment<'a>, key: Fragment<'_>) -> Result<Fragment
             path: &path,
             walked,
         };
-        let (inner, length) = step.take(value)?;
+        let (place, length) = step.take(Fragment::of_node(value))?;
+        steps.push(place);
         if walked + length == path.len() {
-            return Ok(inner);
+            return Ok(steps);
         }
-        value = inner;
+        value = value.part(place).ok_or_else(|| step.without_parts())?;
         rest = &path[walked + length + 1..];
     }
 }
 
-/// All numbers in `root` that a path leads to, each with its path.
-pub(crate) fn numbers(root: Fragment<'_>) -> Vec<(String, Fragment<'_>)> {
-    let mut found = Vec::new();
-    add_numbers(root, "", &mut found);
-    found
+/// Whether of two values one is a part of the other, or they are the same.
+pub(crate) fn overlap(one: &[usize], other: &[usize]) -> bool {
+    one.starts_with(other) || other.starts_with(one)
 }
 
-/// What the first value of a tuple may begin with, and no name does.
-const UNNAMED: [char; 17] = [
-    '0', '1', '2', '3', '4', '5', '6', '7', '8', '9', '-', '+', '.', '"', '(', '[', '{',
-];
-
-fn add_numbers<'a>(value: Fragment<'a>, path: &str, found: &mut Vec<(String, Fragment<'a>)>) {
-    let inside = contents(value);
-    let numbered = |items: Vec<Fragment<'a>>| {
-        let items = items.into_iter().enumerate();
-        items.map(|(k, item)| (k.to_string(), item)).collect()
-    };
-    let parts: Result<Vec<(String, Fragment<'a>)>, LoadError> = match inside.text().chars().next() {
-        Some('{') => {
-            (inside.map()).map(|entries| entries.into_iter().map(|e| (e.name, e.value)).collect())
-        }
-        Some('[') => inside.list("a list").map(numbered),
-        // No name begins so. To find that out from an error costs its place, a look at the whole text.
-        Some('(') if inside.text()[1..].trim_start().starts_with(UNNAMED) => {
-            inside.tuple("a tuple").map(numbered)
-        }
-        Some('(') => match inside.named("") {
-            Ok(fields) => {
-                let pair = |(name, value): (Fragment<'a>, _)| (name.text().to_owned(), value);
-                Ok(fields.into_iter().map(pair).collect())
-            }
-            Err(_) => inside.tuple("a tuple").map(numbered),
-        },
-        Some('0'..='9' | '-' | '+' | '.') => {
-            if value.number().is_ok() {
-                found.push((path.into(), value));
-            }
-            return;
-        }
-        _ => return,
-    };
-    let parts: Vec<_> = parts.into_iter().flatten().collect();
-    let dotted = parts.iter().any(|(name, _)| name.contains('.'));
-    let before = path.len() + usize::from(!path.is_empty());
-    for (name, part) in &parts {
-        let path = match path {
-            "" => name.clone(),
-            path => format!("{path}.{name}"),
-        };
-        let start = found.len();
-        add_numbers(*part, &path, found);
-        // Where a name goes on as another one does, a path may lead there.
-        let longer = |other: &&(String, Fragment<'a>)| {
-            let rest = other.0.strip_prefix(name.as_str());
-            rest.is_some_and(|rest| rest.starts_with('.'))
-        };
-        for (other, _) in parts.iter().filter(|_| dotted).filter(longer) {
-            let mut place = 0;
-            found.retain(|(path, _)| {
-                place += 1;
-                place <= start || !starts_with(&path[before..], other)
-            });
-        }
-    }
-}
-
-/// Whether the first steps of a path are this name.
-fn starts_with(path: &str, name: &str) -> bool {
-    let rest = path.strip_prefix(name);
-    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+/// The error of a path, written at `key`, that leads to a part of what `other` leads to, or around it.
+pub(crate) fn overlapping(other: &str, key: Fragment<'_>) -> LoadError {
+    let path = key.string().unwrap_or_default();
+    key.error(format!("`{other}` and `{path}` overlap"))
+        .with_help("one is a part of the other: vary the whole or its parts")
 }
 
 /// The next step of a path.
@@ -111,49 +53,50 @@ struct Step<'k> {
 }
 
 impl Step<'_> {
-    /// Takes the step from `value`: the value it leads to, and how many bytes of the path it is.
-    fn take<'a>(&self, value: Fragment<'a>) -> Result<(Fragment<'a>, usize), LoadError> {
+    /// Takes the step from `value`: the place of the part it leads to, and how many bytes of the path
+    /// it is.
+    fn take(&self, value: Fragment<'_>) -> Result<(usize, usize), LoadError> {
         let inside = contents(value);
         let first = inside.text().chars().next();
         match first {
-            Some('{') => self.of_map(inside),
-            Some('[') => self.of_list(&inside.list("a list")?),
+            Some('{') => {
+                let entries = inside.map()?.into_iter();
+                self.of_names(&entries.map(|entry| entry.name).collect::<Vec<_>>())
+            }
+            Some('[') => self.of_list(inside.list("a list")?.len()),
             Some('(') => match inside.named("") {
                 Ok(fields) => {
-                    let pair = |(name, value): (Fragment<'a>, _)| (name.text().to_owned(), value);
-                    self.of_names(fields.into_iter().map(pair).collect())
+                    let names = fields.into_iter().map(|(name, _)| name.text().to_owned());
+                    self.of_names(&names.collect::<Vec<_>>())
                 }
-                Err(_) => self.of_list(&inside.tuple("a tuple")?),
+                Err(_) => self.of_list(inside.tuple("a tuple")?.len()),
             },
-            _ => Err(self
-                .error(format!(
-                    "{} is a value without parts: there is no `{}` in it",
-                    self.from(),
-                    self.name()
-                ))
-                .with_help(match self.walked {
-                    0 => "this mechanism has nothing that could vary".into(),
-                    walked => format!("vary the whole of it, `{}`", &self.path[..walked - 1]),
-                })),
+            _ => Err(self.without_parts()),
         }
     }
 
-    fn of_map<'a>(&self, map: Fragment<'a>) -> Result<(Fragment<'a>, usize), LoadError> {
-        let entries = map.map()?.into_iter();
-        self.of_names(entries.map(|entry| (entry.name, entry.value)).collect())
+    /// The error of a step into a value that has no parts.
+    fn without_parts(&self) -> LoadError {
+        self.error(format!(
+            "{} is a value without parts: there is no `{}` in it",
+            self.from(),
+            self.name()
+        ))
+        .with_help(match self.walked {
+            0 => "this mechanism has nothing that could vary".into(),
+            walked => format!("vary the whole of it, `{}`", &self.path[..walked - 1]),
+        })
     }
 
     /// A name may hold dots: the longest that fits is meant.
-    fn of_names<'a>(
-        &self,
-        names: Vec<(String, Fragment<'a>)>,
-    ) -> Result<(Fragment<'a>, usize), LoadError> {
+    fn of_names(&self, names: &[String]) -> Result<(usize, usize), LoadError> {
         let rest = &self.path[self.walked..];
-        let fitting = names.iter().filter(|(name, _)| starts_with(rest, name));
-        match fitting.max_by_key(|(name, _)| name.len()) {
-            Some((name, value)) => Ok((*value, name.len())),
+        let fitting = names.iter().enumerate();
+        let fitting = fitting.filter(|(_, name)| starts_with(rest, name));
+        match fitting.max_by_key(|(_, name)| name.len()) {
+            Some((place, name)) => Ok((place, name.len())),
             None => {
-                let known = names.iter().map(|(name, _)| name.as_str());
+                let known = names.iter().map(String::as_str);
                 let what = "values written there";
                 let mut help = names::help(self.name(), what, known);
                 if help.starts_with("the") {
@@ -165,15 +108,15 @@ impl Step<'_> {
         }
     }
 
-    fn of_list<'a>(&self, items: &[Fragment<'a>]) -> Result<(Fragment<'a>, usize), LoadError> {
+    fn of_list(&self, count: usize) -> Result<(usize, usize), LoadError> {
         let name = self.name();
         let digits = !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_digit());
         let number = name.parse().ok().filter(|_| digits);
-        if let Some(item) = number.and_then(|number: usize| items.get(number)) {
-            return Ok((*item, name.len()));
+        if let Some(number) = number.filter(|number| *number < count) {
+            return Ok((number, name.len()));
         }
         let error = self.error(format!("{} has no value `{name}`", self.from()));
-        Err(error.with_help(match items.len() {
+        Err(error.with_help(match count {
             0 => "it has no values".into(),
             1 => "its only value is `0`".into(),
             count => format!("its values are `0` to `{}`", count - 1),

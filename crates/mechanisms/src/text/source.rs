@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::{LoadError, Location};
-use crate::text::files;
+use crate::text::files::{self, Files, MemoryFiles};
 
 /// A text file: its name in messages and its text.
 #[derive(Debug)]
@@ -16,6 +16,8 @@ pub(crate) struct Source {
     text: String,
     /// Where the whole text is asked for, if it stands in no file as it is.
     origin: Option<Place>,
+    /// Name of the argument that it is, if a program hands it in.
+    argument: Option<String>,
     family: Arc<Family>,
     /// Whether messages may show its text: not that of a file from elsewhere, named by another,
     /// before it is known to be of the kind that it was taken for.
@@ -23,8 +25,10 @@ pub(crate) struct Source {
 }
 
 /// What the file that was asked for and the files that it names have in common.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Family {
+    /// Where files are read from.
+    files: Box<dyn Files>,
     /// Folder of the file that was asked for; `None` where it is in none.
     folder: Option<PathBuf>,
     /// All files that were read.
@@ -33,34 +37,35 @@ struct Family {
 
 impl Family {
     /// Of a file that is asked for.
-    fn of(path: &Path) -> Arc<Self> {
+    fn of(path: &Path, files: &dyn Files) -> Arc<Self> {
         Arc::new(Self {
-            folder: folder(path),
+            files: files.clone_box(),
+            folder: folder(path, files),
             read: Mutex::default(),
         })
     }
 
     /// Whether a file lies in the folder, or in one below it.
     fn holds(&self, path: &Path) -> bool {
-        let place = path.canonicalize().ok();
+        let place = self.files.resolve(path).ok();
         let of_both = place.as_ref().zip(self.folder.as_ref());
         of_both.is_some_and(|(place, folder)| place.starts_with(folder))
     }
 }
 
 /// The folder that a file is in, without links.
-fn folder(path: &Path) -> Option<PathBuf> {
+fn folder(path: &Path, files: &dyn Files) -> Option<PathBuf> {
     let parent = path.parent()?;
     let here = parent.as_os_str().is_empty();
     let parent = if here { Path::new(".") } else { parent };
-    parent.canonicalize().ok()
+    files.resolve(parent).ok()
 }
 
 impl Source {
     /// `text`, which messages call `path`; a byte order mark is dropped, and carriage returns that
-    /// alone end lines are read as line feeds.
-    pub(crate) fn new(path: &Path, text: &str) -> Arc<Self> {
-        Self::of(path, text, Family::of(path), true)
+    /// alone end lines are read as line feeds. Files that it names are read from `files`.
+    pub(crate) fn new(path: &Path, text: &str, files: &dyn Files) -> Arc<Self> {
+        Self::of(path, text, Family::of(path, files), true)
     }
 
     fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
@@ -72,6 +77,7 @@ impl Source {
                 false => text.replace('\r', "\n"),
             },
             origin: None,
+            argument: None,
             family,
             shown: AtomicBool::new(shown),
         })
@@ -85,13 +91,30 @@ impl Source {
             text,
             family: Arc::clone(&origin.source.family),
             shown: AtomicBool::new(true),
+            argument: None,
             origin: Some(origin),
         })
     }
 
+    /// What a program hands in under this name, as it would stand in a file: in that of `near`, whose
+    /// files it may name, or in none.
+    pub(crate) fn argument(name: &str, text: String, near: Option<&Arc<Self>>) -> Arc<Self> {
+        Arc::new(Self {
+            path: near.map_or_else(PathBuf::new, |near| near.path.clone()),
+            text,
+            origin: None,
+            argument: Some(name.into()),
+            family: match near {
+                Some(near) => Arc::clone(&near.family),
+                None => Family::of(Path::new(""), &MemoryFiles::new()),
+            },
+            shown: AtomicBool::new(true),
+        })
+    }
+
     /// Reads a file that is asked for.
-    pub(crate) fn read(path: &Path) -> Result<Arc<Self>, LoadError> {
-        Self::read_into(path, Family::of(path), true)
+    pub(crate) fn read(path: &Path, files: &dyn Files) -> Result<Arc<Self>, LoadError> {
+        Self::read_into(path, Family::of(path, files), true)
     }
 
     /// Reads a file that this one names. Messages show its text where it lies in the folder of the
@@ -101,7 +124,8 @@ impl Source {
     }
 
     fn read_into(path: &Path, family: Arc<Family>, shown: bool) -> Result<Arc<Self>, LoadError> {
-        let bytes = files::read(path).map_err(|source| LoadError::Read {
+        let read = files::read_from(family.files.as_ref(), path);
+        let bytes = read.map_err(|source| LoadError::Read {
             path: path.into(),
             source,
         })?;
@@ -141,10 +165,6 @@ impl Source {
         read.iter().cloned().collect()
     }
 
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
-    }
-
     pub(crate) fn text(&self) -> &str {
         &self.text
     }
@@ -163,10 +183,18 @@ impl Source {
         let line_start = before.rfind('\n').map_or(0, |k| k + 1);
         let line_end = rest.find('\n').map_or(self.text.len(), |k| start + k);
         let end = boundary(&self.text, span.end.min(line_end));
+        let whole = self.argument.is_some() && (span.is_empty() || *span == (0..self.text.len()));
+        let (line, column) = match whole {
+            true => (0, 0),
+            false => (
+                1 + before.matches('\n').count(),
+                1 + self.text[line_start..start].chars().count(),
+            ),
+        };
         Location {
-            path: self.path.clone(),
-            line: 1 + before.matches('\n').count(),
-            column: 1 + self.text[line_start..start].chars().count(),
+            path: self.argument.as_ref().map_or(self.path.clone(), Into::into),
+            line,
+            column,
             width: self.text[start..end.max(start)]
                 .trim_end()
                 .chars()
@@ -211,6 +239,14 @@ pub(crate) struct Place {
 }
 
 impl Place {
+    /// A whole source.
+    pub(crate) fn whole(source: &Arc<Source>) -> Self {
+        Self {
+            source: Arc::clone(source),
+            span: 0..source.text().len(),
+        }
+    }
+
     pub(crate) fn location(&self) -> Location {
         match &self.source.origin {
             Some(origin) => origin.location(),
@@ -240,7 +276,7 @@ mod tests {
     use super::*;
 
     fn locate(text: &str, span: Range<usize>) -> (usize, usize, usize, String) {
-        let source = Source::new(Path::new("f.ron"), text);
+        let source = Source::new(Path::new("f.ron"), text, &MemoryFiles::new());
         let place = Place { source, span };
         let at = place.location();
         (at.line, at.column, at.width, at.text)
@@ -264,7 +300,7 @@ mod tests {
 
     #[test]
     fn offset_is_the_inverse_of_location() {
-        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx");
+        let source = Source::new(Path::new("f.ron"), "ab\nåcd\n\nx", &MemoryFiles::new());
         for (k, _) in source.text().char_indices() {
             let at = source.locate(&(k..k));
             assert_eq!(source.offset(at.line, at.column), k);

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Along, Batch, Figure, Input, Registry, Scale, batch_from_str, load, load_batch, load_mechanism,
+    Along, Batch, Disk, Figure, Input, Registry, Scale, batch_from_str, load, load_batch,
+    load_mechanism,
 };
 use nalgebra::Vector6;
 
@@ -13,8 +14,13 @@ fn examples() -> &'static Path {
 
 /// A batch whose file stands among the examples.
 fn read(text: &str) -> Batch {
-    batch_from_str(text, &examples().join("test.ron"), &Registry::builtin())
-        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+    batch_from_str(
+        text,
+        &examples().join("test.ron"),
+        &Disk,
+        &Registry::builtin(),
+    )
+    .unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 const DELTA: &str = "Delta(
@@ -32,7 +38,7 @@ fn delta(rest: &str) -> Batch {
 
 #[test]
 fn the_paper_s_batch_holds_both_case_studies() {
-    let batch = load_batch(&examples().join("paper.ron"), &Registry::builtin())
+    let batch = load_batch(&examples().join("paper.ron"), &Disk, &Registry::builtin())
         .unwrap_or_else(|error| panic!("{error}"));
     let jobs: Vec<_> = batch
         .jobs
@@ -75,7 +81,7 @@ fn the_paper_s_batch_holds_both_case_studies() {
 /// Eq. 65 of the paper at t = 0, 0.1, …, 6.
 #[test]
 fn the_trajectory_is_the_paper_s() {
-    let batch = load_batch(&examples().join("paper.ron"), &Registry::builtin()).unwrap();
+    let batch = load_batch(&examples().join("paper.ron"), &Disk, &Registry::builtin()).unwrap();
     for k in 0..=60 {
         let t = k as f64 / 10.0;
         let (x, z) = if t <= 2.0 {
@@ -94,12 +100,12 @@ fn the_trajectory_is_the_paper_s() {
 #[test]
 fn the_examples_are_read() {
     for name in ["delta.ron", "single_freedom.ron", "portal.ron"] {
-        let mechanism = load_mechanism(&examples().join(name), &Registry::builtin());
+        let mechanism = load_mechanism(&examples().join(name), &Disk, &Registry::builtin());
         assert!(mechanism.is_ok(), "{mechanism:?}");
     }
-    let input = load(&examples().join("paper.ron"), &Registry::builtin()).unwrap();
+    let input = load(&examples().join("paper.ron"), &Disk, &Registry::builtin()).unwrap();
     assert!(matches!(input, Input::Batch(_)));
-    let input = load(&examples().join("delta.ron"), &Registry::builtin()).unwrap();
+    let input = load(&examples().join("delta.ron"), &Disk, &Registry::builtin()).unwrap();
     assert!(matches!(input, Input::Mechanism(_)));
 }
 
@@ -108,7 +114,7 @@ fn a_file_s_job_has_its_configuration_and_loads() {
     let batch = read(r#"(jobs: [(name: "own", mechanism: File("portal.ron"))])"#);
     let job = &batch.jobs[0];
     assert_eq!(job.len(), 1);
-    let own = load_mechanism(&examples().join("portal.ron"), &Registry::builtin()).unwrap();
+    let own = load_mechanism(&examples().join("portal.ron"), &Disk, &Registry::builtin()).unwrap();
     let model = job.model().unwrap();
     assert_eq!(model.loads(), own.model.loads());
     let mut geometry = model.geometry().clone();

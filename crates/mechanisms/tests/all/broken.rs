@@ -6,7 +6,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use hyperstat_mechanisms::{LoadError, Registry, load};
+use hyperstat_mechanisms::{Disk, LoadError, Registry, load};
 
 /// The message with the line it is about and the place in it marked.
 fn report(error: &LoadError) -> String {
@@ -37,7 +37,7 @@ fn every_broken_file_gets_its_message() {
     for name in names {
         let file = Path::new("tests/broken").join(&name);
         let golden = file.with_extension("txt");
-        let found = match load(&file, &Registry::builtin()) {
+        let found = match load(&file, &Disk, &Registry::builtin()) {
             Ok(_) => "no mistake found\n".to_owned(),
             Err(error) => report(&error),
         };

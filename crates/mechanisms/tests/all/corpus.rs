@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{LoadError, Registry, load_str};
+use hyperstat_mechanisms::{Disk, LoadError, Registry, load_str};
 
 use crate::fuzzing::{self, Folder, ROLES, seeds};
 
@@ -40,7 +40,7 @@ fn every_seed_is_solved_or_refused() {
 fn in_the_folder_every_seed_is_what_it_is_at_its_place() {
     let folder = folder("places");
     let found = |text: &str, path: &Path| {
-        let loaded = load_str(text, path, &Registry::builtin());
+        let loaded = load_str(text, path, &Disk, &Registry::builtin());
         // A message may name the text itself, or a file beside it.
         let folder = path.parent().unwrap().display().to_string();
         let message = |error: &LoadError| {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{Batch, Job, LoadError, Registry, Value, batch_from_str};
+use hyperstat_mechanisms::{Batch, Disk, Job, LoadError, Registry, Value, batch_from_str};
 
 const DELTA: &str = "Delta(
     base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60, rod_spacing: 0.12,
@@ -27,7 +27,7 @@ fn try_job(mechanism: &str, rest: &str) -> Result<Job, LoadError> {
 
 fn read(text: &str) -> Result<Batch, LoadError> {
     let path = Path::new("../../examples/designs_test.ron");
-    batch_from_str(text, path, &Registry::builtin())
+    batch_from_str(text, path, &Disk, &Registry::builtin())
 }
 
 fn replaced(text: &str, old: &str, new: &str) -> String {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hyperstat_joints::{Dof, DofSet};
-use hyperstat_mechanisms::{Mechanism, Registry, load_mechanism, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Mechanism, Registry, load_mechanism, mechanism_from_str};
 use hyperstat_model::{BodyId, BodyKind, JointId, JointStiffness, Model};
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
@@ -12,7 +12,7 @@ fn reference(name: &str) -> PathBuf {
 }
 
 fn read(text: &str) -> Mechanism {
-    mechanism_from_str(text, Path::new("test.ron"), &Registry::builtin())
+    mechanism_from_str(text, Path::new("test.ron"), &Disk, &Registry::builtin())
         .unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -41,7 +41,7 @@ fn every_reference_file_is_read() {
     for entry in reference("").read_dir().unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "ron") {
-            let mechanism = load_mechanism(&path, &Registry::builtin());
+            let mechanism = load_mechanism(&path, &Disk, &Registry::builtin());
             let model = mechanism.unwrap_or_else(|error| panic!("{error}")).model;
             assert!(model.output().is_some() && !model.loads().is_empty());
             read += 1;
@@ -53,7 +53,9 @@ fn every_reference_file_is_read() {
 #[test]
 fn everything_keeps_the_order_of_the_file() {
     let path = reference("every_joint.ron");
-    let model = load_mechanism(&path, &Registry::builtin()).unwrap().model;
+    let model = load_mechanism(&path, &Disk, &Registry::builtin())
+        .unwrap()
+        .model;
     let bodies: Vec<_> = model.bodies().iter().map(|b| b.name.as_str()).collect();
     assert_eq!(bodies, ["l1", "l2", "l3", "l4", "l5", "l6", "l7", "top"]);
     let joints: Vec<_> = model.joints().iter().map(|j| j.name.as_str()).collect();
@@ -253,7 +255,9 @@ fn stiffness_is_by_direction_or_a_matrix() {
 #[test]
 fn frames_of_the_reference_joints_are_rotations() {
     let path = reference("delta_elastic_joints.ron");
-    let model = load_mechanism(&path, &Registry::builtin()).unwrap().model;
+    let model = load_mechanism(&path, &Disk, &Registry::builtin())
+        .unwrap()
+        .model;
     assert_eq!(model.joints().len(), 21);
     for frame in &model.geometry().frames {
         let error = frame.matrix().transpose() * frame.matrix() - Matrix3::identity();
@@ -291,7 +295,8 @@ fn comments_headers_marks_and_line_ends_are_passed_over() {
 fn places_are_exact_between_comments() {
     let text = include_str!("../../../../examples/portal.ron");
     let text = text.replace("0.014", "/* ü */ -0.014 /* mm? */");
-    let error = mechanism_from_str(&text, Path::new("p.ron"), &Registry::builtin()).unwrap_err();
+    let error =
+        mechanism_from_str(&text, Path::new("p.ron"), &Disk, &Registry::builtin()).unwrap_err();
     let at = error.location().unwrap();
     let line = text.lines().nth(at.line - 1).unwrap();
     assert_eq!(at.text, line);

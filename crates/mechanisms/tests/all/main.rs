@@ -6,6 +6,8 @@ mod corpus;
 mod designs;
 mod fuzzing;
 mod loading;
+mod made;
+mod memory;
 mod mutations;
 mod states;
 mod writing;

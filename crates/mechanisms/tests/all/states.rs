@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_assembly::{Axes, Model, solve};
-use hyperstat_mechanisms::{Registry, batch_from_str, mechanism_from_str, write};
+use hyperstat_mechanisms::{Disk, Registry, batch_from_str, mechanism_from_str, write};
 use nalgebra::{Vector3, Vector6};
 
 const FILE: &str = r#"(
@@ -34,7 +34,7 @@ const FILE: &str = r#"(
 )"#;
 
 fn model(text: &str) -> Model {
-    mechanism_from_str(text, Path::new("crane.ron"), &Registry::builtin())
+    mechanism_from_str(text, Path::new("crane.ron"), &Disk, &Registry::builtin())
         .unwrap_or_else(|error| panic!("{error}"))
         .model
 }
@@ -103,7 +103,7 @@ fn a_job_replaces_what_it_gives() {
         gravity: (0.0, 0.0, -9.81),
         masses: [(on: ("platform", "P"), mass: 1.0)],
     )])"#;
-    let batch = batch_from_str(text, Path::new("."), &Registry::builtin());
+    let batch = batch_from_str(text, Path::new("."), &Disk, &Registry::builtin());
     let batch = batch.unwrap_or_else(|error| panic!("{error}"));
     let job = &batch.jobs[0];
     assert_eq!(job.cases(), ["push"]);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use hyperstat_assembly::{BodyKind, Model, Solution, solve};
 use hyperstat_joints::{Dof, DofSet, Joint};
 use hyperstat_mechanisms::{
-    Input, Orientation, ParsedJoint, Registry, WriteError, load, mechanism_from_str, write,
+    Disk, Input, Orientation, ParsedJoint, Registry, WriteError, load, mechanism_from_str, write,
 };
 use nalgebra::{Matrix6, Vector6};
 
@@ -28,14 +28,14 @@ fn files() -> Vec<PathBuf> {
 
 /// The models of a file: its own, or those of its jobs in their first poses.
 fn models(path: &Path) -> Vec<Model> {
-    match load(path, &Registry::builtin()).unwrap() {
+    match load(path, &Disk, &Registry::builtin()).unwrap() {
         Input::Mechanism(mechanism) => vec![mechanism.model],
         Input::Batch(batch) => batch.jobs.iter().map(|job| job.model().unwrap()).collect(),
     }
 }
 
 fn read(text: &str) -> Model {
-    mechanism_from_str(text, Path::new("written.ron"), &Registry::builtin())
+    mechanism_from_str(text, Path::new("written.ron"), &Disk, &Registry::builtin())
         .unwrap_or_else(|error| panic!("{error}\n{text}"))
         .model
 }
@@ -207,7 +207,9 @@ fn a_kind_without_a_writer_is_named() {
         })
     });
     let path = Path::new("slotted.ron");
-    let model = mechanism_from_str(text, path, &registry).unwrap().model;
+    let model = mechanism_from_str(text, path, &Disk, &registry)
+        .unwrap()
+        .model;
     let error = write(&model, &registry).unwrap_err();
     let expected = WriteError::UnknownKind {
         joint: "slot".into(),
@@ -217,7 +219,9 @@ fn a_kind_without_a_writer_is_named() {
 
     registry.register_writer("Slotted", |_, _| Vec::new());
     let written = write(&model, &registry).unwrap();
-    let again = mechanism_from_str(&written, path, &registry).unwrap().model;
+    let again = mechanism_from_str(&written, path, &Disk, &registry)
+        .unwrap()
+        .model;
     assert_eq!(again.joints()[0].joint.kind(), "Slotted");
 }
 

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::Geometry;
-use hyperstat_mechanisms::{Batch, Job, PoseError, Registry, load_batch};
+use hyperstat_mechanisms::{Batch, Disk, Job, PoseError, Registry, load_batch};
 use nalgebra::{Point3, Vector3};
 
 const CRANK: f64 = 0.05; // its square
@@ -13,7 +13,7 @@ const PLACE: f64 = 1e-12;
 fn batch() -> Batch {
     let path: PathBuf =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/five_bar_sweep.ron");
-    load_batch(&path, &Registry::builtin()).expect("the book's batch")
+    load_batch(&path, &Disk, &Registry::builtin()).expect("the book's batch")
 }
 
 fn point(job: &Job, geometry: &Geometry, body: &str, point: &str) -> Point3<f64> {

@@ -6,7 +6,7 @@ use std::path::Path;
 use hyperstat_assembly::{Geometry, Model, Prepared};
 use hyperstat_closure::{Configuration, LoopClosure, Target};
 use hyperstat_elements::element_frame;
-use hyperstat_mechanisms::{Registry, mechanism_from_str, write};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str, write};
 use hyperstat_tests::stiffness_difference;
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use proptest::prelude::*;
@@ -24,8 +24,8 @@ pub fn file(case: &Case) -> Model {
     let model = case.mechanism.model(&case.home).expect("home is in reach");
     let registry = Registry::builtin();
     let text = write(&model, &registry).expect("a mechanism file");
-    let mechanism =
-        mechanism_from_str(&text, Path::new("home.ron"), &registry).expect("the same mechanism");
+    let mechanism = mechanism_from_str(&text, Path::new("home.ron"), &Disk, &registry)
+        .expect("the same mechanism");
     mechanism.model
 }
 

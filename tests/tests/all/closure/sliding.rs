@@ -6,7 +6,7 @@ use hyperstat_assembly::{Geometry, Model, Prepared};
 use hyperstat_closure::{ClosureError, LoopClosure, Target};
 use hyperstat_elements::{Beam, Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, Revolute, frame_from_axis, rigid_motion};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use nalgebra::{DMatrix, Matrix6, Point3, Vector3};
 
 const YOUNG: f64 = 2.1e11;
@@ -14,7 +14,7 @@ const POISSON: f64 = 0.3;
 const DIAMETER: f64 = 0.02;
 
 fn model(text: &str) -> Model {
-    let read = mechanism_from_str(text, "test.ron".as_ref(), &Registry::builtin());
+    let read = mechanism_from_str(text, "test.ron".as_ref(), &Disk, &Registry::builtin());
     read.expect("a mechanism").model
 }
 

@@ -2,7 +2,7 @@
 
 use hyperstat_assembly::{BeamMass, ModalOptions, ModalPlan, ModalSensitivities, Model, Parameter};
 use hyperstat_elements::{MassShape, RotaryInertia};
-use hyperstat_mechanisms::{Registry, batch_from_str};
+use hyperstat_mechanisms::{Disk, Registry, batch_from_str};
 use hyperstat_tests::reference_text;
 
 use super::{console, label, larger, near, read, slope, value};
@@ -305,7 +305,7 @@ fn equal_frequencies_part() {
     };
     let model = |first: f64, diameter: f64| {
         let path = std::path::Path::new("delta.ron");
-        let batch = batch_from_str(&text(first, diameter), path, &Registry::builtin());
+        let batch = batch_from_str(&text(first, diameter), path, &Disk, &Registry::builtin());
         batch.expect("a valid file").jobs[0]
             .model()
             .expect("a pose")

@@ -7,11 +7,11 @@ mod frequencies;
 mod names;
 
 use hyperstat_assembly::{Model, Parameter};
-use hyperstat_mechanisms::{Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use hyperstat_tests::reference_folder;
 
 fn read(text: &str) -> Model {
-    let read = mechanism_from_str(text, &reference_folder(), &Registry::builtin());
+    let read = mechanism_from_str(text, &reference_folder(), &Disk, &Registry::builtin());
     read.unwrap_or_else(|error| panic!("{error}")).model
 }
 

@@ -4,10 +4,10 @@
 use std::path::Path;
 
 use hyperstat_assembly::{ModalOptions, ModalPlan, Model, Prepared, Sensitivity, solve};
-use hyperstat_mechanisms::{Batch, Registry, batch_from_str};
+use hyperstat_mechanisms::{Batch, Disk, Registry, batch_from_str};
 
 fn batch(text: &str) -> Batch {
-    let read = batch_from_str(text, Path::new("batch.ron"), &Registry::builtin());
+    let read = batch_from_str(text, Path::new("batch.ron"), &Disk, &Registry::builtin());
     read.unwrap_or_else(|error| panic!("{error}"))
 }
 

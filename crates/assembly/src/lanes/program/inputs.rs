@@ -6,6 +6,8 @@ use hyperstat_model::{
 };
 use nalgebra::{Rotation3, Vector3};
 
+use crate::sets::Sets;
+
 /// Place of a point among the inputs.
 pub(crate) type Point = usize;
 
@@ -31,25 +33,18 @@ impl Inputs {
     /// mechanism's size: such a joint is no point.
     pub fn new(model: &Model, geometry: &Geometry, apart: f64) -> Option<Self> {
         let count = geometry.positions.len();
-        let mut same: Vec<usize> = (0..count).collect();
-        fn find(same: &mut [usize], mut k: usize) -> usize {
-            while same[k] != k {
-                same[k] = same[same[k]];
-                k = same[k];
-            }
-            k
-        }
+        let mut same = Sets::new(count);
         let bound = apart * characteristic_length(geometry);
         for joint in model.joints() {
             if let [Some(a), Some(b)] = joint.between {
                 if (geometry.positions[a.0] - geometry.positions[b.0]).norm() > bound {
                     return None;
                 }
-                let (a, b) = (find(&mut same, a.0), find(&mut same, b.0));
-                same[a.max(b)] = a.min(b);
+                let (a, b) = (same.root(a.0), same.root(b.0));
+                same.join(a.min(b), a.max(b));
             }
         }
-        let same = (0..count).map(|k| NodeId(find(&mut same, k))).collect();
+        let same = (0..count).map(|k| NodeId(same.root(k))).collect();
         Some(Self {
             sources: Vec::new(),
             same,

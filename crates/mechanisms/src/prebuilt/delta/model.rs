@@ -1,6 +1,6 @@
 //! The delta as a [`Prebuilt`].
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, Model, ValuePlace};
 use nalgebra::Point3;
 
 use super::limb::Limb;
@@ -23,6 +23,10 @@ impl Prebuilt for Delta {
 
     fn model(&self, pose: &[f64]) -> Result<Model, PoseError> {
         construction::model("delta", &self.at(pose)?)
+    }
+
+    fn origins(&self, pose: &[f64]) -> Result<Vec<(ValuePlace, String)>, PoseError> {
+        Ok(construction::origins(&self.at(pose)?))
     }
 
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {

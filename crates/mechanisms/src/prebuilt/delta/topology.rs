@@ -114,9 +114,9 @@ impl Posed<'_> {
             name: Name::limb(word, index),
             points,
             link: match part {
-                Part::Arm => &self.delta.arm,
-                Part::Bar => &self.delta.bar,
-                Part::Rod => &self.delta.rod,
+                Part::Arm => ("arm", &self.delta.arm),
+                Part::Bar => ("bar", &self.delta.bar),
+                Part::Rod => ("rod", &self.delta.rod),
             },
             y_axis: limb.y_axis(part),
             elements: self.delta.elements,

@@ -17,7 +17,7 @@ mod table;
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Input, LoadError, Registry, WriteError, load_str, mechanism_from_str, write,
+    Disk, Input, LoadError, Registry, WriteError, load_str, mechanism_from_str, write,
 };
 
 pub use folder::{Folder, jobs_alone, seeds};
@@ -31,7 +31,7 @@ pub use table::{ROLES, table};
 /// it is written and read again.
 pub fn answer(text: &str, path: &Path) -> bool {
     let registry = Registry::builtin();
-    match load_str(text, path, &registry) {
+    match load_str(text, path, &Disk, &registry) {
         Ok(Input::Batch(_)) => true,
         Ok(Input::Mechanism(mechanism)) => {
             let written = match write(&mechanism.model, &registry) {
@@ -39,7 +39,7 @@ pub fn answer(text: &str, path: &Path) -> bool {
                 Err(WriteError::Flexible { .. }) => return true,
                 Err(error) => panic!("it came from a file, but {error}"),
             };
-            let again = mechanism_from_str(&written, path, &registry)
+            let again = mechanism_from_str(&written, path, &Disk, &registry)
                 .unwrap_or_else(|error| panic!("{error}\n{written}"))
                 .model;
             assert_eq!(again.nodes().len(), mechanism.model.nodes().len());

@@ -8,7 +8,7 @@ use hyperstat_assembly::{
     describe_motions, modes, redundant_constraints,
 };
 use hyperstat_closure::{Drive, LoopClosure, Target};
-use hyperstat_mechanisms::{Design, Input, Job, Registry, load_str};
+use hyperstat_mechanisms::{Design, Disk, Input, Job, Registry, load_str};
 use nalgebra::Vector6;
 
 /// Most nodes, joints, sets of loads and elements of a model that is solved.
@@ -21,7 +21,7 @@ const FOLLOWED: usize = 2;
 /// Reads a text that stands at `path` and goes on with what was read. Whatever comes out must be
 /// finite numbers or an error.
 pub fn solve(text: &str, path: &Path) -> bool {
-    let input = load_str(text, path, &Registry::builtin());
+    let input = load_str(text, path, &Disk, &Registry::builtin());
     if let Ok(input) = &input {
         follow(input);
     }

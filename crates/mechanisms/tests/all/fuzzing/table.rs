@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use hyperstat_mechanisms::{Registry, load_str};
+use hyperstat_mechanisms::{Disk, Registry, load_str};
 
 use super::folder::Folder;
 use super::{check_error, solve};
@@ -62,7 +62,7 @@ pub fn table(bytes: &[u8], folder: &Folder) -> usize {
     let mut taken = 0;
     for role in ROLES {
         let names_it = role(&name);
-        match load_str(&names_it, &path, &Registry::builtin()) {
+        match load_str(&names_it, &path, &Disk, &Registry::builtin()) {
             Ok(input) => {
                 taken += 1;
                 solve::follow(&input);

@@ -1,0 +1,349 @@
+//! Jobs that a program makes, of what would stand in a batch file.
+
+use std::sync::Arc;
+
+use super::batch::{FIELDS, Job, job_name};
+use super::subject::Recipe;
+use crate::error::LoadError;
+use crate::file::mechanism::Mechanism;
+use crate::file::registry::Registry;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::source::{Place, Source};
+use crate::text::tree::Node;
+use crate::text::value::Value;
+use crate::text::{csv, names, paths};
+
+/// The mechanism of a job that a program makes.
+#[derive(Debug, Clone)]
+pub enum JobMechanism {
+    /// A prebuilt one by the name of its kind and its parameters, each a number or as it is written in a
+    /// file: `(section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3))`.
+    Prebuilt {
+        /// Name of its kind, such as `Delta`.
+        kind: String,
+        /// Names and values of its parameters.
+        parameters: Vec<(String, Value)>,
+    },
+    /// One that was read, as it was read: what has been changed in its model since is not taken over.
+    Loaded(Box<Mechanism>),
+}
+
+impl JobMechanism {
+    /// A prebuilt mechanism.
+    pub fn prebuilt<P: Into<String>, V: Into<Value>>(
+        kind: &str,
+        parameters: impl IntoIterator<Item = (P, V)>,
+    ) -> Self {
+        let parameter = |(name, value): (P, V)| (name.into(), value.into());
+        Self::Prebuilt {
+            kind: kind.into(),
+            parameters: parameters.into_iter().map(parameter).collect(),
+        }
+    }
+}
+
+impl From<Mechanism> for JobMechanism {
+    fn from(mechanism: Mechanism) -> Self {
+        Self::Loaded(Box::new(mechanism))
+    }
+}
+
+/// The poses of a job that a program makes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JobPoses {
+    /// The mechanism's own configuration.
+    Own,
+    /// A row of numbers a pose: coordinates x y z \[m\] rx ry rz \[rad\] of the output, the first three or
+    /// all six for a prebuilt mechanism, any for one of a file; or values \[m, rad\] of drives of one of a
+    /// file, `joint.direction`.
+    Table {
+        /// Names of the columns.
+        columns: Vec<String>,
+        /// Row after row.
+        rows: Vec<f64>,
+    },
+    /// As it is written in a batch file: `Grid(x: (-0.2, 0.2, 41), …)`.
+    Written(String),
+}
+
+impl JobPoses {
+    /// Poses of the first `N` of x, y, z \[m\], rx, ry, rz \[rad\]: three or six.
+    pub fn list<const N: usize>(poses: &[[f64; N]]) -> Self {
+        let name = |k: usize| {
+            csv::COLUMNS
+                .get(k)
+                .map_or(k.to_string(), |name| (*name).into())
+        };
+        Self::Table {
+            columns: (0..N).map(name).collect(),
+            rows: poses.as_flattened().to_vec(),
+        }
+    }
+}
+
+/// A load on a point of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JobLoad {
+    /// Body and point, such as `("platform", "P")`.
+    pub on: (String, String),
+    /// Force \[N\] in global axes.
+    pub force: [f64; 3],
+    /// Moment \[N·m\] in global axes.
+    pub moment: [f64; 3],
+}
+
+impl JobLoad {
+    fn written(&self) -> String {
+        let (body, point) = &self.on;
+        let vector = |[x, y, z]: [f64; 3]| format!("({x:?}, {y:?}, {z:?})");
+        let (force, moment) = (vector(self.force), vector(self.moment));
+        format!("(on: ({body:?}, {point:?}), force: {force}, moment: {moment})")
+    }
+
+    fn list(loads: &[Self]) -> String {
+        let loads: Vec<String> = loads.iter().map(Self::written).collect();
+        format!("[{}]", loads.join(", "))
+    }
+}
+
+/// The place of an argument that is written as it would stand in a file.
+fn argument(name: &str, text: String, near: Option<&Arc<Source>>) -> Result<Place, LoadError> {
+    let source = Source::argument(name, text, near);
+    Fragment::of_file(&source).map(Fragment::place)
+}
+
+impl Job {
+    /// A job of a mechanism in some poses, checked as that of a file. Mistakes name the argument they are
+    /// about in place of a file: `poses.3.rx`, `mechanism.arm_length`.
+    ///
+    /// ```
+    /// use hyperstat_mechanisms::{Job, JobLoad, JobMechanism, JobPoses, Registry, Value};
+    ///
+    /// let link = |diameter: f64| {
+    ///     let material = "(young: 2.1e11, poisson: 0.3)";
+    ///     Value::Text(format!("(section: Circle(diameter: {diameter:?}), material: {material})"))
+    /// };
+    /// let delta = JobMechanism::prebuilt("Delta", [
+    ///     ("base_radius", 0.25.into()), ("platform_radius", 0.06.into()), ("arm_length", 0.30.into()),
+    ///     ("rod_length", 0.60.into()), ("rod_spacing", 0.12.into()),
+    ///     ("arm", link(0.030)), ("bar", link(0.020)), ("rod", link(0.014)),
+    /// ]);
+    /// let poses = JobPoses::list(&[[0.0, 0.0, 0.5], [0.1, -0.1, 0.55]]);
+    /// let mut job = Job::new("sweep", delta, poses, &Registry::builtin())?;
+    /// let on = ("platform".into(), "P".into());
+    /// job.set_loads(&[JobLoad { on, force: [0.0, 0.0, -50.0], moment: [0.0; 3] }])?;
+    /// job.set_vary(&[("rod.section.diameter", vec![0.012.into(), 0.014.into()])], false)?;
+    /// assert_eq!((job.len(), job.designs()), (2, 2));
+    /// let error = job.set_vary(&[("rod.diameter", vec![0.012.into()])], false).unwrap_err();
+    /// assert_eq!(error.to_string(), "vary:1:8: `rod` has no `diameter`");
+    /// # Ok::<(), hyperstat_mechanisms::LoadError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A name that could not be that of a job, an unknown kind of mechanism, and what is wrong with the
+    /// mechanism or the poses.
+    pub fn new(
+        name: &str,
+        mechanism: impl Into<JobMechanism>,
+        poses: JobPoses,
+        registry: &Registry,
+    ) -> Result<Self, LoadError> {
+        let place = argument("name", format!("{name:?}"), None)?;
+        let name = job_name(Fragment::at(&place))?;
+        let (root, recipe) = recipe(mechanism.into(), registry)?;
+        let near = root.source.clone();
+        let checked = recipe.read(recipe.root())?;
+        let mut written = vec![("mechanism", root)];
+        let poses = match poses {
+            JobPoses::Own => Some(checked.own_pose(&written[0].1)?),
+            JobPoses::Table { columns, rows } => {
+                let at = |part: &str| {
+                    let name = match part {
+                        "" => "poses".into(),
+                        part => format!("poses.{part}"),
+                    };
+                    Place::whole(&Source::argument(&name, String::new(), None))
+                };
+                check_rows(&columns, &rows, at)?;
+                Some(checked.poses_of(&columns, &rows, &at(""), at)?)
+            }
+            JobPoses::Written(text) => {
+                written.push(("poses", argument("poses", text, Some(&near))?));
+                None
+            }
+        };
+        let fields = fields(&place, &written);
+        Self::read(name, &fields, place.clone(), recipe, poses.map(Arc::new))
+    }
+
+    /// Sets a field of the job to what would stand there in a batch file: `loads`, `cases`, `gravity`,
+    /// `masses`, `misfits`, `preloads`, `modes`, `figures`, `vary` or `zip`. What it had there is replaced; an empty text takes it
+    /// away.
+    ///
+    /// # Errors
+    /// An unknown field, what is wrong with its value. The job is then as it was.
+    pub fn set(&mut self, field: &str, value: &str) -> Result<(), LoadError> {
+        self.set_all(&[(field, value.into())])
+    }
+
+    /// Sets the loads.
+    ///
+    /// # Errors
+    /// A body or a point that the mechanism does not have, a number that is not finite. The job is then
+    /// as it was.
+    pub fn set_loads(&mut self, loads: &[JobLoad]) -> Result<(), LoadError> {
+        self.set("loads", &JobLoad::list(loads))
+    }
+
+    /// Sets the load cases, by name.
+    ///
+    /// # Errors
+    /// As [`Job::set_loads`]; a name that is empty, holds a `.` or is given twice.
+    pub fn set_cases(&mut self, cases: &[(&str, Vec<JobLoad>)]) -> Result<(), LoadError> {
+        let case =
+            |(name, loads): &(&str, Vec<JobLoad>)| format!("{name:?}: {}", JobLoad::list(loads));
+        let cases: Vec<String> = cases.iter().map(case).collect();
+        self.set("cases", &format!("{{{}}}", cases.join(", ")))
+    }
+
+    /// Sets what varies from design to design: paths in the mechanism and the values of each, all
+    /// combinations or, with `zip`, side by side. None at all: nothing varies.
+    ///
+    /// # Errors
+    /// A path that leads nowhere, no values, and what `vary` in a file refuses. The job is then as it was.
+    pub fn set_vary(&mut self, vary: &[(&str, Vec<Value>)], zip: bool) -> Result<(), LoadError> {
+        let root = self.recipe.root();
+        let axis = |(path, values): &(&str, Vec<Value>)| {
+            let source = Source::argument("vary", format!("{path:?}"), None);
+            let key = Place::whole(&source);
+            let steps = paths::find(root, Fragment::at(&key)).ok();
+            let old = steps.and_then(|steps| root.find(&steps));
+            let values: Vec<String> = values.iter().map(|value| value.written(old)).collect();
+            format!("{path:?}: [{}]", values.join(", "))
+        };
+        let axes: Vec<String> = vary.iter().map(axis).collect();
+        let vary = match axes.is_empty() {
+            true => String::new(),
+            false => format!("{{ {} }}", axes.join(", ")),
+        };
+        let zip = if zip { "true" } else { "" };
+        self.set_all(&[("vary", vary), ("zip", zip.into())])
+    }
+
+    /// Sets fields, or takes away those whose text is empty.
+    fn set_all(&mut self, values: &[(&str, String)]) -> Result<(), LoadError> {
+        let mut written = self.written.clone();
+        let near = Arc::clone(self.recipe.root().source());
+        for (field, text) in values {
+            let known = FIELDS
+                .iter()
+                .filter(|known| !["name", "mechanism", "poses"].contains(known));
+            let Some(&name) = known.clone().find(|known| *known == field) else {
+                let whole = Place::whole(&Source::argument("field", String::new(), None));
+                return Err(whole
+                    .error(format!("unknown field `{field}` of a job"))
+                    .with_help(names::help(field, "fields", known.copied())));
+            };
+            written.retain(|(other, _)| *other != name);
+            if !text.is_empty() {
+                written.push((name, argument(name, text.clone(), Some(&near))?));
+            }
+        }
+        let fields = fields(&self.place, &written);
+        let recipe = self.recipe.with_acting(&fields);
+        let poses = Some(Arc::clone(&self.poses));
+        let (name, place) = (self.name.clone(), self.place.clone());
+        let mut job = Self::read(name, &fields, place, recipe, poses)?;
+        // What a program has put there by itself stays.
+        let set = |name: &str| values.iter().any(|(field, _)| *field == name);
+        if !set("modes") {
+            job.modes = self.modes.take();
+        }
+        if !set("figures") {
+            job.figures = std::mem::take(&mut self.figures);
+            job.figure_places = std::mem::take(&mut self.figure_places);
+        }
+        *self = job;
+        Ok(())
+    }
+}
+
+/// Fields that stand at these places.
+fn fields<'a>(whole: &'a Place, written: &'a [(&'static str, Place)]) -> Fields<'a> {
+    let field = |(name, place): &'a (&'static str, Place)| (*name, Fragment::at(place));
+    let written = written.iter().map(field).collect();
+    Fields::of(Fragment::at(whole), "a job", written)
+}
+
+/// The recipe of a mechanism, and where it stands.
+fn recipe(mechanism: JobMechanism, registry: &Registry) -> Result<(Place, Recipe), LoadError> {
+    let none = Place::whole(&Source::argument("mechanism", String::new(), None));
+    let none = fields(&none, &[]);
+    match mechanism {
+        JobMechanism::Loaded(mechanism) => {
+            let root = mechanism.root();
+            Ok((
+                root.place(),
+                Recipe::of(root.clone(), None, &none, registry),
+            ))
+        }
+        JobMechanism::Prebuilt { kind, parameters } => {
+            let Some(known) = registry.prebuilt(&kind) else {
+                let whole = Place::whole(&Source::argument("mechanism", kind.clone(), None));
+                return Err(whole
+                    .error(format!("unknown mechanism `{kind}`"))
+                    .with_help(names::help(&kind, "mechanisms", registry.prebuilts())));
+            };
+            let mut text = format!("{kind}(");
+            let mut values = Vec::with_capacity(parameters.len());
+            for (name, value) in &parameters {
+                let argument = format!("mechanism.{name}");
+                let value = Source::argument(&argument, value.written(None), None);
+                values.push(Node::of(Fragment::of_file(&value)?));
+                let value = value.text();
+                text += &format!("\n    {name}: {value},");
+            }
+            let place = argument("mechanism", text + "\n)", None)?;
+            let mut root = Node::at(&place);
+            for (k, value) in values.into_iter().enumerate() {
+                root.replace(&[k], value);
+            }
+            Ok((
+                place,
+                Recipe::of(root, Some(known.clone()), &none, registry),
+            ))
+        }
+    }
+}
+
+/// Refuses rows of another length than that of the columns, and numbers that are not finite.
+fn check_rows(
+    columns: &[String],
+    rows: &[f64],
+    at: impl Fn(&str) -> Place,
+) -> Result<(), LoadError> {
+    if columns.is_empty() || !rows.len().is_multiple_of(columns.len()) {
+        return Err(at("")
+            .error(format!(
+                "{} numbers are no rows of {} columns",
+                rows.len(),
+                columns.len()
+            ))
+            .with_help("give a number for every column of every pose"));
+    }
+    if rows.is_empty() {
+        return Err(at("")
+            .error("the list of poses is empty")
+            .with_help("give at least one pose"));
+    }
+    match rows.iter().position(|number| !number.is_finite()) {
+        None => Ok(()),
+        Some(k) => {
+            let (row, column) = (k / columns.len(), &columns[k % columns.len()]);
+            Err(at(&format!("{row}.{column}"))
+                .error(format!("`{}` is not a finite number", rows[k]))
+                .with_help("give a number such as 0.25 or 2.1e11"))
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! A mechanism's text, taken apart once: every value with its parts and the place it comes from.
+//!
+//! Reading, `vary`, values from code and the names of parameters all use the same tree. A design is the
+//! tree with other values at some places: what is not on the way to them is shared, and no text is read
+//! again. What a tree does not know of a value, because it is no value of that form, is asked of the
+//! value's text, so that mistakes are told as they are without a tree.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::fragment::Fragment;
+use super::source::{Place, Source};
+
+/// A value and its parts. A copy shares the parts.
+#[derive(Debug, Clone)]
+pub(crate) struct Node {
+    source: Arc<Source>,
+    span: Range<usize>,
+    pub(super) content: Content,
+}
+
+/// What a value is made of.
+#[derive(Debug, Clone)]
+pub(super) enum Content {
+    /// A finite number.
+    Number(f64),
+    /// A text, without its quotes.
+    Text(Arc<str>),
+    Tuple(Arc<[Node]>),
+    List(Arc<[Node]>),
+    Map(Arc<[Named]>),
+    Fields(Arc<[Named]>),
+    /// A kind, by its place, and its arguments.
+    Kind(Range<usize>, Option<Arc<Node>>),
+    /// Anything else, mistakes too.
+    Other,
+}
+
+/// An entry of a map, or a field.
+#[derive(Debug, Clone)]
+pub(super) struct Named {
+    /// The name, without quotes.
+    pub(super) name: Arc<str>,
+    /// Where it stands.
+    pub(super) at: Range<usize>,
+    pub(super) value: Node,
+}
+
+/// Way to a value from the outside in: at every step the place among the parts, from 0.
+pub(crate) type Steps = Vec<usize>;
+
+/// Deepest part that is taken apart: deeper than what ron reads.
+const DEEPEST: usize = 256;
+
+impl Node {
+    /// The tree of a value of a file.
+    pub(crate) fn of(value: Fragment<'_>) -> Self {
+        Self::at_depth(value, 0)
+    }
+
+    /// The tree of what stands at a place.
+    pub(crate) fn at(place: &Place) -> Self {
+        Self::of(Fragment::at(place))
+    }
+
+    /// A number that is asked for at `origin` without standing there, such as one of a range.
+    pub(crate) fn number(number: f64, origin: Place) -> Self {
+        let text = written(number);
+        Self {
+            span: 0..text.len(),
+            content: match number.is_finite() {
+                true => Content::Number(number),
+                false => Content::Other,
+            },
+            source: Source::made(text, origin),
+        }
+    }
+
+    fn at_depth(value: Fragment<'_>, depth: usize) -> Self {
+        let part = |part: Fragment<'_>| Self::at_depth(part, depth + 1);
+        let parts = |parts: Vec<Fragment<'_>>| parts.into_iter().map(part).collect();
+        let content = match value.text().chars().next() {
+            _ if depth > DEEPEST => None,
+            Some('{') => value.map().ok().map(|entries| {
+                let named = entries.into_iter().map(|entry| Named {
+                    name: entry.name.into(),
+                    at: entry.key.span(),
+                    value: part(entry.value),
+                });
+                Content::Map(named.collect())
+            }),
+            Some('[') => value.list("").ok().map(|items| Content::List(parts(items))),
+            // What a large file has most of is tuples, and the place of a mistake takes long to find.
+            Some('(') => match value.pieces() {
+                Some(fields) => {
+                    let named = fields.into_iter().map(|(name, value)| Named {
+                        name: name.text().into(),
+                        at: name.span(),
+                        value: part(value),
+                    });
+                    Some(Content::Fields(named.collect()))
+                }
+                None => (value.tuple("").ok()).map(|items| Content::Tuple(parts(items))),
+            },
+            Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
+            Some(first) if first.is_alphabetic() || first == '_' => {
+                let kind = value.variant("").ok();
+                kind.map(|(kind, inner)| Content::Kind(kind.span(), inner.map(part).map(Arc::new)))
+            }
+            _ => value.number().ok().map(Content::Number),
+        };
+        Self {
+            source: Arc::clone(value.source()),
+            span: value.span(),
+            content: content.unwrap_or(Content::Other),
+        }
+    }
+
+    pub(crate) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    pub(crate) fn text(&self) -> &str {
+        self.source.text().get(self.span.clone()).unwrap_or("")
+    }
+
+    pub(crate) fn place(&self) -> Place {
+        Place {
+            source: Arc::clone(&self.source),
+            span: self.span.clone(),
+        }
+    }
+
+    /// Part `k` of what stands in the parentheses of a kind, or of the value itself.
+    pub(crate) fn part(&self, k: usize) -> Option<&Self> {
+        match &self.content {
+            Content::Tuple(items) | Content::List(items) => items.get(k),
+            Content::Map(named) | Content::Fields(named) => named.get(k).map(|own| &own.value),
+            Content::Kind(_, Some(inner)) => inner.part(k),
+            _ => None,
+        }
+    }
+
+    /// The value that some steps lead to.
+    pub(crate) fn find(&self, steps: &[usize]) -> Option<&Self> {
+        steps.iter().try_fold(self, |node, &k| node.part(k))
+    }
+
+    /// Puts a value in the place of the one that some steps lead to.
+    pub(crate) fn replace(&mut self, steps: &[usize], value: Self) {
+        let Some((&first, rest)) = steps.split_first() else {
+            *self = value;
+            return;
+        };
+        let part = match &mut self.content {
+            Content::Tuple(items) | Content::List(items) => Arc::make_mut(items).get_mut(first),
+            Content::Map(named) | Content::Fields(named) => {
+                let own = Arc::make_mut(named).get_mut(first);
+                own.map(|own| &mut own.value)
+            }
+            Content::Kind(_, Some(inner)) => return Arc::make_mut(inner).replace(steps, value),
+            _ => None,
+        };
+        if let Some(part) = part {
+            part.replace(rest, value);
+        }
+    }
+
+    /// All finite numbers in it that a path leads to, each with its path and its steps.
+    pub(crate) fn numbers(&self) -> Vec<Number> {
+        let mut found = Vec::new();
+        self.add_numbers("", &mut Vec::new(), &mut found);
+        found
+    }
+
+    fn add_numbers(&self, path: &str, steps: &mut Steps, found: &mut Vec<Number>) {
+        let parts: Vec<(String, &Self)> = match &self.content {
+            Content::Number(value) => {
+                found.push(Number {
+                    path: path.into(),
+                    steps: steps.clone(),
+                    value: *value,
+                });
+                return;
+            }
+            Content::Tuple(items) | Content::List(items) => {
+                let items = items.iter().enumerate();
+                items.map(|(k, item)| (k.to_string(), item)).collect()
+            }
+            Content::Map(named) | Content::Fields(named) => {
+                let named = named.iter();
+                named
+                    .map(|own| (own.name.to_string(), &own.value))
+                    .collect()
+            }
+            Content::Kind(_, Some(inner)) => return inner.add_numbers(path, steps, found),
+            _ => return,
+        };
+        let dotted = parts.iter().any(|(name, _)| name.contains('.'));
+        let before = path.len() + usize::from(!path.is_empty());
+        for (k, (name, part)) in parts.iter().enumerate() {
+            let path = match path {
+                "" => name.clone(),
+                path => format!("{path}.{name}"),
+            };
+            let start = found.len();
+            steps.push(k);
+            part.add_numbers(&path, steps, found);
+            steps.pop();
+            // Where a name goes on as another one does, a path may lead there.
+            let longer = |other: &&(String, &Self)| {
+                let rest = other.0.strip_prefix(name.as_str());
+                rest.is_some_and(|rest| rest.starts_with('.'))
+            };
+            for (other, _) in parts.iter().filter(|_| dotted).filter(longer) {
+                let mut place = 0;
+                found.retain(|number| {
+                    place += 1;
+                    place <= start || !starts_with(&number.path[before..], other)
+                });
+            }
+        }
+    }
+}
+
+/// A number in a tree.
+#[derive(Debug)]
+pub(crate) struct Number {
+    pub(crate) path: String,
+    pub(crate) steps: Steps,
+    pub(crate) value: f64,
+}
+
+/// Whether the first steps of a path are this name.
+pub(super) fn starts_with(path: &str, name: &str) -> bool {
+    let rest = path.strip_prefix(name);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+/// The shortest number that reads back to the same double; whole ones as what counts is written.
+pub(crate) fn written(number: f64) -> String {
+    /// Whole numbers up to here are written without a point.
+    const LARGEST: f64 = 1e15;
+    if number.fract() == 0.0 && number.abs() < LARGEST {
+        format!("{number:.0}")
+    } else {
+        format!("{number:?}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::text::files::MemoryFiles;
+    use crate::text::paths;
+
+    fn tree(text: &str) -> Node {
+        let source = Source::new(Path::new("f.ron"), text, &MemoryFiles::new());
+        Node::of(Fragment::of_file(&source).unwrap())
+    }
+
+    fn steps(tree: &Node, path: &str) -> Steps {
+        let source = Source::argument("path", format!("{path:?}"), None);
+        paths::find(tree, Fragment::at(&Place::whole(&source))).unwrap()
+    }
+
+    const TEXT: &str = r#"(
+        name: "five", // no number
+        sections: { "rod": Circle(diameter: 0.02), "a": General(area: 1e-4), "a.area": (area: 3) },
+        points: { "A": (0.0, -1, 2.5) }, list: [1, (x: 2), [3, Kind(4)]], count: 7, flag: true,
+    )"#;
+
+    #[test]
+    fn every_number_has_its_path_and_every_path_its_number() {
+        let tree = tree(TEXT);
+        let found = tree.numbers();
+        let listed: Vec<_> = found.iter().map(|n| (n.path.as_str(), n.value)).collect();
+        // No path leads to the area of `a`: `sections.a.area` is another section.
+        let expected = [
+            ("sections.rod.diameter", 0.02),
+            ("sections.a.area.area", 3.0),
+            ("points.A.0", 0.0),
+            ("points.A.1", -1.0),
+            ("points.A.2", 2.5),
+            ("list.0", 1.0),
+            ("list.1.x", 2.0),
+            ("list.2.0", 3.0),
+            ("list.2.1.0", 4.0),
+            ("count", 7.0),
+        ];
+        assert_eq!(listed, expected);
+        for number in found {
+            assert_eq!(steps(&tree, &number.path), number.steps, "{}", number.path);
+            let value = Fragment::of_node(tree.find(&number.steps).unwrap());
+            assert_eq!(value.number().unwrap(), number.value);
+        }
+    }
+
+    #[test]
+    fn what_is_not_on_the_way_to_a_value_is_shared() {
+        let whole = tree(TEXT);
+        let mut changed = whole.clone();
+        let origin = whole.place();
+        let way = steps(&whole, "sections.rod.diameter");
+        changed.replace(&way, Node::number(0.03, origin));
+        let number = |tree: &Node| Fragment::of_node(tree.find(&way).unwrap()).number();
+        assert_eq!(
+            (number(&whole).unwrap(), number(&changed).unwrap()),
+            (0.02, 0.03)
+        );
+        let parts = |tree: &Node, path: &str| match &tree.find(&steps(tree, path)).unwrap().content
+        {
+            Content::List(items) | Content::Tuple(items) => Arc::as_ptr(items).cast::<()>(),
+            Content::Map(named) | Content::Fields(named) => Arc::as_ptr(named).cast::<()>(),
+            other => panic!("{other:?}"),
+        };
+        for path in ["points", "list", "sections.a.area"] {
+            assert_eq!(parts(&whole, path), parts(&changed, path), "{path}");
+        }
+        assert_ne!(parts(&whole, "sections"), parts(&changed, "sections"));
+    }
+}

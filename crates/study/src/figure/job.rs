@@ -1,0 +1,261 @@
+//! The figures that a job asks for.
+
+use hyperstat_assembly::{ModalOptions, Prepared, Solution};
+use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Scale};
+
+use super::budget::budget as budget_figure;
+use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
+use super::drawing::Drawing;
+use super::map::{Map, figure as map_figure};
+use super::quantity::{Drawn, instead_of, is_frequency};
+use super::rows::Choice;
+use super::trajectory::Trajectory;
+use crate::answer::Asked;
+use crate::error::StudyError;
+use crate::plot_error::PlotError;
+use crate::source::Source;
+use crate::study::job_model;
+use crate::table::TableReader;
+
+/// That the job's maps are of quantities that its table, with these columns, will hold, over planes
+/// and along axes that its poses have, and that it has modes where one is to be drawn.
+///
+/// # Errors
+/// What is wrong with the first that is wrong.
+pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
+    for (place, figure) in job.figures.iter().enumerate() {
+        match figure {
+            Figure::Map { value, .. } => {
+                let refused = |source| StudyError::JobMap {
+                    location: Box::new(job.figure_location(place)),
+                    source: Box::new(source),
+                };
+                if Drawn::named(value, columns).is_none() {
+                    return Err(refused(PlotError::NoQuantity {
+                        name: value.clone(),
+                        help: match (&job.modes, is_frequency(value)) {
+                            (None, true) => {
+                                let count = value.trim_start_matches(['f', '0']);
+                                format!("natural frequencies need `modes: {count}` in the job")
+                            }
+                            _ => instead_of(value, columns),
+                        },
+                    }));
+                }
+                let commanded = job.commanded();
+                if let Some(map) = map(job, figure, &commanded) {
+                    map.check(&commanded).map_err(refused)?;
+                }
+            }
+            // Of a job that varies it is left out where the first design has none.
+            Figure::Mode { number, .. } if job.varied().is_empty() => {
+                // Where no pose can be reached there is no model, and no figure.
+                if let Ok(model) = job.model() {
+                    let prepared = Prepared::new(model);
+                    let modal = prepared.modal(&modal_options(job, *number));
+                    modal.map_err(|error| Source::Job(job).unsolvable(&prepared.here(), error))?;
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// The masses that the job's modes are found with, for so many of them.
+fn modal_options(job: &Job, count: usize) -> ModalOptions {
+    let of_job = job.modes.clone();
+    of_job.map_or_else(
+        || ModalOptions::lowest(count),
+        |options| ModalOptions { count, ..options },
+    )
+}
+
+/// Names of the job's figures: `<job>-<figure>`, numbered from 1 where the job has several of a kind.
+pub fn names(job: &Job) -> impl Iterator<Item = String> {
+    (0..job.figures.len()).map(move |place| file_name(job, place))
+}
+
+/// Draws the figure of this place among those of the job. Of its poses the sweep has seen those of
+/// `trajectory`; `table` opens the job's table, which is complete.
+///
+/// # Errors
+/// Why there is no such figure, in words.
+pub fn draw(
+    job: &Job,
+    place: usize,
+    trajectory: Option<&Trajectory>,
+    table: impl FnOnce() -> Result<TableReader, PlotError>,
+) -> Result<Drawing, String> {
+    let figure = &job.figures[place];
+    match figure {
+        Figure::Trajectory { scale } => trajectory
+            .filter(|trajectory| !trajectory.is_empty())
+            .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, figure_scale(*scale))))
+            .ok_or_else(|| NO_RESULT.to_string()),
+        Figure::Deformed { pose, case, scale } => {
+            deformed(job, *pose, case.as_deref(), figure_scale(*scale))
+                .ok_or_else(|| NO_RESULT.to_string())
+        }
+        Figure::Mode {
+            number,
+            pose,
+            scale,
+        } => mode(job, *number, *pose, figure_scale(*scale)),
+        Figure::Budget { along, pose, case } => {
+            let (case, along) = (case.clone(), *along);
+            budget(job, &Asked { case, along }, *pose)
+        }
+        Figure::Map { .. } => {
+            let drawn = table().and_then(|table| drawn_map(job, figure, &table));
+            drawn.map_err(|error| {
+                let help = error
+                    .help()
+                    .map_or_else(String::new, |help| format!("; {help}"));
+                format!("{error}{help}")
+            })
+        }
+    }
+}
+
+/// The mechanism at a pose with its solution, under the loads of a case where one is named; `None`
+/// where it has none, or the output moves freely.
+fn solved(job: &Job, pose: usize, case: Option<&str>) -> Option<(Prepared, Solution)> {
+    let prepared = Prepared::new(job_model(job, pose).ok()?);
+    let mut solution = prepared.here().solve().ok()?;
+    if let Some(name) = case {
+        solution = solution.of_case(name)?;
+    }
+    let held = solution.output.free_motions.is_empty();
+    held.then_some((prepared, solution))
+}
+
+/// Title of a figure of the job's first design that can be.
+fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
+    let design = (!job.varied().is_empty()).then_some(job.first_design());
+    crate::title::title(&job.name, design, Some(pose), case)
+}
+
+fn deformed(
+    job: &Job,
+    pose: usize,
+    case: Option<&str>,
+    scale: hyperstat_figures::Scale,
+) -> Option<Drawing> {
+    let (prepared, solution) = solved(job, pose, case)?;
+    let model = prepared.model();
+    let title = title(job, pose, case);
+    let mut figure = deformed_figure(model, &solution, title, scale).ok()?;
+    if case.is_none()
+        && let Ok(reference) = hyperstat_reference::solve(model)
+    {
+        compare(&mut figure, model, &solution, &reference);
+    }
+    Some(Drawing::Deformed(figure))
+}
+
+fn mode(
+    job: &Job,
+    number: usize,
+    pose: usize,
+    scale: hyperstat_figures::Scale,
+) -> Result<Drawing, String> {
+    let model = job_model(job, pose).map_err(|_| NO_RESULT)?;
+    let found = hyperstat_assembly::modes(&model, &modal_options(job, number))
+        .map_err(|error| error.to_string())?;
+    let mode = found.modes.get(number - 1).ok_or_else(|| {
+        format!(
+            "there are {} modes only (more `elements` a segment make more)",
+            found.modes.len()
+        )
+    })?;
+    let title = title(job, pose, None);
+    mode_figure(&model, mode, number, title, scale)
+        .map(Drawing::Deformed)
+        .map_err(|error| error.to_string())
+}
+
+fn budget(job: &Job, asked: &Asked, pose: usize) -> Result<Drawing, String> {
+    let (prepared, solution) = solved(job, pose, asked.case.as_deref()).ok_or(NO_RESULT)?;
+    let budget = crate::answer::budget(&prepared.here(), &solution, asked)
+        .map_err(|error| error.to_string())?
+        .ok_or(NO_RESULT)?;
+    let model = prepared.model();
+    let output = model.output().map(|node| model.node_name(node));
+    let title = title(job, pose, asked.case.as_deref());
+    budget_figure(&budget, &output.unwrap_or_default(), title)
+        .map(Drawing::Budget)
+        .ok_or_else(|| "the output does not move along this direction".into())
+}
+
+/// Why a figure of poses without a result is left out.
+const NO_RESULT: &str = "the poses it would show have no result";
+
+/// The map of the job's table that is now complete, as `plot` draws it.
+fn drawn_map(job: &Job, figure: &Figure, table: &TableReader) -> Result<Drawing, PlotError> {
+    let map = map(job, figure, &job.commanded()).ok_or_else(|| PlotError::Nothing {
+        path: table.path().into(),
+    })?;
+    map_figure(table, &map).map(Drawing::Map)
+}
+
+/// A figure that is a map, of a job whose poses give these coordinates.
+fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
+    let Figure::Map {
+        value,
+        planes,
+        axes,
+        limits,
+        scale,
+    } = figure
+    else {
+        return None;
+    };
+    let names = commanded.iter().map(|coordinate| coordinate.name.clone());
+    Some(Map {
+        value: value.clone(),
+        planes: planes.clone(),
+        axes: axes.clone(),
+        asked: Some(names.collect()),
+        limits: *limits,
+        scale: match scale {
+            ColorScale::Auto => hyperstat_figures::ColorScale::Auto,
+            ColorScale::Linear => hyperstat_figures::ColorScale::Linear,
+            ColorScale::Log => hyperstat_figures::ColorScale::Log,
+        },
+        choice: Choice {
+            design: Some(job.first_design()),
+            pose: None,
+        },
+        title: None,
+    })
+}
+
+/// `<job>-<figure>`, numbered from 1 where the job has several figures of the kind.
+fn file_name(job: &Job, place: usize) -> String {
+    let kinds: Vec<_> = job.figures.iter().map(kind).collect();
+    let kind = kinds[place];
+    let of_kind = |kinds: &[&str]| kinds.iter().filter(|k| **k == kind).count();
+    if of_kind(&kinds) == 1 {
+        format!("{}-{kind}", job.name)
+    } else {
+        format!("{}-{kind}-{}", job.name, of_kind(&kinds[..=place]))
+    }
+}
+
+fn kind(figure: &Figure) -> &'static str {
+    match figure {
+        Figure::Trajectory { .. } => "trajectory",
+        Figure::Deformed { .. } => "deformed",
+        Figure::Mode { .. } => "mode",
+        Figure::Budget { .. } => "budget",
+        Figure::Map { .. } => "map",
+    }
+}
+
+fn figure_scale(scale: Scale) -> hyperstat_figures::Scale {
+    match scale {
+        Scale::Auto => hyperstat_figures::Scale::Auto,
+        Scale::Factor(factor) => hyperstat_figures::Scale::Factor(factor),
+    }
+}

@@ -1,0 +1,29 @@
+//! Figures of all kinds, drawn, captioned and written in one way: for `hyperstat plot` and for the
+//! `figures` of a job.
+
+mod budget;
+mod coordinates;
+mod deformed;
+mod drawing;
+mod job;
+mod lines;
+mod map;
+mod of_study;
+mod plane;
+mod quantity;
+mod rows;
+mod second;
+mod solved;
+mod trajectory;
+
+pub use budget::budget;
+pub use deformed::{compare, deformed, mode};
+pub use drawing::Drawing;
+pub use job::{check, draw, names};
+pub use lines::{Lines, figure as lines};
+pub use map::{Map, figure as map};
+pub use of_study::Look;
+pub use quantity::{Drawn, instead_of, is_frequency};
+pub use rows::{Choice, first_design};
+pub use solved::Solved;
+pub use trajectory::{Trajectory, of_table as trajectory};

@@ -1,0 +1,97 @@
+//! Figures of a study: deformed, in a natural mode, and what its deflection comes from.
+
+use std::path::Path;
+
+use hyperstat_figures::Scale;
+
+use super::budget::budget;
+use super::deformed::{compare, deformed, mode};
+use super::drawing::Drawing;
+use crate::answer::Asked;
+use crate::error::StudyError;
+use crate::plot_error::PlotError;
+use crate::study::Study;
+
+/// What a figure of a study looks like.
+#[derive(Debug, Clone, Default)]
+pub struct Look {
+    /// Magnification.
+    pub scale: Scale,
+    /// Title; else one that says what is drawn.
+    pub title: Option<String>,
+}
+
+impl Study {
+    /// The mechanism undeformed and deformed, under its loads or those of a case; with the points of
+    /// the independent solver where it is to `verify`.
+    ///
+    /// # Errors
+    /// It has no solution, or no such case, or the output moves freely.
+    pub fn deformed(
+        &self,
+        case: Option<&str>,
+        verify: bool,
+        look: Look,
+    ) -> Result<Drawing, StudyError> {
+        let solution = self.solve_held()?;
+        let loaded = self.under(&solution, case)?;
+        let title = look.title.unwrap_or_else(|| self.title(case));
+        let mut figure = deformed(self.model(), &loaded, title, look.scale)
+            .map_err(|error| self.unsolvable(error))?;
+        if verify {
+            let reference = self.reference()?;
+            compare(&mut figure, self.model(), &solution, &reference);
+        }
+        Ok(Drawing::Deformed(figure))
+    }
+
+    /// The mechanism in its natural mode of this number, from 1; `path` is the file that an error
+    /// names.
+    ///
+    /// # Errors
+    /// It has no such mode.
+    pub fn mode(&self, path: &Path, number: usize, look: Look) -> Result<Drawing, StudyError> {
+        let options = self.modal_options(Some(number), false);
+        let modes = options.as_ref().map(|options| self.modes(options));
+        let modes = modes
+            .transpose()?
+            .map(|found| found.modes)
+            .unwrap_or_default();
+        let found = modes.get(number.wrapping_sub(1));
+        let found = found.ok_or_else(|| PlotError::NoMode {
+            path: path.into(),
+            number,
+            count: modes.len(),
+        })?;
+        let title = look.title.unwrap_or_else(|| self.title(None));
+        let figure = mode(self.model(), found, number, title, look.scale);
+        Ok(Drawing::Deformed(
+            figure.map_err(|error| self.unsolvable(error))?,
+        ))
+    }
+
+    /// What the deflection comes from, as bars; `path` is the file that an error names.
+    ///
+    /// # Errors
+    /// It has no solution, or no such case; the output moves freely, or not along this direction.
+    pub fn budget_figure(
+        &self,
+        path: &Path,
+        asked: &Asked,
+        title: Option<String>,
+    ) -> Result<Drawing, StudyError> {
+        let case = asked.case.as_deref();
+        let solution = self.solve_held()?;
+        let loaded = self.under(&solution, case)?;
+        let found = self.budget(&loaded, asked)?;
+        let found = found.ok_or_else(|| PlotError::Free { path: path.into() })?;
+        let output = self
+            .model()
+            .output()
+            .map(|node| self.model().node_name(node));
+        let title = title.unwrap_or_else(|| self.title(case));
+        let figure = budget(&found, &output.unwrap_or_default(), title);
+        let figure = figure.ok_or_else(|| PlotError::NoShares { path: path.into() })?;
+        Ok(Drawing::Budget(figure))
+    }
+}

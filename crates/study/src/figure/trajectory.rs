@@ -1,0 +1,140 @@
+//! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
+
+use hyperstat_assembly::Floor;
+use hyperstat_figures::{Scale, SecondMethod, TrajectoryFigure};
+use hyperstat_mechanisms::{Figure, Job};
+#[cfg(feature = "threads")]
+use rayon::prelude::*;
+
+use super::rows::Choice;
+use super::second::{SECOND, difference_in};
+use crate::answer::linear;
+use crate::plot_error::PlotError;
+use crate::study::job_model;
+use crate::sweep::Record;
+use crate::table::TableReader;
+use crate::title::title;
+
+/// Most poses that a figure shows: more cannot be told apart.
+const MOST_POSES: usize = 1000;
+
+/// Positions and displacements of a job's output at evenly spaced poses that have a result.
+#[derive(Debug)]
+pub struct Trajectory {
+    /// Every so many poses one is shown: all of them where they are not too many.
+    stride: usize,
+    /// Number of poses seen.
+    seen: usize,
+    poses: Vec<usize>,
+    commanded: Vec<[f64; 3]>,
+    displacement: Vec<[f64; 3]>,
+}
+
+impl Trajectory {
+    /// An empty trajectory, where the job asks for a figure of it.
+    pub fn wanted_by(job: &Job) -> Option<Self> {
+        let is_trajectory = |figure: &Figure| matches!(figure, Figure::Trajectory { .. });
+        job.figures.iter().any(is_trajectory).then(|| Self {
+            stride: job.len().div_ceil(MOST_POSES),
+            seen: 0,
+            poses: Vec::new(),
+            commanded: Vec::new(),
+            displacement: Vec::new(),
+        })
+    }
+
+    /// Adds the next poses.
+    pub fn add(&mut self, records: &[Record]) {
+        for record in records {
+            match (&record.result, record.pose) {
+                (Ok(found), [Some(x), Some(y), Some(z), ..])
+                    if self.seen.is_multiple_of(self.stride) =>
+                {
+                    self.poses.push(self.seen);
+                    self.commanded.push([x, y, z]);
+                    self.displacement.push(linear(&found.displacement));
+                }
+                _ => {}
+            }
+            self.seen += 1;
+        }
+    }
+
+    /// Whether no pose has a result.
+    pub(super) fn is_empty(&self) -> bool {
+        self.poses.is_empty()
+    }
+
+    /// The figure of it, with the reference solver's points.
+    pub(super) fn figure(&self, job: &Job, scale: Scale) -> TrajectoryFigure {
+        TrajectoryFigure {
+            title: job.name.clone(),
+            commanded: self.commanded.clone(),
+            displacement: self.displacement.clone(),
+            second: self.second(job),
+            scale,
+        }
+    }
+
+    /// The reference solver's displacements at the poses that the figure marks; `None` where it has
+    /// no answer at some of them. It is slow: at every pose it would take far longer than the sweep.
+    fn second(&self, job: &Job) -> Option<SecondMethod> {
+        let at = TrajectoryFigure::marked(self.poses.len());
+        let solve = |&place: &usize| {
+            let model = job_model(job, self.poses[place]).ok()?;
+            let solution = hyperstat_reference::solve(&model).ok()?;
+            Some(linear(&solution.displacement?))
+        };
+        #[cfg(feature = "threads")]
+        let displacement: Vec<_> = at.par_iter().map(solve).collect::<Option<_>>()?;
+        #[cfg(not(feature = "threads"))]
+        let displacement: Vec<_> = at.iter().map(solve).collect::<Option<_>>()?;
+        let ours: Vec<_> = at.iter().map(|place| self.displacement[*place]).collect();
+        let first = job_model(job, *self.poses.first()?).ok()?;
+        let least = Floor::of(&first).ok()?.least_displacement();
+        Some(SecondMethod {
+            name: SECOND.into(),
+            difference: difference_in(&ours, &displacement, &self.displacement, least),
+            at,
+            displacement,
+        })
+    }
+}
+
+/// The poses with a result as a trajectory, commanded and deflected.
+///
+/// # Errors
+/// No pose that is chosen has a result, or the table cannot be read.
+pub fn of_table(
+    table: &TableReader,
+    choice: Choice,
+    scale: Scale,
+    own_title: Option<String>,
+) -> Result<TrajectoryFigure, PlotError> {
+    let names = ["x", "y", "z", "dx", "dy", "dz"];
+    let columns: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
+    let columns = table.read(&columns)?;
+    let mut figure = TrajectoryFigure {
+        title: own_title.unwrap_or_else(|| {
+            let design = choice.design.filter(|_| table.varies());
+            title(&table.job(), design, None, None)
+        }),
+        commanded: Vec::new(),
+        displacement: Vec::new(),
+        second: None,
+        scale,
+    };
+    for row in choice.rows(table)? {
+        let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
+        if let Some([x, y, z, dx, dy, dz]) = numbers.as_deref() {
+            figure.commanded.push([*x, *y, *z]);
+            figure.displacement.push([*dx, *dy, *dz]);
+        }
+    }
+    match figure.commanded.is_empty() {
+        true => Err(PlotError::Nothing {
+            path: table.path().into(),
+        }),
+        false => Ok(figure),
+    }
+}

@@ -1,0 +1,40 @@
+//! Studies of mechanisms: everything that a front end needs, as a library.
+//!
+#![doc = include_str!("../README.md")]
+
+mod answer;
+mod ask;
+#[cfg(feature = "figures")]
+mod digits;
+mod doubts;
+mod drives;
+mod entries;
+mod error;
+#[cfg(feature = "figures")]
+pub mod figure;
+#[cfg(feature = "figures")]
+mod plot_error;
+mod source;
+mod study;
+pub mod sweep;
+pub mod table;
+mod title;
+mod verification;
+mod vtu;
+
+pub use answer::{
+    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, FrameReport,
+    FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
+    ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
+    SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
+    VirtualWork, Why, WorstReport,
+};
+pub use ask::{Answered, Question};
+pub use doubts::Watch;
+pub use drives::MissingDrives;
+pub use entries::Entries;
+pub use error::{Problem, StudyError};
+#[cfg(feature = "figures")]
+pub use plot_error::PlotError;
+pub use study::{Selection, Study};
+pub use verification::{StateDifferences, Verification};

@@ -1,0 +1,281 @@
+//! Why a figure that is asked for cannot be drawn.
+
+use std::io;
+use std::path::PathBuf;
+
+use hyperstat_mechanisms::Location;
+#[cfg(feature = "parquet")]
+use parquet::errors::ParquetError;
+use thiserror::Error;
+
+use crate::digits::digits;
+
+/// A table that cannot be drawn, or does not hold what is asked for.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PlotError {
+    /// A file that cannot be read.
+    #[error("cannot read {}: {source}", .path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file that is neither of the tables that `run` writes.
+    #[error("{} is no table: its name ends with neither `.csv` nor `.parquet`", .path.display())]
+    Extension {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A Parquet file that cannot be read as one.
+    #[cfg(feature = "parquet")]
+    #[error("{} cannot be read as Parquet: {source}", .path.display())]
+    Parquet {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: ParquetError,
+    },
+    /// A table without a column that each table of a run has.
+    #[error("not a table of `hyperstat run`: it has no column `{missing}`")]
+    NoRun {
+        /// Where.
+        location: Box<Location>,
+        /// The column that it lacks.
+        missing: &'static str,
+    },
+    /// A line of another number of cells than the table has columns.
+    #[error("expected {expected} cells, one a column, found {found}")]
+    Cells {
+        /// Where.
+        location: Box<Location>,
+        /// How many columns there are.
+        expected: usize,
+        /// How many cells the line has.
+        found: usize,
+    },
+    /// A cell that must hold a number and holds something else.
+    #[error("expected a number in the column `{column}`, found `{text}`")]
+    NoNumber {
+        /// Where.
+        location: Box<Location>,
+        /// Name of the column.
+        column: String,
+        /// What the cell holds.
+        text: String,
+    },
+    /// A column of texts where numbers are needed.
+    #[error("the column `{column}` of {} holds no numbers", .path.display())]
+    Texts {
+        /// The table.
+        path: PathBuf,
+        /// Name of the column.
+        column: String,
+    },
+    /// A quantity that the table does not hold.
+    #[error("{} holds no column `{name}`", .path.display())]
+    UnknownColumn {
+        /// The file.
+        path: PathBuf,
+        /// The name that was given.
+        name: String,
+        /// What would be right.
+        help: String,
+    },
+    /// A plane at which the table has no pose.
+    #[error("there is no plane {axis} = {value}")]
+    NoPlane {
+        /// The coordinate.
+        axis: String,
+        /// What was given.
+        value: f64,
+        /// What there is.
+        known: Vec<f64>,
+    },
+    /// Of a coordinate that poses have not.
+    #[error("`{name}` is no coordinate of these poses")]
+    NoCoordinate {
+        /// The name that was given.
+        name: String,
+        /// What would be right.
+        help: String,
+    },
+    /// A plane of a coordinate that nobody asked for.
+    #[error("`{axis}` follows from {}: it has no planes", .asked.join(", "))]
+    Follows {
+        /// The coordinate.
+        axis: String,
+        /// Those that were asked for.
+        asked: Vec<String>,
+    },
+    /// Planes of so many coordinates that none is left.
+    #[error("all coordinates but one are held: there are no two for a map")]
+    AllHeld,
+    /// A quantity that a table will not hold.
+    #[error("there is no quantity `{name}`")]
+    NoQuantity {
+        /// The name that was given.
+        name: String,
+        /// What would be right.
+        help: String,
+    },
+    /// A plane normal to one of the axes that lie in it.
+    #[error("a plane at one {axis} does not lie along {axis}")]
+    AlongNormal {
+        /// The coordinate.
+        axis: String,
+    },
+    /// Several poses at one place of the plane.
+    #[error("the table has several poses at {} = {}, {} = {}", .axes[0], .at[0], .axes[1], .at[1])]
+    Several {
+        /// The coordinates along the axes.
+        axes: [String; 2],
+        /// Their values there.
+        at: [String; 2],
+        /// Coordinates in which they differ.
+        differ: Vec<String>,
+    },
+    /// Nothing left to draw.
+    #[error("no pose of {} has a result there: there is nothing to draw", .path.display())]
+    Nothing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// JSON that is not of `solve --why`.
+    #[error("not the JSON of `hyperstat solve --why`: {message}")]
+    NoSolve {
+        /// Where.
+        location: Box<Location>,
+        /// What is wrong.
+        message: String,
+    },
+    /// JSON of `solve` without `--why`.
+    #[error("{} holds no budget", .path.display())]
+    NoBudget {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A budget of an output that moves freely.
+    #[error("{}: the output moves freely: nothing elastic gives, and there is no budget", .path.display())]
+    Free {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A budget of nothing.
+    #[error("{}: the output does not move along this direction: nothing has a share in it", .path.display())]
+    NoShares {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A mode beyond the last.
+    #[error("{} has no mode {number}: it has {count}", .path.display())]
+    NoMode {
+        /// The file.
+        path: PathBuf,
+        /// What was given.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A design or a pose that the table does not hold.
+    #[error("{} holds no {what} {number}", .path.display())]
+    NoRows {
+        /// The file.
+        path: PathBuf,
+        /// `design` or `pose`.
+        what: &'static str,
+        /// What was given.
+        number: usize,
+        /// The largest that it holds.
+        last: usize,
+    },
+    /// A table of a header alone.
+    #[error("{} has no rows: there is nothing to draw", .path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl PlotError {
+    /// The place in the table that the error is about.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::NoRun { location, .. }
+            | Self::Cells { location, .. }
+            | Self::NoNumber { location, .. }
+            | Self::NoSolve { location, .. } => Some(location),
+            _ => None,
+        }
+    }
+
+    /// What would be right.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Extension { .. } | Self::NoRun { .. } => {
+                Some("give a table that `hyperstat run` wrote, such as `out/delta-map.csv`".into())
+            }
+            Self::NoSolve { .. } | Self::NoBudget { .. } => Some(
+                "give what `hyperstat solve FILE.ron --why --format json` prints, or FILE.ron itself"
+                    .into(),
+            ),
+            Self::Free { .. } => Some("lock a drive or make it elastic".into()),
+            Self::NoShares { .. } => Some("give another direction".into()),
+            Self::NoMode { count: 0, .. } => {
+                Some("nothing that moves has mass: give the materials a `density`".into())
+            }
+            Self::NoMode { count, .. } => Some(format!(
+                "choose a mode from 1 to {count}, or give segments more `elements`"
+            )),
+            Self::Cells { .. } | Self::NoNumber { .. } => {
+                Some("the table is not as `hyperstat run` wrote it; run the batch again".into())
+            }
+            Self::Texts { .. } => Some("choose a column of numbers".into()),
+            Self::UnknownColumn { help, .. }
+            | Self::NoCoordinate { help, .. }
+            | Self::NoQuantity { help, .. } => Some(help.clone()),
+            Self::Follows { asked, .. } => {
+                Some(format!("choose a plane of {}, or none", asked.join(", ")))
+            }
+            Self::AllHeld => Some("leave out some of the planes".into()),
+            Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
+            Self::AlongNormal { .. } => Some("choose other axes, or another plane".into()),
+            Self::Several { differ, .. } => Some(match &**differ {
+                [] => "the same pose is there more than once: draw lines over `pose`".into(),
+                differ => format!("choose among them by a plane of {}", differ.join(" and of ")),
+            }),
+            Self::NoRows { what, last: 0, .. } => {
+                Some(format!("{what}s are counted from 0: leave the {what} out"))
+            }
+            Self::NoRows { what, last, .. } => Some(format!(
+                "choose a {what} from 0 to {last}: {what}s are counted from 0"
+            )),
+            Self::Empty { .. } => {
+                Some("`hyperstat run` writes a row for every pose; run the batch again".into())
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The planes that there are, in words.
+fn planes(axis: &str, known: &[f64]) -> String {
+    const MOST: usize = 12;
+    let list = |values: &[f64]| {
+        let values: Vec<_> = values.iter().map(|value| digits(*value, known)).collect();
+        values.join(", ")
+    };
+    match known {
+        [] => "the table has no pose".into(),
+        known if known.len() <= MOST => format!("there are planes at {axis} = {}", list(known)),
+        [first, .., last] => format!(
+            "there are {} planes from {axis} = {} to {}: {}, …",
+            known.len(),
+            list(&[*first]),
+            list(&[*last]),
+            list(&known[..MOST])
+        ),
+        [only] => format!("there is one at {axis} = {}", list(&[*only])),
+    }
+}

@@ -1,0 +1,362 @@
+//! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use hyperstat_assembly::{
+    Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
+};
+use hyperstat_joints::rigid_motion;
+use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Registry};
+
+use crate::drives::MissingDrives;
+use crate::error::StudyError;
+use crate::source::Source;
+use crate::title::title;
+
+/// A mechanism in one configuration, ready to be asked.
+#[derive(Debug)]
+pub struct Study {
+    pub(crate) prepared: Prepared,
+    /// The file that it is from, else its own name.
+    name: String,
+    files: Vec<PathBuf>,
+    origin: Origin,
+}
+
+/// What is chosen of a batch file.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// Name of the job; may be left out where there is only one.
+    pub job: Option<String>,
+    /// Number of the design, from 0, which is the default.
+    pub design: Option<usize>,
+    /// Number of the pose, from 0, which is the default.
+    pub pose: Option<usize>,
+}
+
+impl Selection {
+    /// Name of the first choice that is made.
+    fn given(&self) -> Option<&'static str> {
+        let made = [
+            ("job", self.job.is_some()),
+            ("design", self.design.is_some()),
+            ("pose", self.pose.is_some()),
+        ];
+        made.into_iter()
+            .find_map(|(what, made)| made.then_some(what))
+    }
+}
+
+#[derive(Debug)]
+enum Origin {
+    Mechanism(Box<Mechanism>),
+    Job {
+        job: Box<Job>,
+        design: Design,
+        pose: usize,
+    },
+}
+
+impl Study {
+    /// Reads a mechanism file, or one pose of a job of a batch file: the first pose of the first
+    /// design of its only job, where `selection` says nothing else.
+    ///
+    /// # Errors
+    /// The file cannot be read, with the place of what is wrong in it; it holds no such job, design
+    /// or pose; the pose is out of reach.
+    pub fn open(
+        path: &Path,
+        selection: &Selection,
+        files: &dyn Files,
+        registry: &Registry,
+    ) -> Result<Self, StudyError> {
+        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
+        Self::of(loaded, path, selection)
+    }
+
+    /// The same of what is loaded already, from the file of this name.
+    ///
+    /// # Errors
+    /// As [`Study::open`].
+    pub fn of(loaded: Input, path: &Path, selection: &Selection) -> Result<Self, StudyError> {
+        let files = loaded.files();
+        match loaded {
+            Input::Mechanism(mechanism) => {
+                if let Some(what) = selection.given() {
+                    let path = path.into();
+                    return Err(StudyError::NotABatch { what, path });
+                }
+                Ok(Self {
+                    prepared: Prepared::new(mechanism.model.clone()),
+                    name: path.display().to_string(),
+                    files,
+                    origin: Origin::Mechanism(Box::new(mechanism)),
+                })
+            }
+            Input::Batch(batch) => {
+                let job = choose(batch.jobs, path, selection)?;
+                let (design, pose) = (selection.design.unwrap_or(0), selection.pose.unwrap_or(0));
+                Ok(Self {
+                    files,
+                    ..Self::of_job(job, design, pose)?
+                })
+            }
+        }
+    }
+
+    /// A mechanism in its own configuration.
+    pub fn of_mechanism(mechanism: Mechanism) -> Self {
+        Self {
+            prepared: Prepared::new(mechanism.model.clone()),
+            name: mechanism.model.name.clone(),
+            files: Vec::new(),
+            origin: Origin::Mechanism(Box::new(mechanism)),
+        }
+    }
+
+    /// A design of a job at one of its poses, both counted from 0.
+    ///
+    /// # Errors
+    /// The job has no such design or pose; the design makes no mechanism; the pose is out of reach.
+    pub fn of_job(job: Job, design: usize, pose: usize) -> Result<Self, StudyError> {
+        if design >= job.designs() {
+            return Err(StudyError::NoSuchDesign {
+                location: Box::new(job.location()),
+                count: job.designs(),
+                job: job.name,
+                design,
+            });
+        }
+        if pose >= job.len() {
+            return Err(StudyError::NoSuchPose {
+                location: Box::new(job.location()),
+                count: job.len(),
+                job: job.name,
+                pose,
+            });
+        }
+        let design = job.design(design)?;
+        match design_model(&design, pose) {
+            Ok(model) => Ok(Self {
+                prepared: Prepared::new(model),
+                name: job.name.clone(),
+                files: Vec::new(),
+                origin: Origin::Job {
+                    job: Box::new(job),
+                    design,
+                    pose,
+                },
+            }),
+            Err(source) => Err(StudyError::Pose {
+                location: Box::new(job.location()),
+                job: job.name,
+                pose,
+                source: Box::new(source),
+            }),
+        }
+    }
+
+    /// The mechanism as data, in its configuration.
+    pub fn model(&self) -> &Model {
+        self.prepared.model()
+    }
+
+    /// The mechanism in its configuration: what is found of it is found once.
+    pub fn here(&self) -> Configuration<'_> {
+        self.prepared.here()
+    }
+
+    /// All files that were read for it.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Names values of the model by their paths in the mechanism, as `vary` takes them.
+    pub fn name_values(&mut self) {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => mechanism.name_values(self.prepared.model_mut()),
+            Origin::Job { job, design, .. } => job.name_values(design, self.prepared.model_mut()),
+        }
+    }
+
+    /// Job and pose that it is from.
+    pub fn job(&self) -> Option<(&str, usize)> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, pose, .. } => Some((&job.name, *pose)),
+        }
+    }
+
+    /// Number of the design that it is, of a job that varies.
+    pub fn design(&self) -> Option<usize> {
+        match &self.origin {
+            Origin::Job { job, design, .. } if !job.varied().is_empty() => Some(design.number()),
+            _ => None,
+        }
+    }
+
+    /// Solves the mechanism.
+    ///
+    /// # Errors
+    /// It has no solution. What is unrestrained is named, with its place in the file.
+    pub fn solve(&self) -> Result<Solution, StudyError> {
+        self.here().solve().map_err(|error| self.unsolvable(error))
+    }
+
+    /// Solves the mechanism, whose output must not move freely.
+    ///
+    /// # Errors
+    /// As [`Study::solve`]; the output moves freely.
+    pub fn solve_held(&self) -> Result<Solution, StudyError> {
+        let solution = self.solve()?;
+        self.free_output(&solution).map_or(Ok(solution), Err)
+    }
+
+    /// A solution of it, or what of it a case by this name has.
+    ///
+    /// # Errors
+    /// It has no such case.
+    pub fn under<'s>(
+        &self,
+        solution: &'s Solution,
+        case: Option<&str>,
+    ) -> Result<Cow<'s, Solution>, StudyError> {
+        let Some(name) = case else {
+            return Ok(Cow::Borrowed(solution));
+        };
+        let found = solution.of_case(name).map(Cow::Owned);
+        found.ok_or_else(|| StudyError::UnknownCase {
+            of: match self.job() {
+                Some((job, _)) => format!("job `{job}`"),
+                None => self.name.clone(),
+            },
+            case: name.into(),
+            known: (solution.cases.iter())
+                .map(|case| case.name.clone())
+                .collect(),
+        })
+    }
+
+    /// The error of the mechanism having no such result, with its place in the file.
+    pub(crate) fn unsolvable(&self, error: SolveError) -> StudyError {
+        self.source().unsolvable(&self.here(), error)
+    }
+
+    /// Title of a figure of it, under the loads of a case.
+    pub fn title(&self, case: Option<&str>) -> String {
+        match self.job() {
+            Some((job, pose)) => title(job, self.design(), Some(pose), case),
+            None => title(&self.model().name, None, None, case),
+        }
+    }
+
+    /// The idle motions, which do not depend on the loads; `None` where there is no solution even
+    /// without loads.
+    pub(crate) fn idle_motions(&self) -> Option<Vec<Motion>> {
+        self.here().idle_motions().ok()
+    }
+
+    /// The natural frequencies that its job asks for.
+    pub(crate) fn modes_of_job(&self) -> Option<&ModalOptions> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, .. } => job.modes.as_ref(),
+        }
+    }
+
+    /// The mechanism file that it is from, where it is from one.
+    pub(crate) fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { design, .. } => design.mechanism(),
+        }
+    }
+
+    /// The error of an output that moves freely in a solution of it, in words, with the drives that
+    /// could hold it; `None` where it is held.
+    pub fn free_output(&self, solution: &Solution) -> Option<StudyError> {
+        if solution.output.free_motions.is_empty() {
+            return None;
+        }
+        let model = self.model();
+        let output = model.output()?;
+        let body = model.nodes()[output.0].body;
+        let origin = model.bodies()[body.0].nodes[0];
+        let positions = &model.geometry().positions;
+        // A motion is given by its twist at the body's first node.
+        let shift = rigid_motion(&(positions[origin.0] - positions[output.0]));
+        let in_words = |twist| {
+            let twists = vec![(body, shift * twist)];
+            Motion { twists }.describe(model)
+        };
+        Some(StudyError::FreeOutput {
+            location: Box::new(self.source().output()),
+            output: model.node_name(output),
+            motions: solution.output.free_motions.iter().map(in_words).collect(),
+            drives: Box::new(MissingDrives::of(&self.here(), body)),
+        })
+    }
+
+    /// The mechanism in this configuration as a mechanism file (RON).
+    ///
+    /// # Errors
+    /// It has parts that no file can state.
+    pub fn mechanism_file(&self, registry: &Registry) -> Result<String, StudyError> {
+        hyperstat_mechanisms::write(self.model(), registry).map_err(|source| StudyError::Export {
+            location: Box::new(self.source().output()),
+            source,
+        })
+    }
+
+    pub(crate) fn source(&self) -> Source<'_> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Source::Mechanism(mechanism),
+            Origin::Job { job, design, .. } => Source::Design(job, design),
+        }
+    }
+}
+
+/// The job that is meant.
+fn choose(mut jobs: Vec<Job>, path: &Path, selection: &Selection) -> Result<Job, StudyError> {
+    let path = || path.into();
+    let known: Vec<String> = jobs.iter().map(|job| job.name.clone()).collect();
+    let place = match &selection.job {
+        Some(name) => {
+            known
+                .iter()
+                .position(|job| job == name)
+                .ok_or_else(|| StudyError::UnknownJob {
+                    path: path(),
+                    job: name.clone(),
+                    known: known.clone(),
+                })?
+        }
+        None if jobs.len() == 1 => 0,
+        None => {
+            return Err(StudyError::ChooseJob {
+                path: path(),
+                known,
+            });
+        }
+    };
+    Ok(jobs.swap_remove(place))
+}
+
+/// The model of a job's first design that can be, at one of its poses.
+pub(crate) fn job_model(job: &Job, pose: usize) -> Result<Model, PoseError> {
+    let mut model = job.model()?;
+    let mut geometry = model.geometry().clone();
+    job.place(pose, &mut geometry)?;
+    model.set_geometry(geometry)?;
+    Ok(model)
+}
+
+/// The model of a design at one of its poses.
+fn design_model(design: &Design, pose: usize) -> Result<Model, PoseError> {
+    let mut model = design.model()?;
+    let mut geometry = model.geometry().clone();
+    design.place(pose, &mut geometry)?;
+    model.set_geometry(geometry)?;
+    Ok(model)
+}

@@ -1,0 +1,300 @@
+//! A job's poses, solved on all threads, with their results handed out in order.
+
+mod chunk;
+mod record;
+mod share;
+mod statistics;
+mod summary;
+mod threads;
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Prepared, SolveError};
+use hyperstat_mechanisms::{Design, Job};
+
+use crate::error::StudyError;
+use crate::source::Source;
+pub use chunk::{Chunk, Row};
+pub use record::{Columns, Failure, Found, Held, NUMBERS, Record, UPPER};
+pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
+pub use summary::{Failures, Summary};
+pub use threads::Threads;
+
+/// Rows that a thread solves at a time.
+const CHUNK: usize = 32 * LANES;
+
+/// The same where natural frequencies make a row take long.
+const SHORT_CHUNK: usize = LANES;
+
+/// Designs after the first among which one has a topology, where the first has none.
+const TRIED: usize = 1000;
+
+/// A job whose topology is worked out.
+#[derive(Debug)]
+pub struct Sweep<'a> {
+    job: &'a Job,
+    way: Way,
+    /// Number of a design that the others share with what they can, and why no pose of it is reached,
+    /// where none is.
+    first: (usize, Result<Arc<Planned>, Failure>),
+}
+
+/// The way that poses go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Through the lanes, where they take the mechanism.
+    Lanes,
+    /// Each by itself through the numeric pass.
+    OneByOne,
+}
+
+/// A design made ready.
+#[derive(Debug)]
+struct Planned {
+    prepared: Prepared,
+    /// Where natural frequencies are asked for.
+    modal: Option<ModalPlan>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Works out the topology of a job: of the first of its designs that has one.
+    ///
+    /// # Errors
+    /// Why the first design that can be has none, where none of the next [`TRIED`] has one.
+    pub fn new(job: &'a Job, way: Way) -> Result<Self, StudyError> {
+        let planned = |number| -> Result<_, StudyError> {
+            let design = job.design(number)?;
+            let model = match design.model() {
+                Ok(model) => model,
+                // No pose in reach is told of its rows.
+                Err(error) => return Ok((number, Err(Failure::from(error)))),
+            };
+            let prepared = Prepared::new(model);
+            let planned = match Planned::modal(&prepared, job) {
+                Ok(modal) => Ok(Planned { prepared, modal }),
+                Err(error) => Err(Source::Design(job, &design).unsolvable(&prepared.here(), error)),
+            };
+            Ok((number, Ok(Arc::new(planned?))))
+        };
+        let first = job.first_design();
+        let mut others = (first + 1..job.designs()).take(TRIED);
+        let first = planned(first)
+            .or_else(|error| others.find_map(|number| planned(number).ok()).ok_or(error))?;
+        Ok(Self { job, way, first })
+    }
+
+    /// The job.
+    pub fn job(&self) -> &'a Job {
+        self.job
+    }
+
+    /// Whether it has no rows.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Number of rows of the job's table: a row a pose, design by design.
+    pub fn len(&self) -> usize {
+        self.job.designs() * self.job.len()
+    }
+
+    /// Solves these rows on `threads`, which also `render` each chunk; `take` gets the chunks on the
+    /// calling thread, in the order of the rows, while the next are computed: what it counts is the
+    /// progress, and an error of it stops the sweep. The number of chunks under way is bounded: memory
+    /// does not grow with the number of rows.
+    ///
+    /// # Errors
+    /// The first error of `take`.
+    pub fn run<E>(
+        &self,
+        threads: &Threads,
+        rows: Range<usize>,
+        render: impl Fn(&mut Chunk) + Sync,
+        take: impl FnMut(&mut Chunk) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let compute = |solver: &mut Option<Solver>, chunk: &mut Chunk| {
+            chunk.clear();
+            self.solve(solver, chunk);
+            render(chunk);
+        };
+        let further = Columns::of(self.job).further.len();
+        let empty = || Chunk {
+            poses: self.job.len(),
+            further,
+            ..Chunk::default()
+        };
+        let size = match self.job.modes {
+            Some(_) => SHORT_CHUNK,
+            None => CHUNK,
+        };
+        let rows = rows.start.min(self.len())..rows.end.min(self.len());
+        let end = rows.end;
+        let ranges = rows.step_by(size);
+        let ranges = ranges.map(|first| first..(first + size).min(end));
+        threads.share(ranges, empty, compute, take)
+    }
+
+    /// Solves these rows on the calling thread.
+    pub fn records(&self, rows: Range<usize>) -> Vec<Record> {
+        let mut chunk = Chunk {
+            rows: rows.start.min(self.len())..rows.end.min(self.len()),
+            poses: self.job.len(),
+            ..Chunk::default()
+        };
+        self.solve(&mut None, &mut chunk);
+        chunk.records
+    }
+
+    /// Solves the rows of a chunk with a thread's solver, which is left at their last design.
+    fn solve(&self, solver: &mut Option<Solver>, chunk: &mut Chunk) {
+        let poses = self.job.len();
+        let mut rows = chunk.rows.clone();
+        while !rows.is_empty() {
+            let number = rows.start / poses;
+            let own = match solver {
+                Some(own) if own.number == number => own,
+                _ => solver.insert(self.solver(number)),
+            };
+            if !self.job.varied().is_empty() {
+                chunk.designs.push((number, self.job.values(number)));
+            }
+            let first = number * poses;
+            let end = rows.end.min(first + poses);
+            let range = rows.start - first..end - first;
+            for pose in range.clone() {
+                chunk.drives.extend(self.job.drive_values(pose));
+            }
+            own.solve(self.job, range, &mut chunk.records);
+            rows.start = end;
+        }
+    }
+
+    /// A thread's solver of a design.
+    fn solver(&self, number: usize) -> Solver {
+        let design = match self.job.design(number) {
+            Ok(design) => design,
+            Err(error) => {
+                return Solver {
+                    number,
+                    design: None,
+                    ready: Err(Failure::Design(Arc::new(error))),
+                };
+            }
+        };
+        let (first, planned) = &self.first;
+        let planned = match number == *first {
+            true => planned.clone(),
+            false => Planned::new(&design, self.job, planned).map(Arc::new),
+        };
+        let ready = planned.and_then(|planned| {
+            let lanes = match self.way {
+                Way::Lanes => planned.prepared.lanes()?,
+                Way::OneByOne => planned.prepared.lanes_one_by_one()?,
+            };
+            Ok((planned, lanes))
+        });
+        Solver {
+            number,
+            design: Some(design),
+            ready,
+        }
+    }
+}
+
+impl Planned {
+    /// A design, whose plan shares with the first's what it can: never with that of the design
+    /// before it, which differs from thread to thread.
+    fn new(
+        design: &Design,
+        job: &Job,
+        first: &Result<Arc<Self>, Failure>,
+    ) -> Result<Self, Failure> {
+        let model = design.model()?;
+        let prepared = match first {
+            Ok(first) => first.prepared.for_design(model)?,
+            Err(_) => Prepared::new(model),
+        };
+        let modal = Self::modal(&prepared, job)?;
+        Ok(Self { prepared, modal })
+    }
+
+    /// What natural frequencies need, where they are asked for; the mechanism has a plan.
+    fn modal(prepared: &Prepared, job: &Job) -> Result<Option<ModalPlan>, SolveError> {
+        prepared.unknowns()?;
+        let modal = job.modes.as_ref();
+        modal.map(|options| prepared.modal(options)).transpose()
+    }
+
+    /// Numbers of a table's further columns in a configuration.
+    fn further(&self, geometry: &Geometry) -> Result<Vec<Option<f64>>, SolveError> {
+        let Some(modal) = &self.modal else {
+            return Ok(Vec::new());
+        };
+        let mut found: Vec<_> = modal.frequencies(geometry)?.into_iter().map(Some).collect();
+        found.resize(modal.count(), None);
+        Ok(found)
+    }
+}
+
+/// A design with one thread's own poses and buffers.
+struct Solver {
+    number: usize,
+    /// Where it can be.
+    design: Option<Design>,
+    /// Why no pose of it can be solved, where none can.
+    ready: Result<(Arc<Planned>, Lanes), Failure>,
+}
+
+impl Solver {
+    /// Appends a record for each of these poses. What is found at a pose does not depend on the
+    /// poses that are solved with it, nor on those that were solved before.
+    fn solve(&mut self, job: &Job, poses: Range<usize>, records: &mut Vec<Record>) {
+        let unreached = |pose, failure| Record {
+            pose: job.target(pose),
+            result: Err(failure),
+        };
+        let (planned, lanes) = match &mut self.ready {
+            Ok((planned, lanes)) => (planned, lanes),
+            Err(failure) => {
+                let failure = failure.clone();
+                let model = self.design.as_ref().and_then(|design| design.model().ok());
+                let mut geometry = model.map(|model| model.geometry().clone());
+                records.extend(poses.map(|pose| {
+                    let placed = self.design.as_ref().zip(geometry.as_mut());
+                    let placed = placed.map(|(design, geometry)| design.place(pose, geometry));
+                    match placed {
+                        Some(Ok(pose)) => Record::reached(pose, Err(failure.clone())),
+                        _ => unreached(pose, failure.clone()),
+                    }
+                }));
+                return;
+            }
+        };
+        let Some(design) = &self.design else { return };
+        for first in poses.clone().step_by(LANES) {
+            let mut placed = [const { None }; LANES];
+            for (lane, pose) in (first..poses.end).take(LANES).enumerate() {
+                placed[lane] = Some(design.place(pose, lanes.geometry_mut(lane)));
+            }
+            let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
+            let mut found = planned.prepared.sweep_lanes(lanes, filled);
+            for (lane, placed) in placed.into_iter().enumerate() {
+                match (placed, found[lane].take()) {
+                    (Some(Ok(pose)), Some(result)) => {
+                        let mut result = result.map_err(Failure::Solve).and_then(Found::try_from);
+                        if let Ok(found) = &mut result {
+                            match planned.further(lanes.geometry_mut(lane)) {
+                                Ok(further) => found.further.extend(further),
+                                Err(error) => result = Err(error.into()),
+                            }
+                        }
+                        records.push(Record::reached(pose, result));
+                    }
+                    (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),
+                    _ => {}
+                }
+            }
+        }
+    }
+}
