@@ -4,10 +4,12 @@
 //! conditions with Lagrange multipliers; beams by their closed form along the members. No
 //! independent coordinates, no absorbed joints, no trees. The model's numbers (positions, frames,
 //! stiffnesses) are taken as the exact ones. It knows straight beams of round sections, rigid bodies
-//! and joints with plain stiffnesses, none of whose rigid conditions is redundant.
+//! and joints with plain stiffnesses and misfits, none of whose rigid conditions is redundant.
 
 #[path = "../../crates/elements/tests/all/support/double_double.rs"]
 mod double_double;
+
+use std::ops::Range;
 
 use double_double::DoubleDouble;
 use hyperstat_assembly::{BodyKind, Connection, JointStiffness, Model, NodeId, Segment};
@@ -21,8 +23,10 @@ pub struct Extended {
     pub stiffness: Matrix6<f64>,
     /// The output's compliance.
     pub compliance: Matrix6<f64>,
-    /// Displacement of every node under the model's own loads on nodes, global axes.
+    /// Displacement of every node under the model's own loads on nodes and misfits, global axes.
     pub displacements: Vec<Vector6<f64>>,
+    /// Wrench on the second body of every joint in that state, at the joint, in its frame.
+    pub joint_wrenches: Vec<Vector6<f64>>,
 }
 
 type Number = DoubleDouble;
@@ -104,13 +108,15 @@ impl System {
         self.matrix[row][column] = self.matrix[row][column] + value;
     }
 
-    /// Puts `a · u = c λ`, λ being the force along a, in the row and column `place`.
-    fn add_row(&mut self, place: usize, Row { terms, flexibility }: &Row) {
-        for (k, value) in terms {
+    /// Puts `a · u = c λ + apart`, λ being the force along a, in the row and column `place`; what is
+    /// apart in the column `state`.
+    fn add_row(&mut self, place: usize, row: &Row, state: usize) {
+        for (k, value) in &row.terms {
             self.add(place, *k, *value);
             self.add(*k, place, *value);
         }
-        self.add(place, place, -*flexibility);
+        self.add(place, place, -row.flexibility);
+        self.right[place][state] = row.apart;
     }
 
     /// Scales rows and columns to largest entries near one, by powers of two; `None` where a row is
@@ -195,8 +201,12 @@ impl System {
 pub fn solve(model: &Model) -> Option<Extended> {
     let NodeId(output) = model.output().expect("an output");
     let mut rows = rigid_bodies(model);
-    for (joint, frame) in model.joints().iter().zip(&model.geometry().frames) {
-        rows.extend(joint_rows(joint, frame));
+    let mut joint_places = Vec::with_capacity(model.joints().len());
+    for (k, (joint, frame)) in (model.joints().iter().zip(&model.geometry().frames)).enumerate() {
+        let start = rows.len();
+        let misfit = model.misfits().iter().find(|entry| entry.joint.0 == k);
+        rows.extend(joint_rows(joint, frame, misfit.map(|entry| entry.misfit)));
+        joint_places.push(start..rows.len());
     }
     let coordinates = 6 * model.nodes().len();
     let mut system = System::new(coordinates + rows.len(), 7);
@@ -204,7 +214,7 @@ pub fn solve(model: &Model) -> Option<Extended> {
         add_beam(model, segment, &mut system);
     }
     for (k, row) in rows.iter().enumerate() {
-        system.add_row(coordinates + k, row);
+        system.add_row(coordinates + k, row, 6);
     }
     for k in 0..6 {
         system.right[6 * output + k][k] = number(1.0);
@@ -216,6 +226,12 @@ pub fn solve(model: &Model) -> Option<Extended> {
         }
     }
     let found = system.solve()?;
+    let wrench = |(joint, places): (usize, &Range<usize>)| {
+        let forces = places.clone().map(|k| found[coordinates + k][6]);
+        let frame = &model.geometry().frames[joint];
+        wrench_on_second(&model.joints()[joint], frame, &rows[places.clone()], forces)
+    };
+    let joint_wrenches = joint_places.iter().enumerate().map(wrench).collect();
     let mut compliance = System::new(6, 6);
     for row in 0..6 {
         compliance.matrix[row].copy_from_slice(&found[6 * output + row][..6]);
@@ -227,6 +243,35 @@ pub fn solve(model: &Model) -> Option<Extended> {
         compliance: rounded(&compliance.matrix),
         stiffness: rounded(&compliance.solve()?),
         displacements: (0..model.nodes().len()).map(node).collect(),
+        joint_wrenches,
+    })
+}
+
+/// The wrench on a joint's second body that the forces along its rows make, in its frame.
+fn wrench_on_second(
+    joint: &Connection,
+    frame: &Rotation3<f64>,
+    rows: &[Row],
+    forces: impl Iterator<Item = Number>,
+) -> Vector6<f64> {
+    let (node, sign) = match joint.between {
+        [_, Some(NodeId(second))] => (second, number(-1.0)),
+        [Some(NodeId(first)), None] => (first, number(1.0)),
+        [None, None] => panic!("a joint between nothing"),
+    };
+    let mut wrench = [ZERO; 6];
+    for (row, force) in rows.iter().zip(forces) {
+        for (place, value) in &row.terms {
+            if place / 6 == node {
+                wrench[place % 6] = wrench[place % 6] + sign * *value * force;
+            }
+        }
+    }
+    Vector6::from_fn(|k, _| {
+        let turned = (0..3).fold(ZERO, |sum, axis| {
+            sum + number(frame.matrix()[(axis, k % 3)]) * wrench[3 * (k / 3) + axis]
+        });
+        turned.to_f64()
     })
 }
 
@@ -238,10 +283,16 @@ struct Row {
     terms: Terms,
     /// Zero where it is rigid.
     flexibility: Number,
+    /// What it is without force: a misfit.
+    apart: Number,
 }
 
 /// Rows of the joint's coordinates `basis⁻¹ Tᵀ (u_i − u_j)` that are rigid or elastic.
-fn joint_rows(joint: &Connection, frame: &Rotation3<f64>) -> Vec<Row> {
+fn joint_rows(
+    joint: &Connection,
+    frame: &Rotation3<f64>,
+    misfit: Option<Vector6<f64>>,
+) -> Vec<Row> {
     let mut rows = Vec::new();
     let JointStiffness::Directions(given) = &joint.stiffness else {
         panic!("a full stiffness");
@@ -278,7 +329,13 @@ fn joint_rows(joint: &Connection, frame: &Rotation3<f64>) -> Vec<Row> {
                 }
             }
         }
-        rows.push(Row { terms, flexibility });
+        // The second body stands off from the first.
+        let apart = number(-misfit.map_or(0.0, |misfit| misfit[dof.index()]));
+        rows.push(Row {
+            terms,
+            flexibility,
+            apart,
+        });
     }
     rows
 }
@@ -305,6 +362,7 @@ fn rigid_bodies(model: &Model) -> Vec<Row> {
                 rows.push(Row {
                     terms,
                     flexibility: ZERO,
+                    apart: ZERO,
                 });
             }
         }

@@ -12,6 +12,7 @@ mod frame3dd_example_b;
 mod frame3dd_self_weight;
 mod freed;
 mod lanes_agree;
+mod lanes_soft;
 mod large_mechanisms;
 mod lattices;
 mod logan_gable_frame_p5_30;

@@ -4,9 +4,11 @@
 
 use std::cell::RefCell;
 
-use hyperstat_assembly::{Connection, JointStiffness, Model, Solution, SolveError, Warning, solve};
+use hyperstat_assembly::{
+    Connection, JointId, JointStiffness, Model, Solution, SolveError, Warning, solve,
+};
 use hyperstat_joints::{
-    Cylindrical, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
+    Cylindrical, Dof, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
 };
 use hyperstat_tests::build::{circle, connection, node, steel};
 use hyperstat_tests::extended::{self, Extended};
@@ -28,16 +30,31 @@ const UNSAID: f64 = 1e-10;
 /// holds every direction to 1e4 last bits: with chains of several, ten times that.
 const KEPT: f64 = 1e5 * f64::EPSILON;
 
-/// The largest error of stiffness, compliance and displacements, each by its scale.
+/// The largest error of stiffness, compliance, displacements and joint wrenches, each by its scale.
 fn error(found: &Solution, exact: &Extended) -> f64 {
     let compliance = found.output.compliance.expect("an output that is held");
     let nodes = found.displacements.iter().zip(&exact.displacements);
-    let [linear, angular] = vector_differences(nodes, [0.0; 2]);
-    let matrices = [
+    let floor = &found.floor;
+    let least = floor.least_displacement();
+    let [linear, angular] = vector_differences(nodes, [least, least / floor.size]);
+    let all = [
+        linear,
+        angular,
         stiffness_difference(&stiffness(found), &exact.stiffness),
         stiffness_difference(&compliance, &exact.compliance),
+        wrench_error(found, exact),
     ];
-    matrices.into_iter().fold(linear.max(angular), f64::max)
+    all.into_iter().fold(0.0, f64::max)
+}
+
+/// The largest error of a joint's wrench by the largest wrench, moments over the mechanism's size.
+fn wrench_error(found: &Solution, exact: &Extended) -> f64 {
+    let floor = &found.floor;
+    let sizes = exact.joint_wrenches.iter().map(|w| floor.as_force(w));
+    let scale = sizes.fold(floor.least_force(), f64::max);
+    let pairs = found.joint_wrenches.iter().zip(&exact.joint_wrenches);
+    let errors = pairs.map(|(found, exact)| floor.as_force(&(found.expect("a wrench") - exact)));
+    errors.fold(0.0, f64::max) / scale
 }
 
 /// What a solution says of its own error.
@@ -157,6 +174,24 @@ fn plates(pitch: std::ops::Range<f64>) -> impl Strategy<Value = Model> {
     })
 }
 
+/// The same with a misfit in every direction of a joint that is not free, in no particular pattern.
+fn misfitting(models: impl Strategy<Value = Model>) -> impl Strategy<Value = Model> {
+    models.prop_map(|mut model| {
+        let joints = (model.joints().iter().enumerate()).map(|(k, joint)| {
+            let open = joint.joint.free();
+            Vector6::from_fn(|d, _| match open.contains(Dof::ALL[d]) {
+                true => 0.0,
+                false => 1e-4 * (1.7 * k as f64 + d as f64).sin(),
+            })
+        });
+        let misfits: Vec<Vector6<f64>> = joints.collect();
+        for (k, misfit) in misfits.iter().enumerate() {
+            model.set_misfit(JointId(k), misfit).expect("a misfit");
+        }
+        model
+    })
+}
+
 /// Springs of 1 to 100 N/m beside links of 1e4 to 1e10 N/m: a coordinate of its own for every soft
 /// direction keeps its digits.
 #[test]
@@ -201,4 +236,19 @@ fn plates_on_legs() {
 #[test]
 fn plates_on_screws_of_great_pitch() {
     check(CASES, plates(3.0..5.0));
+}
+
+#[test]
+fn plates_on_legs_with_misfits() {
+    check(CASES, misfitting(plates(-2.0..0.0)));
+}
+
+#[test]
+fn chains_with_springs_of_unlike_directions_and_misfits() {
+    check(CASES, misfitting(chains_of_one_size(magnitudes(0.0, 12.0))));
+}
+
+#[test]
+fn hexapods_with_any_drives_and_misfits() {
+    check(CASES / 8, misfitting(hexapods(-3.0, 12.0)));
 }

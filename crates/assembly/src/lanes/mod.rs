@@ -24,6 +24,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
+use crate::lanes::pass::reflections::order_chains;
 use crate::lanes::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
 use crate::lanes::program::Program;
 use crate::plan::Plan;
@@ -86,7 +87,10 @@ impl Plan {
         let taken =
             model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
         let program = taken.then(|| Program::new(self, model, model.geometry()));
-        let engine = program.flatten().map(|program| {
+        let engine = program.flatten().map(|mut program| {
+            let mut inputs = vec![0.0; 3 * program.inputs.len()];
+            program.inputs.read(model.geometry(), &mut inputs, 1, 0);
+            order_chains(&mut program, &inputs);
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
         });

@@ -24,6 +24,10 @@ use crate::posture::Posture;
 /// mechanisms against 32 digits (`tests`, `precision.rs`).
 pub(crate) const BITS: f64 = 8.0 * f64::EPSILON;
 
+/// Stiffness of the output below this share of the elements' is looked at: energies are off by the
+/// square of a double's last bits, 1e-31, and what sizes do to units is far from the rest.
+const FAINT: f64 = 1e-20;
+
 /// Displacements of the IDCs in some states.
 pub(crate) struct Columns<'a> {
     pub values: &'a [f64],
@@ -76,11 +80,7 @@ impl Plan {
             let [motions, forces, loaded] = groups
                 .each_ref()
                 .map(|columns| self.parts(element, &sizes, workspace, columns));
-            for (i, first) in motions.iter().enumerate() {
-                for (j, second) in motions.iter().enumerate() {
-                    moved[j][i] += first.error_of(second) + second.error_of(first);
-                }
-            }
+            add_errors(&mut moved, &motions);
             for (i, first) in forces.iter().enumerate() {
                 for (j, second) in forces.iter().chain(&loaded).enumerate() {
                     given[j][i] += first.error_of(second);
@@ -102,6 +102,35 @@ impl Plan {
             }
         }
         Ok(BITS * lost)
+    }
+
+    /// Whether the output's stiffness is next to nothing beside that of the elements, so that it may be
+    /// the rounding of their energy.
+    pub(crate) fn is_faint(&self, workspace: &Workspace, stiffness: &Matrix6<f64>) -> bool {
+        let entries = workspace.stiffnesses.iter();
+        let stiffest = entries.fold(0.0_f64, |most, entry| most.max(entry.abs()));
+        stiffness.diagonal().min() <= FAINT * stiffest
+    }
+
+    /// Whether no digit of the output's stiffness is right, each entry by its own row and column: an
+    /// estimate. The output's coordinates are independent.
+    pub(crate) fn is_rounding(
+        &self,
+        at: &Posture<'_>,
+        workspace: &Workspace,
+        stiffness: &Matrix6<f64>,
+    ) -> Result<bool, SolveError> {
+        let n = self.unknowns;
+        let units = Columns {
+            values: &workspace.solutions[n * UNITS.start..n * UNITS.end],
+            initial: None,
+        };
+        let mut moved = [[0.0; 6]; 6];
+        for element in &self.elements {
+            let sizes = self.operand_sizes(element, at, workspace)?;
+            add_errors(&mut moved, &self.parts(element, &sizes, workspace, &units));
+        }
+        Ok(BITS * largest(&moved, &stiffness.diagonal().into()) >= 1.0)
     }
 
     /// What an element does in some states.
@@ -225,6 +254,16 @@ impl State {
             largest(0).max(least),
             largest(3).max(least / self.floor.size),
         ]
+    }
+}
+
+/// Adds what the roundings of an element do to the output's stiffness; `motions`: the element under
+/// unit motions of the output.
+fn add_errors(moved: &mut [[f64; 6]; 6], motions: &[Part]) {
+    for (i, first) in motions.iter().enumerate() {
+        for (j, second) in motions.iter().enumerate() {
+            moved[j][i] += first.error_of(second) + second.error_of(first);
+        }
     }
 }
 

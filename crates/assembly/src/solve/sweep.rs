@@ -63,7 +63,8 @@ impl Plan {
             let stiffness = self.stiffness_by_energy(workspace);
             // Next to nothing may be nothing: then it is looked at, whatever the plan's own
             // configuration was.
-            let held = !is_nearly_free(&stiffness, at.size);
+            let held =
+                !is_nearly_free(&stiffness, at.size) && !self.is_faint(workspace, &stiffness);
             if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
                 let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
                 let mut displacement = |column| {
@@ -93,6 +94,13 @@ impl Plan {
         let (output, displacements, ..) =
             self.output(at.geometry, workspace, &pins, &restraint, &works)?;
         let held = output.free_motions.is_empty();
+        if let Some(stiffness) = output.stiffness.filter(|_| held)
+            && self.output_is_independent()
+            && self.is_faint(workspace, &stiffness)
+            && self.is_rounding(at, workspace, &stiffness)?
+        {
+            return Err(SolveError::Singular.into());
+        }
         let mut displacements = displacements.into_iter().filter(|_| held);
         Ok(PoseResult {
             stiffness: output.stiffness,

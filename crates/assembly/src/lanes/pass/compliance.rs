@@ -243,14 +243,19 @@ impl<S: Simd> Compliance<S> {
             LinkKind::Beam(beam) => add_beam(simd, beam, inputs, frame, self),
             LinkKind::Joint(joint) => add_joint(simd, joint, inputs, frame, self),
             LinkKind::Spring { along, compliance } => {
-                let s = frame.twist(simd, along, inputs);
-                let give = Lane::splat(simd, *compliance) * frame.square;
-                for i in 0..6 {
-                    let by = s[i] * give;
-                    for j in 0..=i {
-                        self.add(i, j, by * s[j]);
-                    }
-                }
+                let twist = frame.twist(simd, along, inputs);
+                self.add_spring(&twist, Lane::splat(simd, *compliance) * frame.square);
+            }
+        }
+    }
+
+    /// Adds a spring that gives way along a motion.
+    #[inline(always)]
+    fn add_spring(&mut self, along: &Six<S>, give: Lane<S>) {
+        for i in 0..6 {
+            let by = along[i] * give;
+            for j in 0..=i {
+                self.entries[i][j] = by.mul_add(along[j], self.entries[i][j]);
             }
         }
     }
@@ -432,6 +437,22 @@ fn add_joint<S: Simd>(
     let arm = frame.arm_to(&vector(simd, inputs, joint.point));
     let one = Lane::splat(simd, 1.0);
     let translation = turned(simd, &joint.translation, &axes, one);
+    if let (Part::Diagonal(values), None) = (&joint.rotation, &joint.coupling) {
+        // Springs about its axes: where their arms' parts cancel, nothing of a soft one is left.
+        for i in 0..3 {
+            for j in 0..=i {
+                sum.add(LINEAR[i], LINEAR[j], translation[i][j]);
+            }
+        }
+        for k in 0..3 {
+            if values[k] != 0.0 {
+                let (axis, moved) = (&axes[k], cross(&arm, &axes[k]));
+                let along = [axis[0], axis[1], axis[2], moved[1], moved[2], moved[0]];
+                sum.add_spring(&along, Lane::splat(simd, values[k]) * frame.square);
+            }
+        }
+        return;
+    }
     let rotation = turned(simd, &joint.rotation, &axes, frame.square);
     match &joint.coupling {
         None => sum.add_part(Some(&translation), &rotation, None, &arm),

@@ -9,6 +9,7 @@ pub(crate) mod ends;
 pub(crate) mod factor;
 pub(crate) mod hang;
 pub(crate) mod lane;
+pub(crate) mod reflections;
 pub(crate) mod transmit;
 
 use pulp::{Simd, WithSimd};

@@ -3,9 +3,9 @@
 //!
 //! The links' compliances C are added up in the axes and about the centre of the softest one. A
 //! free motion s allows only wrenches with `sᵀ W = 0`: one Householder reflection a motion turns it
-//! into a coordinate that is left out, of C and of the wrenches. What is left of C is regular, and
-//! `L D Lᵀ` of it gives the wrenches, columns of `Q L⁻ᵀ`, and their stiffnesses `D⁻¹`. Nothing is
-//! chosen by size, so all poses in a register go the same way.
+//! into a coordinate that is left out, of C and of the wrenches (`reflections.rs`). What is left of C
+//! is regular, and `L D Lᵀ` of it gives the wrenches, columns of `Q L⁻ᵀ`, and their stiffnesses
+//! `D⁻¹`. Nothing is chosen by a pose's sizes, so all poses in a register go the same way.
 //!
 //! With loads L on what lies between the ends, the wrench in a part is `W + L`, L the sum of the
 //! loads beyond it. They move end 1 by `Σ C L`, and where a free motion is, `sᵀ (W + L) = 0`: in the
@@ -20,6 +20,7 @@ use super::compliance::{Frame, Loaded, Six, compliance, loaded_compliance};
 use super::ends::{Terms, works};
 use super::factor::{IDLE, ROUNDING};
 use super::lane::{Lane, six};
+use super::reflections::{Reflection, ordered, ordered_matrix, put_back, squares};
 use crate::lanes::program::chain::{Chain, DEPENDENT};
 use crate::lanes::program::element::NodeMotion;
 
@@ -62,7 +63,7 @@ pub(crate) fn add_chain<S: Simd>(
 fn transmit<S: Simd, const M: usize, const R: usize>(
     assembly: &mut Assembly<'_, S>,
     (chain, frame, nodes): (&Chain, &Frame<S>, &[NodeMotion]),
-    mut c: [Six<S>; 6],
+    c: [Six<S>; 6],
     mut loaded: Option<Loaded<S>>,
     (places, pairs, wrenches): (&[usize], &[u32], &mut [S::f64s]),
 ) {
@@ -70,11 +71,14 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     let zero = Lane::splat(simd, 0.0);
     let one = Lane::splat(simd, 1.0);
     let nan = Lane::splat(simd, f64::NAN);
+    let mut c = ordered_matrix(&c, chain);
     let mut errors: Six<S> = six!(k => c[k][k]);
+    if let Some(loaded) = &mut loaded {
+        loaded.moved = ordered(&loaded.moved, chain);
+    }
 
     // Free motions: reflection k turns motion k into coordinate k.
-    let mut normals = [[zero; 6]; M];
-    let mut factors = [zero; M];
+    let mut reflections = [Reflection::none(zero); M];
     let mut growth = one;
     let mut poison = zero;
     // The wrench that loads within make with both ends held: of it, what free motions ask for.
@@ -86,27 +90,21 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         None => zero,
     };
     for k in 0..M {
-        let mut s = frame.twist(simd, &chain.releases[k], inputs);
-        let mut whole = zero;
-        for i in 0..6 {
-            whole = s[i].mul_add(s[i], whole);
-        }
+        let mut s = ordered(&frame.twist(simd, &chain.releases[k], inputs), chain);
+        let whole = squares(&s, 0);
         for p in 0..k {
-            reflect(&mut s, &normals[p], factors[p], p);
+            reflections[p].apply(&mut s, p);
         }
-        let mut left = zero;
-        for i in k..6 {
-            left = s[i].mul_add(s[i], left);
-        }
+        let left = squares(&s, k);
         let share = left / whole;
         growth = growth * share.recip();
         poison += share.if_above(Lane::splat(simd, INDEPENDENT), zero, nan);
-        let size = left.sqrt();
-        let first = s[k];
-        let longer = first.abs() + size;
-        s[k] = first.if_above(zero, longer, -longer);
-        let turned = first.if_above(zero, -size, size);
-        let factor = (size * longer).recip();
+        reflections[k] = Reflection::of(s, left, k);
+        let Reflection {
+            normal: s,
+            factor,
+            turned,
+        } = reflections[k];
         // C ← C − v wᵀ − w vᵀ with p = f C v, w = p − (f pᵀv / 2) v.
         let mut w = [zero; 6];
         let mut work = zero;
@@ -136,7 +134,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             let inverse = turned.recip();
             held[k] = missing * inverse;
             doubts[k] = terms * inverse * inverse;
-            reflect(&mut loaded.moved, &s, factor, k);
+            reflections[k].apply(&mut loaded.moved, k);
             for i in k + 1..6 {
                 let first = (-s[i]).mul_add(w[k], c[i][k]);
                 let entry = (-w[i]).mul_add(s[k], first);
@@ -147,32 +145,23 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             energy = (own * held[k]).mul_add(held[k], energy);
         }
         let spread = spread * factor * factor;
-        let twice = factor * Lane::splat(simd, -2.0);
         for i in k + 1..6 {
-            let weighed = s[i] * s[i];
-            let kept = errors[i] * twice.mul_add(weighed, one);
-            errors[i] = spread.mul_add(weighed, kept);
+            // What a reflection takes away of an entry leaves its rounding there.
+            errors[i] = spread.mul_add(s[i] * s[i], errors[i]);
             for j in k + 1..=i {
                 let first = (-s[i]).mul_add(w[j], c[i][j]);
                 c[i][j] = (-w[i]).mul_add(s[j], first);
             }
         }
-        (normals[k], factors[k]) = (s, factor);
     }
     for (k, idle) in chain.idle.iter().enumerate() {
         // It must be contained in the free motions, and what acts must do no work on it.
-        let mut s = frame.twist(simd, &idle.along, inputs);
-        let mut whole = zero;
-        for i in 0..6 {
-            whole = s[i].mul_add(s[i], whole);
-        }
+        let mut s = ordered(&frame.twist(simd, &idle.along, inputs), chain);
+        let whole = squares(&s, 0);
         for p in 0..M {
-            reflect(&mut s, &normals[p], factors[p], p);
+            reflections[p].apply(&mut s, p);
         }
-        let mut left = zero;
-        for i in M..6 {
-            left = s[i].mul_add(s[i], left);
-        }
+        let left = squares(&s, M);
         poison += left.if_above(whole * Lane::splat(simd, DEPENDENT), nan, zero);
         if let Some(loaded) = &loaded {
             let [mut work, mut terms] = loaded.idle_works[k];
@@ -219,8 +208,9 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     }
     for a in 0..R {
         for k in (0..M).rev() {
-            reflect(&mut directions[a], &normals[k], factors[k], k);
+            reflections[k].apply(&mut directions[a], k);
         }
+        directions[a] = put_back(&directions[a], chain);
         let wrenches = &mut wrenches[a..];
         works(
             assembly,
@@ -236,8 +226,9 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     let mut ends = [[zero; 6]; 2];
     if let Some(loaded) = &loaded {
         for k in (0..M).rev() {
-            reflect(&mut held, &normals[k], factors[k], k);
+            reflections[k].apply(&mut held, k);
         }
+        let held = put_back(&held, chain);
         ends = [six!(k => -(held[k] + loaded.total[k])), six!(k => -held[k])];
         let own = &mut wrenches[R * count..];
         works(
@@ -309,18 +300,5 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             }
             assembly.add(places[count], *place, force);
         }
-    }
-}
-
-/// `x ← x − f v (vᵀ x)`, where v is zero before its entry k.
-#[inline(always)]
-fn reflect<S: Simd>(x: &mut Six<S>, normal: &Six<S>, factor: Lane<S>, k: usize) {
-    let mut work = x[k] * normal[k];
-    for i in k + 1..6 {
-        work = x[i].mul_add(normal[i], work);
-    }
-    let minus = -(work * factor);
-    for i in k..6 {
-        x[i] = minus.mul_add(normal[i], x[i]);
     }
 }

@@ -36,6 +36,8 @@ pub(crate) struct Chain {
     pub order: Vec<Item>,
     /// Length that makes rotations comparable with translations \[m\], a power of two.
     pub size: f64,
+    /// The six coordinates of motions and wrenches, in the order in which the free motions take them.
+    pub coordinates: [usize; 6],
     /// By ends: reference points of the components there.
     pub origins: [Point; 2],
 }
@@ -138,6 +140,7 @@ impl Chain {
             idle: Vec::new(),
             loads: Vec::new(),
             size: 1.0,
+            coordinates: [0, 1, 2, 3, 4, 5],
             origins,
         };
         chain.settle();
