@@ -6,7 +6,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use hyperstat_assembly::Prepared;
+use hyperstat_assembly::{Model, Prepared, Sensitivity};
 use hyperstat_tests::gripper::gripper;
 use hyperstat_tests::lattice::lattice;
 
@@ -34,6 +34,10 @@ fn sizes(c: &mut Criterion) {
             group.bench_function(format!("{family}, {unknowns} unknowns"), |b| {
                 b.iter(|| hyperstat_assembly::solve(black_box(&model)));
             });
+            // What `solve --why` adds: by the same plan, diagnosis and factorization.
+            group.bench_function(format!("{family}, {unknowns} unknowns, and why"), |b| {
+                b.iter(|| why(black_box(&model)));
+            });
         }
     }
     let count = if large { GRIPPERS.len() } else { 2 };
@@ -45,6 +49,15 @@ fn sizes(c: &mut Criterion) {
         });
     }
     group.finish();
+}
+
+/// A solve and the sensitivities of its deflection.
+fn why(model: &Model) -> Vec<Sensitivity> {
+    let prepared = Prepared::new(model.clone());
+    let here = prepared.here();
+    let solution = here.solve().expect("a solution");
+    let influence = here.influence().expect("a held output");
+    influence.sensitivities(&solution).expect("derivatives")
 }
 
 criterion_group!(benches, sizes);

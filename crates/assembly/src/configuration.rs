@@ -16,7 +16,7 @@ use crate::pose::recover::check_recovery;
 use crate::pose::restraint::Restraint;
 use crate::posture::{Beams, Posture};
 use crate::response::influence::Influence;
-use crate::solve::{Asked, Factored, Free, Solved, solve_all};
+use crate::solve::{Asked, Factored, Free, Solved, respond_to_units, solve_all};
 use crate::state::acting::Acting;
 
 /// A plan that is made when it is first asked for, or why there is none.
@@ -182,8 +182,14 @@ impl<'a> Configuration<'a> {
     /// # Errors
     /// As [`Configuration::solve`]; a wrench on an output that moves freely is a load on a free motion.
     pub fn influence(&self) -> Result<Influence<'a>, SolveError> {
-        let output = self.plan()?.output;
-        let states = self.respond(&Influence::units(output))?;
+        let plan = self.plan()?;
+        let at = self.posture();
+        let units = Influence::units(plan.output);
+        let units: Result<Vec<_>, _> = units.iter().map(|set| Acting::new(&at, set)).collect();
+        let units = units?;
+        let states = self.by_factor(plan, |free, kept| {
+            respond_to_units(plan, &at, free, kept, &units)
+        })?;
         Influence::new(self.model, self.geometry, &self.posture(), states)
     }
 
@@ -215,6 +221,17 @@ impl<'a> Configuration<'a> {
         acting: &[Acting],
         asked: Asked,
     ) -> Result<Solved, SolveError> {
+        self.by_factor(plan, |free, kept| {
+            solve_all(plan, &self.posture(), free, kept, (acting, asked))
+        })
+    }
+
+    /// Asks what is factored, or will be.
+    fn by_factor<T>(
+        &self,
+        plan: &Plan,
+        ask: impl FnOnce(Free<'_>, &mut Option<Box<Factored>>) -> Result<T, SolveError>,
+    ) -> Result<T, SolveError> {
         check_recovery(plan, self.model)?;
         let free = Free {
             diagnosis: &self.found().diagnosis,
@@ -222,7 +239,6 @@ impl<'a> Configuration<'a> {
             restraint: self.restraint(plan)?,
         };
         let kept = self.found().factored.lock();
-        let mut kept = kept.unwrap_or_else(PoisonError::into_inner);
-        solve_all(plan, &self.posture(), free, &mut kept, (acting, asked))
+        ask(free, &mut kept.unwrap_or_else(PoisonError::into_inner))
     }
 }

@@ -13,15 +13,11 @@ pub enum SolveError {
     /// A model whose parts do not belong together, a load or geometry that is not of it.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A model that is not like the one that a plan was made for: other bodies or joints, another
-    /// output, other stiffness of joints.
-    #[error(
-        "this is not the model that the plan was made for, nor one with the same bodies, joints and \
-         output: make a plan for it"
-    )]
+    /// Results, or buffers, of another model.
+    #[error("these are results or buffers of another model")]
     ForeignModel,
-    /// Buffers that another plan made.
-    #[error("these buffers were made by another plan")]
+    /// Buffers that another mechanism made, or this one before it was changed.
+    #[error("these buffers were made by another mechanism, or before this one was changed")]
     ForeignWorkspace,
     /// Bodies that no chain of joints connects to the ground.
     #[error("nothing holds {}", names(bodies))]

@@ -34,7 +34,10 @@ fn sag(diameter: f64) -> f64 {
 }
 
 fn close(found: f64, expected: f64) {
-    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+    assert!(
+        (found - expected).abs() <= 1e-12 * expected.abs(),
+        "{found} {expected}"
+    );
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn registry() -> Registry {
 }
 
 fn job() -> Job {
-    let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/five_bar.ron"));
+    let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/own_five_bar.ron"));
     let batch = load_batch(file, &Disk, &registry());
     batch
         .unwrap_or_else(|error| panic!("{error}"))
@@ -150,7 +150,7 @@ fn its_values_have_the_names_of_its_parameters() {
 
 #[test]
 fn the_binary_runs_it_and_tells_mistakes() {
-    let text = include_str!("../five_bar.ron");
+    let text = include_str!("../own_five_bar.ron");
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let run = |name: &str, text: &str| {
         let file = folder.join(format!("{name}.ron"));

@@ -8,6 +8,10 @@ use nalgebra::{Matrix6, Vector6};
 /// A sweep takes one refinement step, a solve as many as help.
 const AGREEMENT: f64 = 1e-12;
 
+/// The same, with the rounding of the inverse of the printed stiffness, whose condition with lengths in
+/// metres is some 1e3.
+const ENERGY: f64 = 1e-11;
+
 struct Row {
     pose: [f64; 3],
     displacement: Vector6<f64>,
@@ -70,15 +74,27 @@ fn compare(delta: &Delta, file: &str) {
         model
             .set_geometry(geometry.clone())
             .expect("a geometry of this model");
-        let solution = solve(&model).expect("a solution");
-        assert!(stiffness_difference(&stiffness(&solution), &row.stiffness) < AGREEMENT);
-        let pair = (&solution.output.displacement, &row.displacement);
-        let found = vector_differences([pair], [0.0; 2]);
-        assert!(
-            found.iter().all(|d| *d < AGREEMENT),
-            "{:?} {found:?}",
-            row.pose
-        );
+        // By a plan made there, and by that of the first pose.
+        let there = prepared.at(&geometry).expect("a geometry of this model");
+        for solution in [solve(&model), there.solve()] {
+            let solution = solution.expect("a solution");
+            assert!(stiffness_difference(&stiffness(&solution), &row.stiffness) < AGREEMENT);
+            let pair = (&solution.output.displacement, &row.displacement);
+            let found = vector_differences([pair], [0.0; 2]);
+            assert!(
+                found.iter().all(|d| *d < AGREEMENT),
+                "{:?} {found:?}",
+                row.pose
+            );
+        }
+        // The strain energy of every unit state is half the reference's compliance along it.
+        let influence = there.influence().expect("a held output");
+        let compliance = row.stiffness.try_inverse().expect("a regular matrix");
+        for k in 0..6 {
+            let budget = influence.compliance_budget(&compliance, &Vector6::ith(k, 1.0));
+            let apart = budget.rest.abs() / budget.total;
+            assert!(apart < ENERGY, "{:?} {k}: {apart}", row.pose);
+        }
     }
 }
 

@@ -71,8 +71,7 @@ impl WithSimd for Width {
 }
 
 impl Plan {
-    /// Poses and buffers for one thread, for a model of the topology that the plan was made for; one
-    /// that is not goes nowhere ([`SolveError::ForeignModel`] at every pose). The poses are in the
+    /// Poses and buffers for one thread, for the model that the plan was made for. The poses are in the
     /// model's configuration.
     pub(crate) fn lanes(&self, model: &Model) -> Lanes {
         self.lanes_on(model, Arch::new())
@@ -85,10 +84,8 @@ impl Plan {
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let taken = model.has_plain_loads()
-            && model.misfits().is_empty()
-            && model.cases().is_empty()
-            && self.check_model(model).is_ok();
+        let taken =
+            model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
         let program = taken.then(|| Program::new(self, model, model.geometry()));
         let engine = program.flatten().map(|mut program| {
             let mut inputs = vec![0.0; 3 * program.inputs.len()];

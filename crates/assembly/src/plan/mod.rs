@@ -7,7 +7,6 @@ pub(crate) mod coordinates;
 pub(crate) mod dissection;
 pub(crate) mod elements;
 pub(crate) mod fault;
-pub(crate) mod form;
 pub(crate) mod roles;
 pub(crate) mod sparse;
 pub(crate) mod topology;
@@ -16,19 +15,15 @@ pub(crate) mod workspace;
 
 use std::sync::Arc;
 
-use hyperstat_elements::subassembly::{JointFactor, absorption_workspace};
-use hyperstat_joints::{Dof, DofSet};
+use hyperstat_joints::DofSet;
 use hyperstat_model::{BodyId, Directions, JointId, Model, NodeId, fresh_revision};
-use nalgebra::{Matrix6, Vector3};
 
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::elements::{ElementPlan, elements, places};
-use crate::plan::form::Form;
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
-use crate::plan::workspace::{LOADS, Workspace};
 use crate::posture::Posture;
 use crate::rank::dense::Elimination;
 use crate::room;
@@ -39,9 +34,6 @@ use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};
 pub(crate) struct Plan {
     /// A number that no other plan has.
     pub(crate) id: u64,
-    /// What the plan is made for, and the [revision](Model) of the model that it was made from.
-    pub(crate) form: Form,
-    pub(crate) revision: u64,
     /// How far apart (m) two nodes of a joint may lie.
     pub(crate) one_point: f64,
     pub(crate) topology: Topology,
@@ -225,8 +217,6 @@ impl Plan {
         let deformations = elements.iter().map(|e| e.rows).sum();
         Ok(Self {
             id: fresh_revision(),
-            form: Form::of(model),
-            revision: model.revision(),
             one_point,
             topology,
             output,
@@ -268,8 +258,6 @@ impl Plan {
         TreeBlocks::new(&topology).evaluate(&topology, &at)?;
         Ok(Self {
             id: fresh_revision(),
-            form: Form::of(model),
-            revision: model.revision(),
             one_point: model.one_point(),
             topology,
             output: self.output,
@@ -293,96 +281,9 @@ impl Plan {
         self.unknowns
     }
 
-    /// Buffers for one thread.
-    pub(crate) fn workspace(&self) -> Workspace {
-        let last = self.elements.last();
-        let triangle = |e: &ElementPlan| e.rows * e.rows;
-        let clusters = self.topology.clusters.iter();
-        let sizes = clusters.map(|cluster| {
-            let joints = cluster.joints.iter().flatten().count();
-            (cluster.nodes.len() - 1, joints)
-        });
-        let absorption = sizes.clone().map(|(n, j)| absorption_workspace(n, j));
-        let no_joint = JointFactor {
-            node: 0,
-            factor: Matrix6::zeros(),
-        };
-        let mut workspace = Workspace {
-            plan: self.id,
-            tree: TreeBlocks::new(&self.topology),
-            reduced: vec![0.0; self.reduced_len],
-            identities: vec![(NodeId(0), Dof::X); self.unknowns],
-            operators: vec![0.0; last.map_or(0, |e| e.operator_start + e.rows * e.columns.len())],
-            stiffnesses: vec![0.0; last.map_or(0, |e| e.stiffness_start + triangle(e))],
-            initial: Vec::new(),
-            offsets: Vec::new(),
-            values: vec![0.0; self.pattern.len()],
-            factor: self.pattern.factor_buffers(0),
-            loads: Vec::new(),
-            solutions: Vec::new(),
-            remainders: Vec::new(),
-            residuals: Vec::new(),
-            right_sides: Vec::new(),
-            doubtful: None,
-            energies: Vec::new(),
-            scratch: Vec::new(),
-            forces: Vec::new(),
-            arms: vec![Vector3::zeros(); sizes.clone().map(|s| s.0).max().unwrap_or(0)],
-            factors: vec![no_joint; sizes.map(|s| s.1).max().unwrap_or(0)],
-            absorption: vec![0.0; absorption.max().unwrap_or(0)],
-        };
-        self.make_room(&mut workspace, 1);
-        workspace
-    }
-
-    /// Refuses more sets of loads than there is room for, in the buffers or in their results.
-    pub(crate) fn check_sets(&self, model: &Model, sets: usize) -> Result<(), SolveError> {
-        const SETS: &str = "its cases, each with displacements and forces of its own,";
-        let results = 6 * (model.nodes().len() + model.joints().len() + 4 * model.segments().len());
-        let size = results.max(self.unknowns).max(self.deformations);
-        room::check(SETS, room::matrix(LOADS + sets, size), MOST_NUMBERS)
-    }
-
-    /// Makes room in the buffers for this many sets of loads.
-    pub(crate) fn make_room(&self, workspace: &mut Workspace, sets: usize) {
-        let columns = LOADS + sets;
-        if workspace.columns() == columns {
-            return;
-        }
-        let width = |e: &ElementPlan| e.rows * e.columns.len().max(columns);
-        let widest = self.elements.iter().map(width).max().unwrap_or(0);
-        self.pattern.make_room(&mut workspace.factor, columns);
-        for (buffer, length) in [
-            (&mut workspace.initial, sets * self.deformations),
-            (&mut workspace.loads, columns * self.unknowns),
-            (&mut workspace.solutions, columns * self.unknowns),
-            (&mut workspace.remainders, sets * self.unknowns),
-            (&mut workspace.residuals, columns * self.unknowns),
-            (&mut workspace.right_sides, columns * self.inner),
-            (&mut workspace.energies, columns),
-            (&mut workspace.scratch, widest),
-            (&mut workspace.forces, widest),
-        ] {
-            buffer.clear();
-            buffer.resize(length, 0.0);
-        }
-    }
-
     /// Whether the output's six coordinates are independent.
     pub(crate) fn output_is_independent(&self) -> bool {
         self.inner < self.unknowns
-    }
-
-    /// Block of a carrier (6 × columns, column-major).
-    pub(crate) fn block<'a>(&self, workspace: &'a Workspace, carrier: usize) -> &'a [f64] {
-        let length = 6 * self.columns[carrier].len();
-        match self.reduced_starts[carrier] {
-            Some(start) => &workspace.reduced[start..start + length],
-            None => {
-                let start = workspace.tree.starts[carrier];
-                &workspace.tree.values[start..start + length]
-            }
-        }
     }
 }
 

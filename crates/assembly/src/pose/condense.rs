@@ -235,46 +235,56 @@ impl Plan {
         read(residual, self.inner) + Vector6::from_fn(|k, _| through(k))
     }
 
-    /// Finds what a set's column still lacks, too small to be added to it: the forces of the
-    /// elements take it in, so that they balance at every node to rounding. It is refined like the
-    /// column itself, as long as its corrections shrink.
+    /// Finds what the columns of some sets still lack, too small to be added to them: the forces of
+    /// the elements take it in, so that they balance at every node to rounding. It is refined like the
+    /// columns themselves, each as long as its corrections shrink.
     pub(crate) fn find_remainder(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         compliance: Option<&Matrix6<f64>>,
-        column: usize,
+        which: Range<usize>,
     ) {
         let (n, inner) = (self.unknowns, self.inner);
-        let own = (column - LOADS) * n..(column - LOADS + 1) * n;
-        workspace.remainders[own.clone()].fill(0.0);
-        let mut last = f64::INFINITY;
+        workspace.remainders[(which.start - LOADS) * n..(which.end - LOADS) * n].fill(0.0);
+        // The size of each one's last correction, as long as they shrink.
+        let mut last = vec![Some(f64::INFINITY); which.len()];
+        let mut inner_steps = vec![0.0; inner * which.len()];
         for _ in 0..MOST_REFINEMENTS {
-            self.imbalance(workspace, column);
-            let residual = &workspace.residuals[column * n..(column + 1) * n];
-            let mut step = vec![0.0; n];
-            step[..inner].copy_from_slice(&residual[..inner]);
-            for &pin in pins {
-                step[pin] = 0.0;
-            }
-            let moved =
-                compliance.map(|c| c * self.force_on_output(residual, &workspace.solutions));
-            self.pattern
-                .solve(&mut workspace.factor, &mut step[..inner]);
-            for (k, share) in moved.iter().flatten().enumerate() {
-                let motion = &workspace.solutions[k * n..(k + 1) * n];
-                for (entry, motion) in step.iter_mut().zip(motion) {
-                    *entry += motion * share;
+            for (place, column) in which.clone().enumerate() {
+                self.imbalance(workspace, column);
+                let step = &mut inner_steps[place * inner..(place + 1) * inner];
+                step.copy_from_slice(&workspace.residuals[column * n..column * n + inner]);
+                for &pin in pins {
+                    step[pin] = 0.0;
                 }
             }
-            // Work of the residual: positive but for rounding.
-            let work = dot(&step, residual).abs();
-            if work >= last || work.is_nan() {
-                break;
+            self.pattern.solve(&mut workspace.factor, &mut inner_steps);
+            for (place, column) in which.clone().enumerate() {
+                let Some(before) = last[place] else { continue };
+                let residual = &workspace.residuals[column * n..(column + 1) * n];
+                let mut step = vec![0.0; n];
+                step[..inner].copy_from_slice(&inner_steps[place * inner..(place + 1) * inner]);
+                let moved =
+                    compliance.map(|c| c * self.force_on_output(residual, &workspace.solutions));
+                for (k, share) in moved.iter().flatten().enumerate() {
+                    let motion = &workspace.solutions[k * n..(k + 1) * n];
+                    for (entry, motion) in step.iter_mut().zip(motion) {
+                        *entry += motion * share;
+                    }
+                }
+                // Work of the residual: positive but for rounding.
+                let work = dot(&step, residual).abs();
+                last[place] = (work < before).then_some(work);
+                if last[place].is_some() {
+                    let own = &mut workspace.remainders[(column - LOADS) * n..][..n];
+                    for (entry, step) in own.iter_mut().zip(&step) {
+                        *entry += step;
+                    }
+                }
             }
-            last = work;
-            for (entry, step) in workspace.remainders[own.clone()].iter_mut().zip(&step) {
-                *entry += step;
+            if last.iter().all(Option::is_none) {
+                break;
             }
         }
     }

@@ -90,7 +90,7 @@ impl Plan {
                     self.residuals(workspace, column..column + 1);
                     self.correct(workspace, pins, column..column + 1);
                 }
-                self.find_remainder(workspace, pins, compliance, column);
+                self.find_remainder(workspace, pins, compliance, column..column + 1);
                 let (acting, floor) = (&nothing, &state.floor.of_nothing());
                 let output = Vector6::zeros();
                 let moved = recover(self, at, workspace, set, (acting, floor), output)?;

@@ -256,7 +256,7 @@ impl State {
         }
     }
 
-    fn load(&self, segment: SegmentId) -> BeamLoad {
+    pub(crate) fn load(&self, segment: SegmentId) -> BeamLoad {
         let load = self.loads.get(segment.0).copied();
         load.unwrap_or_else(BeamLoad::none)
     }

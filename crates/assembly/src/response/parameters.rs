@@ -49,6 +49,17 @@ pub enum Parameter {
     },
 }
 
+impl Parameter {
+    /// Whether stiffness depends on it.
+    pub(crate) fn is_elastic(&self) -> bool {
+        match self {
+            Self::Mass { .. } => false,
+            Self::Material { constant, .. } => !matches!(*constant, "density" | "expansion"),
+            _ => true,
+        }
+    }
+}
+
 /// A parameter with its value, and the segments that it changes.
 #[derive(Debug)]
 pub(crate) struct Varied {

@@ -7,6 +7,8 @@
 //! Then `∂K_o = −K_o ∂C_o K_o`. The displacement has W under the loads for W_b, and the part of
 //! weight and temperature that change with the parameter ([`crate::load_change`]).
 
+use hyperstat_elements::SampledStates;
+use hyperstat_model::SegmentId;
 use nalgebra::{Matrix6, Vector6};
 
 use super::influence::{Influence, State};
@@ -68,21 +70,12 @@ impl Influence<'_> {
     pub fn sensitivities(&self, solution: &Solution) -> Result<Vec<Sensitivity>, SolveError> {
         let loaded = self.state(solution);
         let mut found = Vec::new();
-        for varied in parameters(self.model)? {
+        let parameters = parameters(self.model)?;
+        let sums = self.by_stiffness(&parameters, &loaded);
+        for (varied, sum) in parameters.into_iter().zip(sums) {
             let loads = self.load_change(&varied)?;
-            let elastic = match &varied.parameter {
-                Parameter::Mass { .. } => false,
-                Parameter::Material { constant, .. } => {
-                    !matches!(*constant, "density" | "expansion")
-                }
-                _ => true,
-            };
-            if !elastic && loads.is_none() {
+            if !varied.parameter.is_elastic() && loads.is_none() {
                 continue;
-            }
-            let mut sum = Derivative::default();
-            if elastic {
-                self.add_stiffness(&mut sum, &varied, &loaded);
             }
             let displacement = match loads {
                 Some(loads) if self.unbalances(&loads, &solution.idle) => None,
@@ -102,21 +95,54 @@ impl Influence<'_> {
         Ok(found)
     }
 
-    /// Adds what a parameter does by the stiffness of its segments and joints.
-    fn add_stiffness(&self, sum: &mut Derivative, varied: &Varied, loaded: &State) {
-        for (segment, change) in &varied.segments {
-            let weight = |xi| -change.rigidities(xi);
-            sum.add(&self.units, loaded, |unit, state| {
-                self.segment_work(*segment, state, unit, &weight).sum()
-            });
+    /// What each of the parameters does by the stiffness of its segments and joints.
+    fn by_stiffness(&self, parameters: &[Varied], loaded: &State) -> Vec<Derivative> {
+        let mut sums: Vec<Derivative> = Vec::new();
+        sums.resize_with(parameters.len(), Derivative::default);
+        // A segment's states serve all the parameters that change it: their segments are ascending.
+        let mut left: Vec<_> = parameters.iter().map(|own| &own.segments[..]).collect();
+        let mut sampled = SampledStates::default();
+        for (k, beam) in self.beams.iter().enumerate() {
+            let id = SegmentId(k);
+            sampled.forget();
+            for (k, varied) in parameters.iter().enumerate() {
+                let Some(((own, change), rest)) = left[k].split_first() else {
+                    continue;
+                };
+                if *own != id {
+                    continue;
+                }
+                left[k] = rest;
+                if !varied.parameter.is_elastic() {
+                    continue;
+                }
+                if sampled.is_empty() {
+                    let states = self.units.iter().chain([loaded]);
+                    let states = states.map(|state| (&state.ends[id.0], state.load(id)));
+                    sampled.sample(beam.beam.straight(), states);
+                }
+                sampled.weigh(|xi| -change.rigidities(xi));
+                sums[k].add(|unit, state| sampled.work(unit, state).sum());
+            }
         }
+        for (varied, sum) in parameters.iter().zip(&mut sums) {
+            self.add_joints(sum, varied, loaded);
+        }
+        sums
+    }
+
+    /// Adds what a parameter does by the stiffness of its joints.
+    fn add_joints(&self, sum: &mut Derivative, varied: &Varied, loaded: &State) {
         let Parameter::Joint { direction, joints } = &varied.parameter else {
             return;
         };
+        let state = |k: usize| self.units.get(k).unwrap_or(loaded);
         for joint in joints {
             // q = f/k along every direction: ∂(f_aᵀ C f_b)/∂k = −f_a q_b / k.
-            sum.add(&self.units, loaded, |unit, state| {
-                let work = unit.joints[joint.0][0].component_mul(&state.joints[joint.0][1]);
+            sum.add(|a, b| {
+                let [force, _] = &state(a).joints[joint.0];
+                let [_, deflection] = &state(b).joints[joint.0];
+                let work = force.component_mul(deflection);
                 -direction.map_or(work.sum(), |dof| work[dof.index()]) / varied.value
             });
         }
@@ -131,12 +157,13 @@ struct Derivative {
 }
 
 impl Derivative {
-    /// Adds a part, given the work of a first state's forces on a second's change of deformation.
-    fn add(&mut self, units: &[State; 6], loaded: &State, work: impl Fn(&State, &State) -> f64) {
-        for (a, unit) in units.iter().enumerate() {
-            self.displacement[a] += work(unit, loaded);
-            for (b, other) in units.iter().enumerate().take(a + 1) {
-                let entry = work(unit, other);
+    /// Adds a part, given the work of the forces in a state on the change of deformation in another,
+    /// by number: those of unit wrenches, then the loaded one.
+    fn add(&mut self, work: impl Fn(usize, usize) -> f64) {
+        for a in 0..6 {
+            self.displacement[a] += work(a, 6);
+            for b in 0..=a {
+                let entry = work(a, b);
                 self.compliance[(a, b)] += entry;
                 if a != b {
                     self.compliance[(b, a)] += entry;

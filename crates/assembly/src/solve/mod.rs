@@ -3,6 +3,8 @@
 pub(crate) mod output;
 pub(crate) mod sweep;
 
+use nalgebra::Matrix6;
+
 use crate::answer::solution::{Output, State, Warning};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
@@ -10,7 +12,7 @@ use crate::kinematics::diagnosis::Diagnosis;
 use crate::kinematics::motion::describe;
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
-use crate::plan::workspace::Workspace;
+use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::recover::{check_recovery, recover};
 use crate::pose::restraint::Restraint;
 use crate::pose::{act, form};
@@ -57,6 +59,9 @@ pub(crate) struct Factored {
     workspace: Workspace,
     /// The coordinates that are held so that nothing moves without energy; `None`: not factored yet.
     pins: Option<Vec<usize>>,
+    /// The columns of unit forces on the output, and the compliance that corrects them, where its
+    /// coordinates are independent and it is held.
+    units: Option<(Vec<f64>, Matrix6<f64>)>,
 }
 
 impl Factored {
@@ -81,6 +86,7 @@ impl Factored {
             own,
             workspace,
             pins: None,
+            units: None,
         })
     }
 
@@ -112,7 +118,9 @@ impl Factored {
             plan.output(at.geometry, workspace, pins, restraint, &works)?;
         let held = output.free_motions.is_empty();
         if let Some(inverse) = compliance.as_ref().filter(|_| held && asked == Asked::All) {
-            output.compliance = Some(plan.refined_compliance(workspace, pins, inverse));
+            let (refined, columns) = plan.refined_compliance(workspace, pins, inverse);
+            output.compliance = Some(refined);
+            self.units = Some((columns, *inverse));
         }
         let mut doubtful = free.kinematics.doubtful.or(workspace.doubtful);
         let mut states = Vec::with_capacity(acting.len());
@@ -160,6 +168,74 @@ impl Factored {
             warnings,
         })
     }
+}
+
+impl Factored {
+    /// What unit forces on the output do: they are what its compliance was found from. `None` where
+    /// its coordinates are not independent.
+    fn units(
+        &mut self,
+        plan: &Plan,
+        at: &Posture<'_>,
+        free: Free<'_>,
+        acting: &[Acting],
+    ) -> Result<Option<Vec<State>>, SolveError> {
+        if self.units.is_none() {
+            self.solve(plan, at, free, &[], Asked::All)?;
+        }
+        let plan = self.own.as_ref().unwrap_or(plan);
+        let (Some((columns, compliance)), Some(pins)) = (&self.units, &self.pins) else {
+            return Ok(None);
+        };
+        let workspace = &mut self.workspace;
+        let n = plan.unknowns();
+        let motions = workspace.solutions[..LOADS * n].to_vec();
+        settled(act(plan, at, acting, workspace))?;
+        workspace.solutions[..LOADS * n].copy_from_slice(&motions);
+        workspace.solutions[LOADS * n..].copy_from_slice(columns);
+        let sets = LOADS..workspace.columns();
+        plan.find_remainder(workspace, pins, Some(compliance), sets);
+        let at_rest = Floor::at_rest(at);
+        let states = acting.iter().enumerate().map(|(set, acting)| {
+            let floor = at_rest.under(at, acting);
+            let output = plan.output_displacement(workspace, LOADS + set);
+            let state = recover(plan, at, workspace, set, (acting, &floor), output)?.state;
+            match state.is_finite() {
+                true => Ok(state),
+                false => Err(SolveError::Overflow),
+            }
+        });
+        states.collect::<Result<_, _>>().map(Some)
+    }
+}
+
+/// What unit forces on the output do, one by one.
+///
+/// # Errors
+/// As [`solve_all`].
+pub(crate) fn respond_to_units(
+    plan: &Plan,
+    at: &Posture<'_>,
+    free: Free<'_>,
+    kept: &mut Option<Box<Factored>>,
+    acting: &[Acting],
+) -> Result<Vec<State>, SolveError> {
+    free.restraint.check_loads(at, acting)?;
+    plan.check_sets(at.model, acting.len())?;
+    let mut factored = match kept.take() {
+        Some(factored) => factored,
+        None => Box::new(Factored::new(plan, at, free.diagnosis)?),
+    };
+    let states = match factored.units(plan, at, free, acting)? {
+        Some(states) => states,
+        None => {
+            factored
+                .solve(plan, at, free, acting, Asked::States)?
+                .states
+        }
+    };
+    *kept = Some(factored);
+    Ok(states)
 }
 
 /// What each of these sets of loads does in a configuration, by the plan of its mechanism. What is

@@ -58,7 +58,7 @@ impl Plan {
                 .map(|column| node_displacement(self, geometry, workspace, column, self.output))
                 .collect();
             for column in sets {
-                self.find_remainder(workspace, pins, None, column);
+                self.find_remainder(workspace, pins, None, column..column + 1);
             }
             let output = Output {
                 stiffness,
@@ -93,7 +93,7 @@ impl Plan {
                 self.remove_free_motion(workspace, twist, size, column);
             }
             displacements.push(self.output_displacement(workspace, column));
-            self.find_remainder(workspace, pins, Some(&compliance), column);
+            self.find_remainder(workspace, pins, Some(&compliance), column..column + 1);
         }
         let output = Output {
             stiffness: Some(stiffness),
@@ -164,13 +164,13 @@ impl Plan {
 
     /// The compliance from unit forces on the output, refined as displacements are: where the
     /// output is stiff one way and soft another, the inverse of the stiffness loses digits. The
-    /// six forces go together, in the columns of the unit motions.
+    /// six forces go together, in the columns of the unit motions; their own columns come with it.
     pub(crate) fn refined_compliance(
         &self,
         workspace: &mut Workspace,
         pins: &[usize],
         inverse: &Matrix6<f64>,
-    ) -> Matrix6<f64> {
+    ) -> (Matrix6<f64>, Vec<f64>) {
         let n = self.unknowns;
         let kept = UNITS.start * n..UNITS.end * n;
         let motions = workspace.solutions[kept.clone()].to_vec();
@@ -196,9 +196,10 @@ impl Plan {
             let column = read(&workspace.solutions[k * n..], self.inner);
             compliance.set_column(k, &column);
         }
+        let columns = workspace.solutions[kept.clone()].to_vec();
         workspace.solutions[kept.clone()].copy_from_slice(&motions);
         workspace.loads[kept].copy_from_slice(&loads);
-        (compliance + compliance.transpose()) * 0.5
+        ((compliance + compliance.transpose()) * 0.5, columns)
     }
 
     /// Adds the output's unit motions, by their share, to a column of solutions.
