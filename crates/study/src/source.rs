@@ -7,7 +7,7 @@ use crate::drives::MissingDrives;
 use crate::error::StudyError;
 
 /// Where the parts of a model are written.
-pub(crate) enum Source<'a> {
+pub(crate) enum Written<'a> {
     /// In a mechanism file.
     Mechanism(&'a Mechanism),
     /// In a job's mechanism file, where it has one, else in the job itself.
@@ -17,7 +17,7 @@ pub(crate) enum Source<'a> {
     Design(&'a Job, &'a Design),
 }
 
-impl Source<'_> {
+impl Written<'_> {
     /// The error of a model that has no solution, at the place that is to blame.
     pub(crate) fn unsolvable(&self, here: &Configuration<'_>, error: SolveError) -> StudyError {
         let model = here.model();

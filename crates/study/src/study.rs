@@ -11,7 +11,7 @@ use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Regi
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
-use crate::source::Source;
+use crate::source::Written;
 use crate::title::title;
 
 /// A mechanism in one configuration, ready to be asked.
@@ -344,10 +344,10 @@ impl Study {
         })
     }
 
-    pub(crate) fn source(&self) -> Source<'_> {
+    pub(crate) fn source(&self) -> Written<'_> {
         match &self.origin {
-            Origin::Mechanism(mechanism) => Source::Mechanism(mechanism),
-            Origin::Job { job, design, .. } => Source::Design(job, design),
+            Origin::Mechanism(mechanism) => Written::Mechanism(mechanism),
+            Origin::Job { job, design, .. } => Written::Design(job, design),
         }
     }
 }

@@ -20,7 +20,7 @@ const LINE: u8 = 3;
 
 /// What a cell is a part of.
 #[derive(Debug, Clone, Copy)]
-enum Part {
+enum CellKind {
     Beam = 0,
     Rigid = 1,
     Joint = 2,
@@ -29,12 +29,12 @@ enum Part {
 /// What is written of a model: its states, of which the first is the base state, and its modes.
 struct Found<'a> {
     model: &'a Model,
-    states: Vec<State<'a>>,
+    states: Vec<Shown<'a>>,
     modes: &'a [Mode],
 }
 
 /// What loads that act together do.
-struct State<'a> {
+struct Shown<'a> {
     /// Before the names of its arrays: nothing for the base state, `<case>.` for a case.
     prefix: String,
     displacements: &'a [Vector6<f64>],
@@ -61,7 +61,7 @@ struct Point {
 struct Cell {
     /// One point, or two.
     points: Vec<usize>,
-    part: Part,
+    part: CellKind,
     /// Number of the body, or of the joint.
     number: usize,
     /// In every state, the section in the middle; empty where it is no beam.
@@ -98,12 +98,12 @@ pub fn vtu(
     solution: &Solution,
     modes: Option<&Modes>,
 ) -> Result<String, SolveError> {
-    let base = State {
+    let base = Shown {
         prefix: String::new(),
         displacements: &solution.displacements,
         segments: &solution.segments,
     };
-    let cases = solution.cases.iter().map(|case| State {
+    let cases = solution.cases.iter().map(|case| Shown {
         prefix: format!("{}.", case.name),
         displacements: &case.state.displacements,
         segments: &case.state.segments,
@@ -156,7 +156,7 @@ impl Found<'_> {
         let (model, geometry) = (self.model, self.model.geometry());
         let ends = model.segments()[id.0].ends;
         let [start, end] = ends.map(|node| geometry.positions[node.0]);
-        let moved = |state: &State<'_>| {
+        let moved = |state: &Shown<'_>| {
             let load = Some(&state.segments[id.0].load);
             segment_displacement(model, geometry, state.displacements, id, load, xi).map(Into::into)
         };
@@ -178,7 +178,7 @@ impl Found<'_> {
             Ok(Some(taper)) => taper.at(xi),
             _ => segment.section.clone(),
         };
-        let of_state = |state: &State<'_>| {
+        let of_state = |state: &Shown<'_>| {
             let forces = &state.segments[id.0];
             let wrench = section_wrench(self.model, id, forces, xi);
             let worst = || {
@@ -219,7 +219,7 @@ impl Grid {
             if let Some(last) = last.replace(point) {
                 self.cells.push(Cell {
                     points: vec![last, point],
-                    part: Part::Beam,
+                    part: CellKind::Beam,
                     number: segment.body.0,
                     sections: found.sections(id, xi - 0.5 / pieces as f64),
                 });
@@ -249,7 +249,7 @@ impl Grid {
             };
             self.cells.extend(cells.into_iter().map(|points| Cell {
                 points,
-                part: Part::Rigid,
+                part: CellKind::Rigid,
                 number,
                 sections: Vec::new(),
             }));
@@ -265,7 +265,7 @@ impl Grid {
             let point = self.add_point(found.node(node.0));
             self.cells.push(Cell {
                 points: vec![point],
-                part: Part::Joint,
+                part: CellKind::Joint,
                 number,
                 sections: Vec::new(),
             });
@@ -297,7 +297,7 @@ impl Grid {
         });
         integers(&mut text, "types", kinds);
         text += "</Cells>\n<PointData Vectors=\"displacement\">\n";
-        for (k, State { prefix, .. }) in found.states.iter().enumerate() {
+        for (k, Shown { prefix, .. }) in found.states.iter().enumerate() {
             let parts = |from: usize| {
                 let all = self.points.iter().map(move |point| &point.displacements[k]);
                 all.flat_map(move |moved| moved[from..from + 3].iter().copied())
@@ -310,7 +310,7 @@ impl Grid {
             floats(&mut text, &format!("mode{}", k + 1), 3, shape);
         }
         text += "</PointData>\n<CellData>\n";
-        for (k, State { prefix, .. }) in found.states.iter().enumerate() {
+        for (k, Shown { prefix, .. }) in found.states.iter().enumerate() {
             let sections = || {
                 let of_cell = |cell: &Cell| cell.sections.get(k).copied().unwrap_or_default();
                 self.cells.iter().map(of_cell)

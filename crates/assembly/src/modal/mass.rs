@@ -59,11 +59,11 @@ const COUPLINGS: &str = "its masses at the ends of chains of rigid bodies";
 impl MassPlan {
     /// Of a divided model: a mass a segment, then those of the nodes.
     pub fn new(plan: &Plan, model: &Model) -> Result<Self, SolveError> {
-        let clusters = plan.elements.iter().filter_map(|element| {
-            let Source::Cluster(k) = element.source else {
+        let subassemblies = plan.elements.iter().filter_map(|element| {
+            let Source::Subassembly(k) = element.source else {
                 return None;
             };
-            let (id, _) = *plan.topology.clusters[k].segments.first()?;
+            let (id, _) = *plan.topology.subassemblies[k].segments.first()?;
             let body = model.segments()[id.0].body;
             Some((body, element.columns.clone(), element.nodes.clone()))
         });
@@ -76,7 +76,7 @@ impl MassPlan {
             let places = columns.iter().map(place).collect();
             (body, ascending, vec![(mass.node, places)])
         });
-        let mut holders: Vec<Holder> = clusters
+        let mut holders: Vec<Holder> = subassemblies
             .chain(nodes)
             .map(|(body, columns, nodes)| Holder {
                 body,

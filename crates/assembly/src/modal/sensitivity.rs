@@ -175,9 +175,9 @@ impl ModalPlan {
             &found.vector,
             |element, _, moved, force| {
                 match element.source {
-                    Source::Cluster(k) => {
-                        // No joint is absorbed: a segment is a cluster.
-                        if let [(segment, _)] = plan.topology.clusters[k].segments[..] {
+                    Source::Subassembly(k) => {
+                        // No joint is absorbed: a segment is a subassembly.
+                        if let [(segment, _)] = plan.topology.subassemblies[k].segments[..] {
                             shape.ends[segment.0].copy_from_slice(force);
                         }
                     }
@@ -212,7 +212,7 @@ impl ModalPlan {
             let count = self.model.segments()[id.0].elements;
             let mut whole = None;
             for k in 0..count {
-                let part = Part {
+                let part = ElementShape {
                     id: SegmentId(divided.firsts[id.0] + k),
                     change,
                     place: k,
@@ -259,7 +259,7 @@ impl ModalPlan {
     fn add_part(
         &self,
         outcome: &Outcome<'_>,
-        part: &Part<'_>,
+        part: &ElementShape<'_>,
         mass: Option<&Matrix12>,
         sums: &mut Sums<'_>,
     ) -> Result<(), SolveError> {
@@ -293,7 +293,7 @@ impl ModalPlan {
     fn mass_change(
         &self,
         outcome: &Outcome<'_>,
-        part: &Part<'_>,
+        part: &ElementShape<'_>,
     ) -> Result<Option<Matrix12>, SolveError> {
         let options = &self.options;
         let segment = &self.divided.segments()[part.id.0];
@@ -338,7 +338,7 @@ struct Divided {
 }
 
 /// A part of a segment of the model, one of the divided model.
-struct Part<'a> {
+struct ElementShape<'a> {
     id: SegmentId,
     change: &'a SegmentChange,
     /// Number of the part, from 0, of how many.
@@ -346,7 +346,7 @@ struct Part<'a> {
     count: usize,
 }
 
-impl Part<'_> {
+impl ElementShape<'_> {
     /// Place along the whole segment.
     fn along(&self, xi: f64) -> f64 {
         (self.place as f64 + xi) / self.count as f64

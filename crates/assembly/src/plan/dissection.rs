@@ -25,16 +25,16 @@ pub(crate) fn nested_dissection(graph: &Graph, places: &[Point3<f64>]) -> Vec<us
         beyond: vec![0; count],
     };
     // Parts to be ordered, the last one first: the order grows from its end.
-    let mut parts = vec![Part::Whole((0..count).collect())];
+    let mut parts = vec![Region::Whole((0..count).collect())];
     let mut reversed = Vec::with_capacity(count);
     while let Some(part) = parts.pop() {
         match part {
-            Part::Whole(vertices) if vertices.len() > LEAF => {
+            Region::Whole(vertices) if vertices.len() > LEAF => {
                 let [first, second, separator] = dissection.divide(vertices);
-                parts.extend([first, second].map(Part::Whole));
-                parts.push(Part::Ordered(separator));
+                parts.extend([first, second].map(Region::Whole));
+                parts.push(Region::Ordered(separator));
             }
-            Part::Whole(vertices) | Part::Ordered(vertices) => {
+            Region::Whole(vertices) | Region::Ordered(vertices) => {
                 reversed.extend(vertices.into_iter().rev());
             }
         }
@@ -44,7 +44,7 @@ pub(crate) fn nested_dissection(graph: &Graph, places: &[Point3<f64>]) -> Vec<us
 }
 
 /// Vertices of one part, to be divided or to be taken as they are.
-enum Part {
+enum Region {
     Whole(Vec<usize>),
     Ordered(Vec<usize>),
 }

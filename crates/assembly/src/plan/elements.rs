@@ -9,7 +9,7 @@ use super::topology::Topology;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Source {
     /// A run of segments with its absorbed joints.
-    Cluster(usize),
+    Subassembly(usize),
     /// The elastic directions of a joint that keep coordinates of their own.
     Spring(JointId),
 }
@@ -31,16 +31,20 @@ pub(crate) struct ElementPlan {
     pub places_start: usize,
 }
 
-/// One element a cluster, and one a joint whose elastic directions keep their coordinates.
+/// One element a subassembly, and one a joint whose elastic directions keep their coordinates.
 pub(crate) fn elements(
     model: &Model,
     topology: &Topology,
     columns: &[Vec<usize>],
 ) -> Vec<ElementPlan> {
-    let clusters = topology.clusters.iter().enumerate().map(|(k, cluster)| {
-        let rows = 6 * (cluster.nodes.len() - 1);
-        (Source::Cluster(k), rows, cluster.nodes.clone())
-    });
+    let subassemblies = topology
+        .subassemblies
+        .iter()
+        .enumerate()
+        .map(|(k, subassembly)| {
+            let rows = 6 * (subassembly.nodes.len() - 1);
+            (Source::Subassembly(k), rows, subassembly.nodes.clone())
+        });
     let springs = topology.joints.iter().enumerate().filter_map(|(k, role)| {
         if role.springs.is_empty() {
             return None;
@@ -55,7 +59,7 @@ pub(crate) fn elements(
     });
     let mut elements: Vec<ElementPlan> = Vec::new();
     let (mut operator_start, mut stiffness_start, mut initial_start) = (0, 0, 0);
-    for (source, rows, nodes) in clusters.chain(springs) {
+    for (source, rows, nodes) in subassemblies.chain(springs) {
         let mut all: Vec<usize> = nodes
             .iter()
             .flat_map(|n| &columns[topology.carrier_of[n.0]])

@@ -2,13 +2,13 @@
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
 pub(crate) mod blocks;
-pub(crate) mod clusters;
 pub(crate) mod coordinates;
 pub(crate) mod dissection;
 pub(crate) mod elements;
 pub(crate) mod fault;
 pub(crate) mod roles;
 pub(crate) mod sparse;
+pub(crate) mod subassemblies;
 pub(crate) mod topology;
 pub(crate) mod trees;
 pub(crate) mod workspace;

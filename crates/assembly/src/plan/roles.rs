@@ -4,7 +4,7 @@ use hyperstat_joints::DofSet;
 use hyperstat_model::{Directions, Geometry, Model, NodeId, SegmentId, segment_beam};
 use nalgebra::{Matrix6, Vector6};
 
-use super::clusters::LONGEST_CLUSTER;
+use super::subassemblies::LONGEST_CLUSTER;
 use crate::sets::Sets;
 
 /// A joint softer than this share of the beam's own stiffness keeps coordinates of its own: across the

@@ -1,5 +1,5 @@
 //! What depends on the topology alone: carriers of displacement, absorbed joints, the spanning
-//! trees along which joints hand on displacements, and the clusters of segments.
+//! trees along which joints hand on displacements, and the subassemblies of segments.
 //!
 //! A *carrier* is what has six displacement coordinates: a node of an elastic body, or a whole
 //! rigid body. Joints tie carriers into trees; a joint that would close a loop gives conditions
@@ -7,8 +7,8 @@
 
 use hyperstat_model::{Geometry, Model, NodeId};
 
-use super::clusters::{Cluster, clusters};
 use super::roles::{JointRole, roles};
+use super::subassemblies::{Subassembly, subassemblies};
 use super::trees::{Carrier, Component, carriers, components};
 use crate::error::SolveError;
 
@@ -20,7 +20,7 @@ pub(crate) struct Topology {
     pub carrier_of: Vec<usize>,
     pub joints: Vec<JointRole>,
     pub components: Vec<Component>,
-    pub clusters: Vec<Cluster>,
+    pub subassemblies: Vec<Subassembly>,
     /// Number of tree coordinates.
     pub coordinates: usize,
     /// First of the output carrier's six tree coordinates.
@@ -41,7 +41,7 @@ impl Topology {
     ) -> Result<Self, SolveError> {
         let (mut carriers, carrier_of) = carriers(model, output);
         let joints = roles(model, geometry, output, absorbs);
-        let clusters = clusters(model, &joints);
+        let subassemblies = subassemblies(model, &joints);
         let mut coordinates = 0;
         let (components, output_start) = components(
             model,
@@ -56,7 +56,7 @@ impl Topology {
             carrier_of,
             joints,
             components,
-            clusters,
+            subassemblies,
             coordinates,
             output_start,
         })
@@ -67,7 +67,7 @@ impl Topology {
         self.carriers == other.carriers
             && self.carrier_of == other.carrier_of
             && self.components == other.components
-            && self.clusters == other.clusters
+            && self.subassemblies == other.subassemblies
             && self.joints.len() == other.joints.len()
             && (self.joints.iter().zip(&other.joints)).all(|(own, other)| own.is_like(other))
     }

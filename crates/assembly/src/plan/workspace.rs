@@ -50,11 +50,11 @@ pub struct Workspace {
     /// Deformations and forces of one element.
     pub(crate) scratch: Vec<f64>,
     pub(crate) forces: Vec<f64>,
-    /// From the first node of one cluster to the others.
+    /// From the first node of one subassembly to the others.
     pub(crate) arms: Vec<Vector3<f64>>,
-    /// Absorbed joints of one cluster.
+    /// Absorbed joints of one subassembly.
     pub(crate) factors: Vec<JointFactor>,
-    /// For absorbing the joints of one cluster.
+    /// For absorbing the joints of one subassembly.
     pub(crate) absorption: Vec<f64>,
 }
 
@@ -73,10 +73,10 @@ impl Plan {
     pub(crate) fn workspace(&self) -> Workspace {
         let last = self.elements.last();
         let triangle = |e: &ElementPlan| e.rows * e.rows;
-        let clusters = self.topology.clusters.iter();
-        let sizes = clusters.map(|cluster| {
-            let joints = cluster.joints.iter().flatten().count();
-            (cluster.nodes.len() - 1, joints)
+        let subassemblies = self.topology.subassemblies.iter();
+        let sizes = subassemblies.map(|subassembly| {
+            let joints = subassembly.joints.iter().flatten().count();
+            (subassembly.nodes.len() - 1, joints)
         });
         let absorption = sizes.clone().map(|(n, j)| absorption_workspace(n, j));
         let no_joint = JointFactor {

@@ -10,7 +10,7 @@ use hyperstat_elements::rotate_vector6;
 use hyperstat_model::{SegmentBeam, SegmentId};
 use nalgebra::{Matrix6, Vector6};
 
-use super::cluster::{absorbed_joint, cluster_frame};
+use super::subassembly::{absorbed_joint, subassembly_frame};
 use crate::answer::solution::SegmentForces;
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -38,21 +38,22 @@ pub(crate) fn join(
     let Posture { geometry, .. } = *at;
     let mut off = 0.0_f64;
     for element in &plan.elements {
-        let Source::Cluster(cluster) = element.source else {
+        let Source::Subassembly(subassembly) = element.source else {
             continue;
         };
-        let cluster = &plan.topology.clusters[cluster];
-        let ([first, second], [(id, reversed)]) = (&cluster.nodes[..], &cluster.segments[..])
+        let subassembly = &plan.topology.subassemblies[subassembly];
+        let ([first, second], [(id, reversed)]) =
+            (&subassembly.nodes[..], &subassembly.segments[..])
         else {
             continue;
         };
         let Some(forces) = &segments[id.0] else {
             continue;
         };
-        if cluster.joints.iter().all(Option::is_none) {
+        if subassembly.joints.iter().all(Option::is_none) {
             continue;
         }
-        let frame = cluster_frame(cluster, geometry)?;
+        let frame = subassembly_frame(subassembly, geometry)?;
         let k = &workspace.stiffnesses[element.stiffness_start..][..36];
         let k = Matrix6::from_column_slice(k);
         let carry = shift(geometry, *first, *second);
@@ -61,7 +62,7 @@ pub(crate) fn join(
                 break;
             };
             if *reversed {
-                // Seen from the second node, which is the cluster's first.
+                // Seen from the second node, which is the subassembly's first.
                 left = -(carry * left);
             }
             let local = rotate_vector6(&left, &frame.inverse());
@@ -72,7 +73,7 @@ pub(crate) fn join(
             }
             let at_first = -(carry.transpose() * wrench);
             let ends = [(*first, at_first), (*second, wrench)];
-            for ((node, wrench), joint) in ends.iter().zip(&cluster.joints) {
+            for ((node, wrench), joint) in ends.iter().zip(&subassembly.joints) {
                 if let Some(joint) = joint {
                     let elastic = absorbed_joint(plan, at, *joint);
                     displacements[node.0] -= elastic.turned_compliance() * wrench;

@@ -1,6 +1,5 @@
 //! The numeric pass of one pose: carriers' blocks, elements, assembled stiffness (Eqs. 40–42).
 
-pub(crate) mod cluster;
 pub(crate) mod condense;
 pub(crate) mod joining;
 pub(crate) mod loads;
@@ -9,6 +8,7 @@ pub(crate) mod recover;
 pub(crate) mod restraint;
 pub(crate) mod spread;
 pub(crate) mod spring;
+pub(crate) mod subassembly;
 
 use hyperstat_model::{Geometry, NodeId};
 use nalgebra::Vector6;
@@ -18,9 +18,9 @@ use crate::plan::blocks::{dot, multiply, read, shift, write};
 use crate::plan::elements::Source;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::{LOADS, Workspace};
-use crate::pose::cluster::{cluster_element, cluster_initial};
 use crate::pose::loads::load;
 use crate::pose::spring::{spring_element, spring_initial};
+use crate::pose::subassembly::{subassembly_element, subassembly_initial};
 use crate::posture::Posture;
 use crate::state::acting::Acting;
 use crate::state::offsets::offsets;
@@ -50,9 +50,9 @@ pub(crate) fn form(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> 
     close_loops(plan, at, workspace)?;
     for element in &plan.elements {
         match element.source {
-            Source::Cluster(k) => {
-                let cluster = &plan.topology.clusters[k];
-                cluster_element(plan, element, cluster, at, workspace)?;
+            Source::Subassembly(k) => {
+                let subassembly = &plan.topology.subassemblies[k];
+                subassembly_element(plan, element, subassembly, at, workspace)?;
             }
             Source::Spring(joint) => spring_element(plan, element, joint, at, workspace),
         }
@@ -78,9 +78,9 @@ pub(crate) fn act(
     workspace.initial.fill(0.0);
     for element in &plan.elements {
         match element.source {
-            Source::Cluster(k) => {
-                let cluster = &plan.topology.clusters[k];
-                cluster_initial(plan, element, cluster, at, acting, workspace)?;
+            Source::Subassembly(k) => {
+                let subassembly = &plan.topology.subassemblies[k];
+                subassembly_initial(plan, element, subassembly, at, acting, workspace)?;
             }
             Source::Spring(joint) => {
                 if !workspace.offsets.is_empty() {

@@ -10,8 +10,8 @@
 
 use nalgebra::{Matrix6, Vector6};
 
-use super::cluster::cluster_frame;
 use super::condense::UNITS;
+use super::subassembly::subassembly_frame;
 use crate::answer::solution::{Output, State};
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -36,7 +36,7 @@ pub(crate) struct Columns<'a> {
 }
 
 /// What an element does in a state.
-pub(crate) struct Part {
+pub(crate) struct Estimated {
     deformation: Vec<f64>,
     force: Vec<f64>,
     /// Sizes of what is summed up in each.
@@ -140,7 +140,7 @@ impl Plan {
         sizes: &[f64],
         workspace: &Workspace,
         columns: &Columns<'_>,
-    ) -> Vec<Part> {
+    ) -> Vec<Estimated> {
         let (rows, n) = (element.rows, self.unknowns);
         let operator =
             &workspace.operators[element.operator_start..][..rows * element.columns.len()];
@@ -167,7 +167,7 @@ impl Plan {
             let sizes: Vec<f64> = deformation.iter().map(|entry| entry.abs()).collect();
             let mut weighed = vec![0.0; rows];
             multiply(&k_sizes, &sizes, rows, &mut weighed);
-            Part {
+            Estimated {
                 deformation,
                 force,
                 summed,
@@ -204,11 +204,14 @@ impl Plan {
                         }
                     }
                 }
-                Source::Cluster(cluster) => {
-                    let cluster = &self.topology.clusters[cluster];
-                    let turn = cluster_frame(cluster, geometry)?.matrix().transpose().abs();
+                Source::Subassembly(subassembly) => {
+                    let subassembly = &self.topology.subassemblies[subassembly];
+                    let turn = subassembly_frame(subassembly, geometry)?
+                        .matrix()
+                        .transpose()
+                        .abs();
                     let moved: Vec<(usize, Matrix6<f64>)> = match r {
-                        0 => (cluster.nodes[1..].iter().enumerate())
+                        0 => (subassembly.nodes[1..].iter().enumerate())
                             .map(|(other, to)| (other, shift(geometry, *node, *to).abs()))
                             .collect(),
                         _ => vec![(r - 1, Matrix6::identity())],
@@ -232,7 +235,7 @@ impl Plan {
     }
 }
 
-impl Part {
+impl Estimated {
     /// What an error of `other` does along this one.
     fn error_of(&self, other: &Self) -> f64 {
         let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a.abs() * b).sum() };
@@ -259,7 +262,7 @@ impl State {
 
 /// Adds what the roundings of an element do to the output's stiffness; `motions`: the element under
 /// unit motions of the output.
-fn add_errors(moved: &mut [[f64; 6]; 6], motions: &[Part]) {
+fn add_errors(moved: &mut [[f64; 6]; 6], motions: &[Estimated]) {
     for (i, first) in motions.iter().enumerate() {
         for (j, second) in motions.iter().enumerate() {
             moved[j][i] += first.error_of(second) + second.error_of(first);

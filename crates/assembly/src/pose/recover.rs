@@ -5,8 +5,8 @@ use hyperstat_joints::{Dof, DofSet};
 use hyperstat_model::{JointId, Model, NodeId, rotation6, to_directions};
 use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
 
-use super::cluster::{absorbed_joint, cluster_frame, misfit_inside};
 use super::joining::join;
+use super::subassembly::{absorbed_joint, misfit_inside, subassembly_frame};
 use crate::answer::solution::{SegmentForces, State};
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -60,29 +60,29 @@ pub(crate) fn recover(
     let mut demand = vec![Vector6::zeros(); model.nodes().len()];
     let mut segments: Vec<Option<SegmentForces>> = vec![None; model.segments().len()];
     for (element, forces) in plan.elements.iter().zip(&all_forces) {
-        let Source::Cluster(k) = element.source else {
+        let Source::Subassembly(k) = element.source else {
             continue;
         };
-        let cluster = &plan.topology.clusters[k];
-        let frame = cluster_frame(cluster, geometry)?;
+        let subassembly = &plan.topology.subassemblies[k];
+        let frame = subassembly_frame(subassembly, geometry)?;
         // Wrenches at the nodes after the first, in global axes; what goes through every
         // segment's end, or for a flexible body their sum at the first node.
         let mut through = Vector6::zeros();
-        for r in (1..cluster.nodes.len()).rev() {
-            let node = cluster.nodes[r];
+        for r in (1..subassembly.nodes.len()).rev() {
+            let node = subassembly.nodes[r];
             let at_node = rotate_vector6(
                 &Vector6::from_column_slice(&forces[6 * (r - 1)..6 * r]),
                 &frame,
             );
             demand[node.0] += at_node;
-            if cluster.flexible.is_some() {
-                let first = cluster.nodes[0];
+            if subassembly.flexible.is_some() {
+                let first = subassembly.nodes[0];
                 through += shift(geometry, first, node).transpose() * at_node;
                 continue;
             }
             through += at_node;
-            let before = cluster.nodes[r - 1];
-            let (id, reversed) = cluster.segments[r - 1];
+            let before = subassembly.nodes[r - 1];
+            let (id, reversed) = subassembly.segments[r - 1];
             let placed = at.beam(id)?;
             let (own, length) = (placed.frame, placed.span.norm());
             let at_before = shift(geometry, before, node).transpose() * through;
@@ -104,10 +104,10 @@ pub(crate) fn recover(
             });
             through = at_before;
         }
-        demand[cluster.nodes[0].0] -= through;
+        demand[subassembly.nodes[0].0] -= through;
     }
-    for cluster in &plan.topology.clusters {
-        for (node, joint) in cluster.nodes.iter().zip(&cluster.joints) {
+    for subassembly in &plan.topology.subassemblies {
+        for (node, joint) in subassembly.nodes.iter().zip(&subassembly.joints) {
             if let Some(joint) = joint {
                 let wrench = demand[node.0] - loads[node.0];
                 let elastic = absorbed_joint(plan, at, *joint);

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use hyperstat_joints::Dof;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::influence::{Influence, State};
+use super::influence::{Influence, UnitState};
 use crate::answer::measures::compliance_along;
 use crate::answer::solution::Solution;
 use hyperstat_model::{BodyId, JointId};
@@ -103,7 +103,7 @@ impl Influence<'_> {
     pub fn compliance_budget(&self, compliance: &Matrix6<f64>, along: &Vector6<f64>) -> Budget {
         let total = compliance_along(compliance, along);
         self.budget_of(
-            &State::combined(&self.units, along),
+            &UnitState::combined(&self.units, along),
             total,
             along,
             Vec::new(),
@@ -114,7 +114,7 @@ impl Influence<'_> {
     /// The budget of `total`; what is below `rounding`, it and its parts, is zero.
     fn budget_of(
         &self,
-        loaded: &State,
+        loaded: &UnitState,
         total: f64,
         along: &Vector6<f64>,
         mut found: Vec<(PartSource, Deformation, f64)>,
@@ -122,7 +122,7 @@ impl Influence<'_> {
     ) -> Budget {
         let clean = |value: f64| if value.abs() <= rounding { 0.0 } else { value };
         let total = clean(total);
-        let virtual_state = State::combined(&self.units, along);
+        let virtual_state = UnitState::combined(&self.units, along);
         let model = self.model;
         for (k, body) in model.bodies().iter().enumerate() {
             let source = PartSource::Body(BodyId(k));
@@ -206,7 +206,7 @@ impl Influence<'_> {
     /// causes, reversed: `−f_e` on the second body. So it says which tolerance of a joint, of a
     /// bearing's place or a link's length, matters.
     pub fn misfit_effects(&self, along: &Vector6<f64>) -> Vec<MisfitEffect> {
-        let state = State::combined(&self.units, along);
+        let state = UnitState::combined(&self.units, along);
         let mut effects = Vec::new();
         for (k, joint) in self.joints.iter().enumerate() {
             let reaction = &state.reactions[k];

@@ -24,7 +24,7 @@ pub struct Influence<'m> {
     pub(crate) geometry: &'m Geometry,
     /// The mechanism's size (m).
     pub(crate) size: f64,
-    pub(crate) units: [State; 6],
+    pub(crate) units: [UnitState; 6],
     /// Displacement of every node in each of them, global axes.
     pub(crate) displacements: [Vec<Vector6<f64>>; 6],
     pub(crate) beams: Arc<[PlacedBeam]>,
@@ -33,7 +33,7 @@ pub struct Influence<'m> {
 
 /// The forces in a model's elastic parts; linear in the loads, where none acts between nodes.
 #[derive(Debug, Clone)]
-pub(crate) struct State {
+pub(crate) struct UnitState {
     /// Wrench on every segment at its second node, element frame.
     pub ends: Vec<Vector6<f64>>,
     /// Load along every segment, element frame; empty where none has any.
@@ -79,7 +79,7 @@ impl<'m> Influence<'m> {
             model,
             geometry,
             size: at.size,
-            units: std::array::from_fn(|_| State::empty()),
+            units: std::array::from_fn(|_| UnitState::empty()),
             displacements: std::array::from_fn(|_| Vec::new()),
             beams: at.beams()?,
             joints: joints.collect(),
@@ -94,7 +94,7 @@ impl<'m> Influence<'m> {
 
     /// The state of a solution of this model, under any loads: what the springs of its joints
     /// themselves take and give, apart from preloads and misfits.
-    pub(crate) fn state(&self, solution: &Solution) -> State {
+    pub(crate) fn state(&self, solution: &Solution) -> UnitState {
         let mut state = self.state_of(
             &solution.displacements,
             &solution.joint_wrenches,
@@ -127,7 +127,7 @@ impl<'m> Influence<'m> {
         displacements: &[Vector6<f64>],
         wrenches: &[Option<Vector6<f64>>],
         segments: &[SegmentForces],
-    ) -> State {
+    ) -> UnitState {
         let model = self.model;
         let ends = segments.iter().map(|s| s.ends[1]).collect();
         let loads = segments.iter().map(|s| s.load).collect();
@@ -154,7 +154,7 @@ impl<'m> Influence<'m> {
         let reactions = reactions
             .map(|(wrench, own)| wrench.map(|wrench| own.basis.transpose() * wrench))
             .collect();
-        State {
+        UnitState {
             ends,
             loads,
             joints,
@@ -202,8 +202,8 @@ impl<'m> Influence<'m> {
     pub(crate) fn segment_work(
         &self,
         segment: SegmentId,
-        state: &State,
-        unit: &State,
+        state: &UnitState,
+        unit: &UnitState,
         weight: &dyn Fn(f64) -> Vector6<f64>,
     ) -> Vector6<f64> {
         let load = state.load(segment);
@@ -216,8 +216,8 @@ impl<'m> Influence<'m> {
     pub(crate) fn segment_parts(
         &self,
         segment: SegmentId,
-        state: &State,
-        unit: &State,
+        state: &UnitState,
+        unit: &UnitState,
     ) -> (Vector6<f64>, f64) {
         let elastic = self.segment_work(segment, state, unit, &|_| Vector6::repeat(1.0));
         let load = state.load(segment);
@@ -245,7 +245,7 @@ impl ElasticDirections {
     }
 }
 
-impl State {
+impl UnitState {
     fn empty() -> Self {
         Self {
             ends: Vec::new(),

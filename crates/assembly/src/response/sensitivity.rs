@@ -11,7 +11,7 @@ use hyperstat_elements::SampledStates;
 use hyperstat_model::SegmentId;
 use nalgebra::{Matrix6, Vector6};
 
-use super::influence::{Influence, State};
+use super::influence::{Influence, UnitState};
 use super::parameters::{Parameter, Varied, parameters};
 use crate::answer::measures::compliance_along;
 use crate::answer::solution::Solution;
@@ -96,7 +96,7 @@ impl Influence<'_> {
     }
 
     /// What each of the parameters does by the stiffness of its segments and joints.
-    fn by_stiffness(&self, parameters: &[Varied], loaded: &State) -> Vec<Derivative> {
+    fn by_stiffness(&self, parameters: &[Varied], loaded: &UnitState) -> Vec<Derivative> {
         let mut sums: Vec<Derivative> = Vec::new();
         sums.resize_with(parameters.len(), Derivative::default);
         // A segment's states serve all the parameters that change it: their segments are ascending.
@@ -132,7 +132,7 @@ impl Influence<'_> {
     }
 
     /// Adds what a parameter does by the stiffness of its joints.
-    fn add_joints(&self, sum: &mut Derivative, varied: &Varied, loaded: &State) {
+    fn add_joints(&self, sum: &mut Derivative, varied: &Varied, loaded: &UnitState) {
         let Parameter::Joint { direction, joints } = &varied.parameter else {
             return;
         };

@@ -23,14 +23,14 @@ struct Plotted {
 
 /// What a file is, by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+enum FileKind {
     Table,
     Json,
     /// Everything else: a mechanism or batch file.
     Ron,
 }
 
-impl Kind {
+impl FileKind {
     fn of(path: &Path) -> Self {
         let extension = path.extension().and_then(|extension| extension.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
@@ -100,7 +100,7 @@ fn stem_of(args: &args::Plot, name: &str) -> PathBuf {
 
 /// The figure that is asked for.
 fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> {
-    let kind = Kind::of(&args.file);
+    let kind = FileKind::of(&args.file);
     let of_mechanism = match &args.kind {
         kind if kind.deformed => Some("--deformed"),
         kind if kind.mode.is_some() => Some("--mode"),
@@ -112,8 +112,8 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
             refuse(args, "a table", [("--job", args.job.is_some())])?;
             of_table(args)
         }
-        (Some(_), Kind::Ron) => mechanism::figure(args, registry),
-        (Some("--budget"), Kind::Json) => {
+        (Some(_), FileKind::Ron) => mechanism::figure(args, registry),
+        (Some("--budget"), FileKind::Json) => {
             let chosen = [
                 ("--job", args.job.is_some()),
                 ("--design", args.design.is_some()),

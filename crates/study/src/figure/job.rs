@@ -14,7 +14,7 @@ use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
 use crate::schema::is_frequency;
-use crate::source::Source;
+use crate::source::Written;
 use crate::study::job_model;
 use crate::table::TableReader;
 
@@ -54,7 +54,7 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
                 if let Ok(model) = job.model() {
                     let prepared = Prepared::new(model);
                     let modal = prepared.modal(&modal_options(job, *number));
-                    modal.map_err(|error| Source::Job(job).unsolvable(&prepared.here(), error))?;
+                    modal.map_err(|error| Written::Job(job).unsolvable(&prepared.here(), error))?;
                 }
             }
             _ => {}

@@ -15,7 +15,7 @@ use hyperstat_mechanisms::{Design, Job};
 
 use crate::error::StudyError;
 pub use crate::schema::Columns;
-use crate::source::Source;
+use crate::source::Written;
 pub use chunk::{Chunk, Row};
 pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
@@ -74,7 +74,9 @@ impl<'a> Sweep<'a> {
             let prepared = Prepared::new(model);
             let planned = match Planned::modal(&prepared, job) {
                 Ok(modal) => Ok(Planned { prepared, modal }),
-                Err(error) => Err(Source::Design(job, &design).unsolvable(&prepared.here(), error)),
+                Err(error) => {
+                    Err(Written::Design(job, &design).unsolvable(&prepared.here(), error))
+                }
             };
             Ok((number, Ok(Arc::new(planned?))))
         };

@@ -29,12 +29,12 @@ pub struct TableReader {
     /// Names of the columns.
     names: Vec<String>,
     form: TableFormat,
-    source: Source,
+    source: Content,
 }
 
 /// Where the bytes of a table are.
 #[derive(Debug, Clone)]
-enum Source {
+enum Content {
     /// On the disk, at the table's path.
     #[cfg(feature = "fs")]
     Disk,
@@ -48,7 +48,7 @@ impl TableReader {
     /// The file cannot be read, or is no table as a sweep writes it.
     #[cfg(feature = "fs")]
     pub fn open(path: &Path) -> Result<Self, PlotError> {
-        Self::new(path, Source::Disk)
+        Self::new(path, Content::Disk)
     }
 
     /// A table of this name, CSV or Parquet by its ending, whose content is here.
@@ -56,10 +56,10 @@ impl TableReader {
     /// # Errors
     /// It is no table as a sweep writes it.
     pub fn of(path: &Path, content: impl Into<Arc<[u8]>>) -> Result<Self, PlotError> {
-        Self::new(path, Source::Memory(content.into()))
+        Self::new(path, Content::Memory(content.into()))
     }
 
-    fn new(path: &Path, source: Source) -> Result<Self, PlotError> {
+    fn new(path: &Path, source: Content) -> Result<Self, PlotError> {
         let extension = path.extension().and_then(|extension| extension.to_str());
         let form = match extension.map(str::to_ascii_lowercase).as_deref() {
             Some("csv") => TableFormat::Csv,
@@ -338,7 +338,7 @@ fn cell_span(text: &str, cell: usize) -> (usize, usize) {
     (start + 1, (end - start).max(1))
 }
 
-impl Source {
+impl Content {
     /// The content from its beginning.
     fn open(&self, path: &Path) -> Result<Box<dyn Read + '_>, PlotError> {
         match self {
@@ -362,7 +362,7 @@ fn file(path: &Path) -> Result<std::fs::File, PlotError> {
 
 fn csv_reader<'s>(
     path: &Path,
-    source: &'s Source,
+    source: &'s Content,
 ) -> Result<csv::Reader<Box<dyn Read + 's>>, PlotError> {
     let content = source.open(path)?;
     Ok(csv::ReaderBuilder::new()
@@ -378,15 +378,15 @@ fn csv_error(path: &Path, error: csv::Error) -> PlotError {
 }
 
 #[cfg(feature = "parquet")]
-fn parquet_reader(path: &Path, source: &Source) -> Result<Box<dyn FileReader>, PlotError> {
+fn parquet_reader(path: &Path, source: &Content) -> Result<Box<dyn FileReader>, PlotError> {
     let error = |source| PlotError::Parquet {
         path: path.into(),
         source,
     };
     Ok(match source {
         #[cfg(feature = "fs")]
-        Source::Disk => Box::new(SerializedFileReader::new(file(path)?).map_err(error)?),
-        Source::Memory(content) => {
+        Content::Disk => Box::new(SerializedFileReader::new(file(path)?).map_err(error)?),
+        Content::Memory(content) => {
             let content = bytes::Bytes::from_owner(Arc::clone(content));
             Box::new(SerializedFileReader::new(content).map_err(error)?)
         }

@@ -10,7 +10,7 @@ use super::lane::{
     transposed,
 };
 use crate::lanes::program::chain::{
-    BeamLink, Chain, Item, JointLink, LinkKind, MOST_IDLE, MOST_RELEASES, Part, Release,
+    BeamLink, Chain, ComplianceBlock, Item, JointLink, LinkKind, MOST_IDLE, MOST_RELEASES, Release,
 };
 
 /// Six numbers: rotations about the chain's x, y, z, times its size, then translations along
@@ -437,7 +437,7 @@ fn add_joint<S: Simd>(
     let arm = frame.arm_to(&vector(simd, inputs, joint.point));
     let one = Lane::splat(simd, 1.0);
     let translation = turned(simd, &joint.translation, &axes, one);
-    if let (Part::Diagonal(values), None) = (&joint.rotation, &joint.coupling) {
+    if let (ComplianceBlock::Diagonal(values), None) = (&joint.rotation, &joint.coupling) {
         // Springs about its axes: where their arms' parts cancel, nothing of a soft one is left.
         for i in 0..3 {
             for j in 0..=i {
@@ -469,10 +469,12 @@ fn add_joint<S: Simd>(
 
 /// A part of a joint's compliance in the chain's axes; `axes`: the joint's as rows.
 #[inline(always)]
-fn turned<S: Simd>(simd: S, part: &Part, axes: &Mat3<S>, by: Lane<S>) -> Mat3<S> {
+fn turned<S: Simd>(simd: S, part: &ComplianceBlock, axes: &Mat3<S>, by: Lane<S>) -> Mat3<S> {
     match part {
-        Part::Diagonal(values) => spectral(axes, three!(k => Lane::splat(simd, values[k]) * by)),
-        Part::Full(own) => {
+        ComplianceBlock::Diagonal(values) => {
+            spectral(axes, three!(k => Lane::splat(simd, values[k]) * by))
+        }
+        ComplianceBlock::Full(own) => {
             let own: Mat3<S> = three!(r => three!(c => Lane::splat(simd, own[(r, c)]) * by));
             let columns = transposed(axes);
             product_transposed(&product(&columns, &own), &columns)

@@ -23,7 +23,7 @@ use super::pass::lane::{Lane, Vec3, add, cross, scaled};
 use super::pass::transmit::add_chain;
 use super::program::Program;
 use super::program::element::{Kind, Screw};
-use super::program::fronts::{Front, Moves, Part};
+use super::program::fronts::{Front, FrontPart, Moves};
 
 /// Lower triangle of a 6×6 matrix.
 const TRIANGLE: usize = 21;
@@ -210,7 +210,7 @@ impl<S: Simd> Registers<'_, S> {
         simd: S,
         program: &Program,
         size: usize,
-        part: Part,
+        part: FrontPart,
         places: &[usize],
         moves: &Moves,
     ) {
@@ -227,15 +227,15 @@ impl<S: Simd> Registers<'_, S> {
         // The loads' row is the last coordinate of those that have it.
         let row = places[places.len() - 1];
         match part {
-            Part::Spring(k) => assembly.add_spring(places, program.springs[k].stiffness),
-            Part::Load(k) => {
+            FrontPart::Spring(k) => assembly.add_spring(places, program.springs[k].stiffness),
+            FrontPart::Load(k) => {
                 if program.fronts.loaded {
                     let load = &program.loads[k];
                     let (force, moment) = parts(simd, &load.wrench);
                     assembly.add_load(&load.node, places, row, &force, &moment);
                 }
             }
-            Part::Element(k) => {
+            FrontPart::Element(k) => {
                 let element = &program.elements[k];
                 let nodes = &element.nodes;
                 match &element.kind {

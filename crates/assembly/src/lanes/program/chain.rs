@@ -107,15 +107,15 @@ pub(crate) struct JointLink {
     pub point: Point,
     /// Columns of its frame (places in the inputs).
     pub columns: [usize; 3],
-    pub translation: Part,
-    pub rotation: Part,
+    pub translation: ComplianceBlock,
+    pub rotation: ComplianceBlock,
     /// Translations per moments, where there are any.
     pub coupling: Option<Matrix3<f64>>,
 }
 
 /// A symmetric 3×3 part of a compliance.
 #[derive(Debug, Clone)]
-pub(crate) enum Part {
+pub(crate) enum ComplianceBlock {
     Diagonal([f64; 3]),
     Full(Matrix3<f64>),
 }
@@ -337,9 +337,9 @@ impl Link {
         let block = |i: usize, j: usize| compliance.fixed_view::<3, 3>(i, j).into_owned();
         let part = |block: Matrix3<f64>| {
             if block == Matrix3::from_diagonal(&block.diagonal()) {
-                Part::Diagonal(block.diagonal().into())
+                ComplianceBlock::Diagonal(block.diagonal().into())
             } else {
-                Part::Full(block)
+                ComplianceBlock::Full(block)
             }
         };
         let give = compliance.diagonal();

@@ -14,7 +14,7 @@ const LATER: usize = 2;
 
 /// What adds to a front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum FrontPart {
     Element(usize),
     Spring(usize),
     Load(usize),
@@ -23,28 +23,28 @@ pub(crate) enum Part {
 /// A part and its coordinates, in the part's own order (repeated where nodes share them).
 #[derive(Debug)]
 pub(crate) struct Group {
-    part: Part,
+    part: FrontPart,
     coordinates: Vec<usize>,
 }
 
 impl Group {
     pub fn element(k: usize, coordinates: Vec<usize>) -> Self {
         Self {
-            part: Part::Element(k),
+            part: FrontPart::Element(k),
             coordinates,
         }
     }
 
     pub fn spring(k: usize, coordinates: Vec<usize>) -> Self {
         Self {
-            part: Part::Spring(k),
+            part: FrontPart::Spring(k),
             coordinates,
         }
     }
 
     pub fn load(k: usize, coordinates: Vec<usize>) -> Self {
         Self {
-            part: Part::Load(k),
+            part: FrontPart::Load(k),
             coordinates,
         }
     }
@@ -59,7 +59,7 @@ pub(crate) struct Front {
     /// Pivots, the last ones, that idle motions leave without stiffness.
     pub idle: usize,
     /// Parts with the places of their coordinates among the variables.
-    pub parts: Vec<(Part, Vec<usize>)>,
+    pub parts: Vec<(FrontPart, Vec<usize>)>,
     pub children: Vec<Child>,
     /// Components whose motion is taken relative to a neighbour's before they are eliminated.
     pub hangs: Vec<Hang>,
@@ -407,7 +407,7 @@ pub(crate) struct Hang {
     /// From the neighbour's reference point to its own, where they differ.
     pub arm: Option<[Point; 2]>,
     /// The element between them, added once it hangs.
-    pub part: Part,
+    pub part: FrontPart,
     pub part_places: Vec<usize>,
 }
 
@@ -467,12 +467,12 @@ impl Scatter {
             scatter.children.push(moves);
         }
         let mut zeros = Vec::new();
-        let mut of = |part: Part, places: &[usize], stored: &mut [bool]| match part {
-            Part::Element(k) => match elements[k].kind {
+        let mut of = |part: FrontPart, places: &[usize], stored: &mut [bool]| match part {
+            FrontPart::Element(k) => match elements[k].kind {
                 Kind::Chain(_) => chain(&places[..elements[k].ends()], size, stored, &mut zeros),
                 _ => element(&elements[k].nodes, places, size, stored),
             },
-            Part::Spring(_) | Part::Load(_) => Moves::default(),
+            FrontPart::Spring(_) | FrontPart::Load(_) => Moves::default(),
         };
         for (part, places) in &front.parts {
             scatter.parts.push(of(*part, places, &mut stored));

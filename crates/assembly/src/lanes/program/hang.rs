@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::element::{Element, NodeMotion};
-use super::fronts::{Fronts, Hang, Part};
+use super::fronts::{FrontPart, Fronts, Hang};
 use super::inputs::Inputs;
 use crate::lanes::pass::hang::{DOMINATED, MOST_FREE};
 use hyperstat_model::NodeId;
@@ -58,7 +58,7 @@ pub(crate) fn hang(
             let Some(part) = front
                 .parts
                 .iter()
-                .position(|(p, _)| *p == Part::Element(stiffest))
+                .position(|(p, _)| *p == FrontPart::Element(stiffest))
             else {
                 continue;
             };

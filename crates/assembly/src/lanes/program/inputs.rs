@@ -13,7 +13,7 @@ pub(crate) type Point = usize;
 
 /// Where three numbers of a geometry come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Source {
+enum Wanted {
     Position(NodeId),
     FrameColumn(JointId, usize),
     YAxis(SegmentId, [NodeId; 2]),
@@ -23,7 +23,7 @@ enum Source {
 /// The vectors that a program reads, each by its place.
 #[derive(Debug)]
 pub(crate) struct Inputs {
-    sources: Vec<Source>,
+    sources: Vec<Wanted>,
     /// One node for all nodes at the same point.
     same: Vec<NodeId>,
 }
@@ -56,7 +56,7 @@ impl Inputs {
         self.sources.len()
     }
 
-    fn place(&mut self, source: Source) -> usize {
+    fn place(&mut self, source: Wanted) -> usize {
         match self.sources.iter().position(|s| *s == source) {
             Some(place) => place,
             None => {
@@ -68,7 +68,7 @@ impl Inputs {
 
     /// Place of a node's position.
     pub fn point(&mut self, node: NodeId) -> Point {
-        self.place(Source::Position(self.same[node.0]))
+        self.place(Wanted::Position(self.same[node.0]))
     }
 
     /// Places of two points, from and to; `None` where they are one.
@@ -79,17 +79,17 @@ impl Inputs {
 
     /// Place of a column of a joint's frame.
     pub fn frame_column(&mut self, joint: JointId, column: usize) -> usize {
-        self.place(Source::FrameColumn(joint, column))
+        self.place(Wanted::FrameColumn(joint, column))
     }
 
     /// Place of the direction of local y of a segment, run through from one node to the other.
     pub fn y_axis(&mut self, segment: SegmentId, ends: [NodeId; 2]) -> usize {
-        self.place(Source::YAxis(segment, ends))
+        self.place(Wanted::YAxis(segment, ends))
     }
 
     /// Place of a column of a flexible body's rotation.
     pub fn rotation(&mut self, body: FlexibleId, column: usize) -> usize {
-        self.place(Source::RotationColumn(body, column))
+        self.place(Wanted::RotationColumn(body, column))
     }
 
     /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
@@ -109,7 +109,7 @@ impl Inputs {
     }
 }
 
-impl Source {
+impl Wanted {
     fn at(self, geometry: &Geometry) -> Vector3<f64> {
         let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
             rotation.matrix().column(c).into_owned()

@@ -81,8 +81,8 @@ impl Program {
             elements: Vec::new(),
             springs: Vec::new(),
         };
-        for cluster in &topology.clusters {
-            parts.add_cluster(cluster, &mut inputs)?;
+        for subassembly in &topology.subassemblies {
+            parts.add_subassembly(subassembly, &mut inputs)?;
         }
         for joint in 0..model.joints().len() {
             parts.add_joint(JointId(joint), &mut inputs)?;

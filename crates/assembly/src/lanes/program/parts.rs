@@ -6,7 +6,7 @@ use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 use super::chain::{Chain, Link, Release};
 use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Spring};
 use super::inputs::{Inputs, Point};
-use crate::plan::clusters::Cluster;
+use crate::plan::subassemblies::Subassembly;
 use crate::plan::topology::Topology;
 
 /// Where a carrier stands.
@@ -113,23 +113,27 @@ impl Parts<'_> {
         }
     }
 
-    pub fn add_cluster(&mut self, cluster: &Cluster, inputs: &mut Inputs) -> Option<()> {
+    pub fn add_subassembly(
+        &mut self,
+        subassembly: &Subassembly,
+        inputs: &mut Inputs,
+    ) -> Option<()> {
         let mut nodes = Vec::new();
-        for node in &cluster.nodes {
+        for node in &subassembly.nodes {
             nodes.push(self.motion(*node, inputs)?);
         }
-        let kind = match cluster.flexible {
+        let kind = match subassembly.flexible {
             Some(id) => {
                 let stiffness = self.model.flexibles()[id.0].element.held_stiffness();
                 Kind::Flexible(FlexibleElement {
-                    points: cluster.nodes.iter().map(|n| inputs.point(*n)).collect(),
+                    points: subassembly.nodes.iter().map(|n| inputs.point(*n)).collect(),
                     axes: [0, 1, 2].map(|c| inputs.rotation(id, c)),
                     stiffness: stiffness.as_slice().to_vec(),
                 })
             }
             None => {
                 // Without absorbed joints, a run is one segment.
-                let [(id, _)] = cluster.segments.as_slice() else {
+                let [(id, _)] = subassembly.segments.as_slice() else {
                     return None;
                 };
                 let ends = self.model.segments()[id.0].ends;

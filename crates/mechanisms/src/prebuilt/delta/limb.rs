@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::topology::{JointRole, Part, Point};
+use super::topology::{JointRole, Link, Point};
 use crate::prebuilt::PoseError;
 use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 use crate::prebuilt::error::shown;
@@ -92,10 +92,10 @@ impl Limb {
 
     /// Direction of a link's local y.
     #[inline]
-    pub(super) fn y_axis(&self, part: Part) -> Vector3<f64> {
+    pub(super) fn y_axis(&self, part: Link) -> Vector3<f64> {
         match part {
-            Part::Arm => self.axis,
-            Part::Bar | Part::Rod => self.parallelogram_axis(),
+            Link::Arm => self.axis,
+            Link::Bar | Link::Rod => self.parallelogram_axis(),
         }
     }
 

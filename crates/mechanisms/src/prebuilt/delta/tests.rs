@@ -7,7 +7,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::limb::Limb;
-use super::topology::{JointRole, Part, Point};
+use super::topology::{JointRole, Link, Point};
 use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 use crate::prebuilt::written_out::WrittenOut;
 use crate::prebuilt::{PoseError, Prebuilt};
@@ -149,7 +149,7 @@ proptest! {
             prop_assert!((point(Point::Cb) - point(Point::Ca) - bar).norm() < rounding);
 
             // Every axis is a unit vector, and normal to what turns about it.
-            let (axis, across) = (limb.y_axis(Part::Arm), limb.y_axis(Part::Rod));
+            let (axis, across) = (limb.y_axis(Link::Arm), limb.y_axis(Link::Rod));
             prop_assert!((axis.norm() - 1.0).abs() < 1e-15);
             prop_assert!((across.norm() - 1.0).abs() < 1e-15);
             prop_assert!((bar - axis * delta.rod_spacing).norm() < rounding);
@@ -172,7 +172,7 @@ proptest! {
             let [a, c] = [Point::A, Point::C].map(|point| out.point(point));
             let apart = out.point(Point::B) - other.point(Point::B);
             prop_assert!(outward.dot(&apart) >= -1e-14 * size(&delta));
-            let axis = out.y_axis(Part::Arm);
+            let axis = out.y_axis(Link::Arm);
             let line = (c - a) - axis * axis.dot(&(c - a));
             prop_assert!(apart.dot(&line).abs() < 1e-13 * size(&delta).powi(2));
         }
@@ -188,7 +188,7 @@ proptest! {
             // Rounding of the pose grows where the elbow is near stretched or folded, or the
             // rods near the joint axes.
             let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.point(point));
-            let axis = limb.y_axis(Part::Arm);
+            let axis = limb.y_axis(Link::Arm);
             let in_plane = |v: Vector3<f64>| v - axis * axis.dot(&v);
             let (arm, rod) = (b - a, in_plane(c - b));
             let sharpness = arm.cross(&rod).norm() / size(&delta).powi(2);
@@ -342,7 +342,7 @@ fn rods_nearly_along_the_joint_axes_keep_their_digits() {
         let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.point(point));
         assert!(((b - a).norm() - 0.3).abs() < 1e-15);
         assert!(((c - b).norm() - 0.6).abs() < 1e-15);
-        let across = limb.y_axis(Part::Rod);
+        let across = limb.y_axis(Link::Rod);
         assert!((across.norm() - 1.0).abs() < 1e-15);
         assert!(across.dot(&(c - b)).abs() < 1e-15, "{lean}");
     }

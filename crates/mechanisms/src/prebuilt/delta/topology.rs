@@ -41,7 +41,7 @@ impl Point {
 /// Which of the parameters describes a link. An arm's local y is along the limb's axis, a bar's
 /// and a rod's along the parallelogram's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum Link {
     Arm,
     Bar,
     Rod,
@@ -94,11 +94,11 @@ impl Posed<'_> {
         let [a, b, c] = [point(Point::A), point(Point::B), point(Point::C)];
         let [ba, bb] = [point(Point::Ba), point(Point::Bb)];
         let [ca, cb] = [point(Point::Ca), point(Point::Cb)];
-        parts.beam(self.beam("arm", [a, b], Part::Arm, index, limb));
-        parts.beam(self.beam("elbow", [ba, b, bb], Part::Bar, index, limb));
-        parts.beam(self.beam("wrist", [ca, c, cb], Part::Bar, index, limb));
-        parts.beam(self.beam("roda", [ba, ca], Part::Rod, index, limb));
-        parts.beam(self.beam("rodb", [bb, cb], Part::Rod, index, limb));
+        parts.beam(self.beam("arm", [a, b], Link::Arm, index, limb));
+        parts.beam(self.beam("elbow", [ba, b, bb], Link::Bar, index, limb));
+        parts.beam(self.beam("wrist", [ca, c, cb], Link::Bar, index, limb));
+        parts.beam(self.beam("roda", [ba, ca], Link::Rod, index, limb));
+        parts.beam(self.beam("rodb", [bb, cb], Link::Rod, index, limb));
     }
 
     #[inline]
@@ -106,7 +106,7 @@ impl Posed<'_> {
         &self,
         word: &'static str,
         points: [NamedPoint; N],
-        part: Part,
+        part: Link,
         index: usize,
         limb: &Limb,
     ) -> BeamPart<'_, N> {
@@ -114,9 +114,9 @@ impl Posed<'_> {
             name: Name::limb(word, index),
             points,
             link: match part {
-                Part::Arm => ("arm", &self.delta.arm),
-                Part::Bar => ("bar", &self.delta.bar),
-                Part::Rod => ("rod", &self.delta.rod),
+                Link::Arm => ("arm", &self.delta.arm),
+                Link::Bar => ("bar", &self.delta.bar),
+                Link::Rod => ("rod", &self.delta.rod),
             },
             y_axis: limb.y_axis(part),
             elements: self.delta.elements,

@@ -10,24 +10,25 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use crate::error::SolveError;
 use crate::plan::Plan;
 use crate::plan::blocks::{read, shift};
-use crate::plan::clusters::{Cluster, LONGEST_CLUSTER};
 use crate::plan::elements::ElementPlan;
+use crate::plan::subassemblies::{LONGEST_CLUSTER, Subassembly};
 use crate::plan::workspace::Workspace;
 use crate::posture::{PlacedBeam, Posture};
 use crate::state::acting::Acting;
 use crate::state::offsets::offset;
 use crate::state::preload::{along, spring_misfit, standing};
 
-/// Axes of a cluster: those of its first segment, or of the flexible body.
-pub(crate) fn cluster_frame(
-    cluster: &Cluster,
+/// Axes of a subassembly: those of its first segment, or of the flexible body.
+pub(crate) fn subassembly_frame(
+    subassembly: &Subassembly,
     geometry: &Geometry,
 ) -> Result<Rotation3<f64>, SolveError> {
-    if let Some(id) = cluster.flexible {
+    if let Some(id) = subassembly.flexible {
         return Ok(geometry.rotations[id.0]);
     }
-    let (id, _) = cluster.segments[0];
-    let span = geometry.positions[cluster.nodes[1].0] - geometry.positions[cluster.nodes[0].0];
+    let (id, _) = subassembly.segments[0];
+    let span =
+        geometry.positions[subassembly.nodes[1].0] - geometry.positions[subassembly.nodes[0].0];
     Ok(element_frame(&span, geometry.y_axes[id.0].as_ref())?)
 }
 
@@ -52,48 +53,48 @@ fn seen_from(to_local: &Rotation3<f64>, joint: &ElasticJoint) -> ElasticJoint {
     }
 }
 
-/// Writes the arms of a cluster; returns the turn to its axes.
-fn place_cluster(
-    cluster: &Cluster,
+/// Writes the arms of a subassembly; returns the turn to its axes.
+fn place_subassembly(
+    subassembly: &Subassembly,
     geometry: &Geometry,
     workspace: &mut Workspace,
 ) -> Result<Rotation3<f64>, SolveError> {
-    let to_local = cluster_frame(cluster, geometry)?.inverse();
-    let base = geometry.positions[cluster.nodes[0].0];
-    for (arm, node) in workspace.arms.iter_mut().zip(&cluster.nodes[1..]) {
+    let to_local = subassembly_frame(subassembly, geometry)?.inverse();
+    let base = geometry.positions[subassembly.nodes[0].0];
+    for (arm, node) in workspace.arms.iter_mut().zip(&subassembly.nodes[1..]) {
         *arm = geometry.positions[node.0] - base;
     }
     Ok(to_local)
 }
 
-/// Forms the deformations that a cluster's element starts from in each state: those that loads
+/// Forms the deformations that a subassembly's element starts from in each state: those that loads
 /// inside absorbed joints make, the free ends of loaded segments, and misfits.
-pub(crate) fn cluster_initial(
+pub(crate) fn subassembly_initial(
     plan: &Plan,
     element: &ElementPlan,
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     at: &Posture<'_>,
     acting: &[Acting],
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
     let Posture { geometry, .. } = *at;
-    let to_local = place_cluster(cluster, geometry, workspace)?;
+    let to_local = place_subassembly(subassembly, geometry, workspace)?;
     if !workspace.offsets.is_empty() {
-        add_misfits(plan, element, cluster, at, &to_local, workspace);
+        add_misfits(plan, element, subassembly, at, &to_local, workspace);
     }
     for (set, acting) in acting.iter().enumerate() {
         let start = set * plan.deformations + element.initial_start;
         let initial = &mut workspace.initial[start..start + element.rows];
-        for (r, joint) in cluster.joints.iter().enumerate() {
+        for (r, joint) in subassembly.joints.iter().enumerate() {
             let Some(joint) = joint else { continue };
-            let load = acting.on_node(cluster.nodes[r]);
+            let load = acting.on_node(subassembly.nodes[r]);
             if load != Vector6::zeros() {
                 let elastic = absorbed_joint(plan, at, *joint);
                 let give = elastic.turned_compliance() * load;
                 add_deformation(initial, r, &give, &workspace.arms, &to_local);
             }
         }
-        for (r, (id, reversed)) in cluster.segments.iter().enumerate() {
+        for (r, (id, reversed)) in subassembly.segments.iter().enumerate() {
             let Some(load) = acting.on_segment(*id) else {
                 continue;
             };
@@ -104,8 +105,8 @@ pub(crate) fn cluster_initial(
                 // With the second node held instead: δ seen from there, carried to the first.
                 free = -(rigid_motion(&-placed.span) * free);
             }
-            for (k, node) in cluster.nodes[1..].iter().enumerate().skip(r) {
-                let carried = shift(geometry, cluster.nodes[r + 1], *node) * free;
+            for (k, node) in subassembly.nodes[1..].iter().enumerate().skip(r) {
+                let carried = shift(geometry, subassembly.nodes[r + 1], *node) * free;
                 add_turned(&mut initial[6 * k..], &to_local, &carried, 1.0);
             }
         }
@@ -117,13 +118,18 @@ pub(crate) fn cluster_initial(
 fn add_misfits(
     plan: &Plan,
     element: &ElementPlan,
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     at: &Posture<'_>,
     to_local: &Rotation3<f64>,
     workspace: &mut Workspace,
 ) {
     let Posture { geometry, .. } = *at;
-    for (r, (node, joint)) in cluster.nodes.iter().zip(&cluster.joints).enumerate() {
+    for (r, (node, joint)) in subassembly
+        .nodes
+        .iter()
+        .zip(&subassembly.joints)
+        .enumerate()
+    {
         let mut moved = offset(plan, geometry, workspace, *node);
         if let Some(joint) = joint {
             moved += misfit_inside(plan, at, *joint, *node);
@@ -157,25 +163,25 @@ pub(crate) fn misfit_inside(
     }
 }
 
-/// Forms the operator and the stiffness of a cluster's element.
-pub(crate) fn cluster_element(
+/// Forms the operator and the stiffness of a subassembly's element.
+pub(crate) fn subassembly_element(
     plan: &Plan,
     element: &ElementPlan,
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     at: &Posture<'_>,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
     let Posture { geometry, .. } = *at;
-    let to_local = place_cluster(cluster, geometry, workspace)?;
+    let to_local = place_subassembly(subassembly, geometry, workspace)?;
     operator(plan, element, &to_local, workspace);
-    stiffness(plan, element, cluster, &to_local, at, workspace)
+    stiffness(plan, element, subassembly, &to_local, at, workspace)
 }
 
-/// The stiffness of a cluster's element; the workspace has the arms.
+/// The stiffness of a subassembly's element; the workspace has the arms.
 fn stiffness(
     plan: &Plan,
     element: &ElementPlan,
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     to_local: &Rotation3<f64>,
     at: &Posture<'_>,
     workspace: &mut Workspace,
@@ -184,20 +190,20 @@ fn stiffness(
     let rows = element.rows;
     let start = element.stiffness_start;
     let stiffness = &mut workspace.stiffnesses[start..start + rows * rows];
-    match cluster.flexible {
+    match subassembly.flexible {
         Some(id) => {
             let held = model.flexibles()[id.0].element.held_stiffness();
             stiffness.copy_from_slice(held.as_slice());
         }
-        None => run_stiffness(cluster, to_local, at, stiffness)?,
+        None => run_stiffness(subassembly, to_local, at, stiffness)?,
     }
-    if cluster.joints.iter().all(Option::is_none) {
+    if subassembly.joints.iter().all(Option::is_none) {
         return Ok(());
     }
-    absorb(plan, element, cluster, to_local, at, workspace)
+    absorb(plan, element, subassembly, to_local, at, workspace)
 }
 
-/// D: displacements of the nodes after the first relative to it, in the cluster's axes.
+/// D: displacements of the nodes after the first relative to it, in the subassembly's axes.
 fn operator(
     plan: &Plan,
     element: &ElementPlan,
@@ -217,7 +223,7 @@ fn operator(
     }
 }
 
-/// Adds the deformations, in the cluster's axes, that a displacement of node `r` gives: its own,
+/// Adds the deformations, in the subassembly's axes, that a displacement of node `r` gives: its own,
 /// or for node 0 the opposite of what would carry the other nodes along.
 fn add_deformation(
     deformations: &mut [f64],
@@ -237,14 +243,14 @@ fn add_deformation(
 
 /// Stiffness of a run of segments with its first node held.
 fn run_stiffness(
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     to_local: &Rotation3<f64>,
     at: &Posture<'_>,
     stiffness: &mut [f64],
 ) -> Result<(), SolveError> {
     if let ([(id, _)], true) = (
-        cluster.segments.as_slice(),
-        cluster.joints.iter().all(Option::is_none),
+        subassembly.segments.as_slice(),
+        subassembly.joints.iter().all(Option::is_none),
     ) {
         let held = at.beam(*id)?.beam.cantilever_stiffness();
         stiffness.copy_from_slice(held.as_slice());
@@ -254,7 +260,7 @@ fn run_stiffness(
         stiffness: Matrix6::zeros(),
         span: Vector3::zeros(),
     }; LONGEST_CLUSTER];
-    for (k, (id, reversed)) in cluster.segments.iter().enumerate() {
+    for (k, (id, reversed)) in subassembly.segments.iter().enumerate() {
         let placed = at.beam(*id)?;
         let PlacedBeam { beam, frame, span } = &*placed;
         let (held, turned, span) = if *reversed {
@@ -267,7 +273,7 @@ fn run_stiffness(
             span: to_local * span,
         };
     }
-    chain_stiffness(&segments[..cluster.segments.len()], stiffness);
+    chain_stiffness(&segments[..subassembly.segments.len()], stiffness);
     Ok(())
 }
 
@@ -276,18 +282,18 @@ fn half_turn() -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::from_diagonal(&Vector3::new(-1.0, -1.0, 1.0)))
 }
 
-/// Absorbs the cluster's joints into its stiffness.
+/// Absorbs the subassembly's joints into its stiffness.
 fn absorb(
     plan: &Plan,
     element: &ElementPlan,
-    cluster: &Cluster,
+    subassembly: &Subassembly,
     to_local: &Rotation3<f64>,
     at: &Posture<'_>,
     workspace: &mut Workspace,
 ) -> Result<(), SolveError> {
     let rows = element.rows;
     let mut absorbed = 0;
-    for (r, joint) in cluster.joints.iter().enumerate() {
+    for (r, joint) in subassembly.joints.iter().enumerate() {
         let Some(joint) = joint else { continue };
         let elastic = absorbed_joint(plan, at, *joint);
         let local = seen_from(to_local, &elastic);

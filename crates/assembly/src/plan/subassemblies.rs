@@ -9,7 +9,7 @@ pub(crate) const LONGEST_CLUSTER: usize = 8;
 
 /// What forms one subassembly element: a run of segments, or a flexible body.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Cluster {
+pub(crate) struct Subassembly {
     /// Nodes along the run, or of the flexible body.
     pub nodes: Vec<NodeId>,
     /// Segments along the run; `true` where it is run through from its second node.
@@ -22,7 +22,7 @@ pub(crate) struct Cluster {
 
 /// Runs of segments through absorbed middle joints; every other segment is a run of its own, as
 /// is every flexible body.
-pub(crate) fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
+pub(crate) fn subassemblies(model: &Model, roles: &[JointRole]) -> Vec<Subassembly> {
     let mut absorbed_at = vec![None; model.nodes().len()];
     for (k, role) in roles.iter().enumerate() {
         if let Some(node) = role.absorbed {
@@ -37,7 +37,7 @@ pub(crate) fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
     }
     let inner = |node: NodeId| absorbed_at[node.0].is_some() && segments_at[node.0].len() == 2;
     let mut seen = vec![false; model.segments().len()];
-    let mut clusters = Vec::new();
+    let mut subassemblies = Vec::new();
     for start in 0..model.segments().len() {
         if seen[start] {
             continue;
@@ -69,23 +69,23 @@ pub(crate) fn clusters(model: &Model, roles: &[JointRole]) -> Vec<Cluster> {
         }
         let joints = nodes.iter().map(|n| absorbed_at[n.0]).collect();
         // An end node shared by two runs carries no absorbed joint (it would be inside a run).
-        clusters.push(Cluster {
+        subassemblies.push(Subassembly {
             nodes,
             segments,
             flexible: None,
             joints,
         });
     }
-    clusters.extend(model.bodies().iter().filter_map(|body| {
+    subassemblies.extend(model.bodies().iter().filter_map(|body| {
         let id = body.flexible?;
-        Some(Cluster {
+        Some(Subassembly {
             nodes: body.nodes.clone(),
             segments: Vec::new(),
             flexible: Some(id),
             joints: body.nodes.iter().map(|n| absorbed_at[n.0]).collect(),
         })
     }));
-    clusters
+    subassemblies
 }
 
 pub(crate) fn other_end(model: &Model, segment: usize, node: NodeId) -> NodeId {
