@@ -16,7 +16,7 @@ use crate::plan::workspace::Workspace;
 use crate::posture::{PlacedBeam, Posture};
 use crate::state::acting::Acting;
 use crate::state::offsets::offset;
-use crate::state::preload::{along, spring_misfit, standing};
+use crate::state::preload::{along, displacement_by_misfit, spring_misfit};
 
 /// Axes of a subassembly: those of its first segment, or of the flexible body.
 pub(crate) fn subassembly_frame(
@@ -155,7 +155,7 @@ pub(crate) fn misfit_inside(
     let role = &plan.topology.joints[joint.0];
     let inside = role.directions.elastic.difference(role.springs);
     let misfit = along(&spring_misfit(&role.directions, entry), inside);
-    let apart = standing(at, joint, &misfit);
+    let apart = displacement_by_misfit(at, joint, &misfit);
     if model.joints()[joint.0].between[1] == Some(node) {
         apart
     } else {

@@ -10,7 +10,7 @@ use hyperstat_joints::JointError;
 use hyperstat_model::{Geometry, JointId, NodeId, condition_rows};
 use nalgebra::{DVector, Vector6};
 
-use super::preload::{along, standing};
+use super::preload::{along, displacement_by_misfit};
 use crate::error::SolveError;
 use crate::plan::blocks::{read, shift};
 use crate::plan::coordinates::TreeBlocks;
@@ -40,7 +40,7 @@ pub(crate) fn offsets(
                 &entry.misfit,
                 plan.topology.joints[entry.joint.0].directions.rigid,
             );
-            (entry.joint, standing(at, entry.joint, &own))
+            (entry.joint, displacement_by_misfit(at, entry.joint, &own))
         })
         .filter(|(_, apart)| *apart != Vector6::zeros())
         .collect();

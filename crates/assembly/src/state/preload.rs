@@ -53,7 +53,11 @@ pub(crate) fn preloads(at: &Posture<'_>) -> Vec<(JointId, (NodeId, Vector6<f64>)
 }
 
 /// Displacement of a joint's second body from its first, global axes, of a misfit by directions.
-pub(crate) fn standing(at: &Posture<'_>, joint: JointId, misfit: &Vector6<f64>) -> Vector6<f64> {
+pub(crate) fn displacement_by_misfit(
+    at: &Posture<'_>,
+    joint: JointId,
+    misfit: &Vector6<f64>,
+) -> Vector6<f64> {
     let Posture {
         model, geometry, ..
     } = *at;

@@ -109,13 +109,13 @@ pub(crate) fn hang(
 
 /// Roots that no one element holds much more stiffly than all others: a component that one does
 /// can hang on its neighbour, and should be eliminated before it.
-pub(crate) fn late_roots(
+pub(crate) fn last_roots(
     elements: &[Element],
     weights: &[f64],
     references: &HashMap<usize, NodeId>,
 ) -> Vec<usize> {
     let roots = references.keys().copied();
-    let is_late = |root: &usize| {
+    let is_last = |root: &usize| {
         let joins = |e: &Element| e.nodes.iter().any(|n| n.root == Some(*root));
         let attached = elements.iter().zip(weights).filter(|(e, _)| joins(e));
         let (mut first, mut second) = (0.0, 0.0);
@@ -129,7 +129,7 @@ pub(crate) fn late_roots(
         }
         second > DOMINATED * first
     };
-    roots.filter(is_late).collect()
+    roots.filter(is_last).collect()
 }
 
 /// Places of six coordinates in a row.

@@ -25,7 +25,7 @@ use nalgebra::Vector6;
 
 use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
 use super::program::fronts::{Fronts, Group, Scatter};
-use super::program::hang::{hang, late_roots};
+use super::program::hang::{hang, last_roots};
 use super::program::idle::idle_coordinates;
 use super::program::inputs::Inputs;
 use super::program::parts::{Parts, Placed, screws};
@@ -160,7 +160,7 @@ impl Program {
             .flatten()
             .filter_map(|p| Some((p.root?, p.reference)));
         let references = references.filter(|(root, _)| !gone[*root]).collect();
-        let late = late_roots(&elements, &weights, &references);
+        let late = last_roots(&elements, &weights, &references);
         let late = |c: usize| late.iter().any(|root| (*root..*root + 6).contains(&c));
         let eliminated = (0..unknowns).filter(|c| !gone[*c]).collect();
         let mut fronts = Fronts::new(eliminated, groups, &idle, output, loads_row, late)?;
