@@ -99,7 +99,7 @@ impl<'a> Posture<'a> {
     }
 
     /// From a twist in global axes to a joint's directions.
-    pub fn to_directions(&self, joint: JointId) -> Matrix6<f64> {
+    pub fn direction_map(&self, joint: JointId) -> Matrix6<f64> {
         let basis = self.model.joints()[joint.0].joint.basis();
         to_directions(&basis, &self.geometry.frames[joint.0])
     }

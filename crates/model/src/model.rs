@@ -32,6 +32,8 @@ pub struct Model {
     segments: Vec<Segment>,
     flexibles: Vec<Flexible>,
     joints: Vec<Connection>,
+    /// The two nodes of every joint between two bodies.
+    pub(crate) joined: Vec<[NodeId; 2]>,
     loads: LoadSet,
     cases: Vec<LoadCase>,
     masses: Vec<NodeMass>,
@@ -62,6 +64,7 @@ impl Model {
             segments: Vec::new(),
             flexibles: Vec::new(),
             joints: Vec::new(),
+            joined: Vec::new(),
             loads: LoadSet::default(),
             cases: Vec::new(),
             masses: Vec::new(),
@@ -289,6 +292,9 @@ impl Model {
             })?;
         self.revision = fresh_revision();
         self.joint_names.insert(connection.name.clone());
+        if let [Some(first), Some(second)] = connection.between {
+            self.joined.push([first, second]);
+        }
         self.joints.push(connection);
         self.geometry.frames.push(frame);
         Ok(JointId(self.joints.len() - 1))

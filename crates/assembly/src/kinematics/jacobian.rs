@@ -84,7 +84,7 @@ impl Jacobian {
         let mut rows = Vec::new();
         let mut directions = Vec::new();
         for (k, joint) in model.joints().iter().enumerate() {
-            let local = at.to_directions(JointId(k));
+            let local = at.direction_map(JointId(k));
             for (dof, condition) in conditions(joint, &local, size) {
                 let mut row = Vec::with_capacity(2);
                 for (node, sign) in joint.between.iter().zip([1.0, -1.0]) {

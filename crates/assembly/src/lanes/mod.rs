@@ -145,7 +145,8 @@ impl Plan {
                 }
                 for (lane, pose) in range.clone().enumerate() {
                     let geometry = &lanes.geometries[pose];
-                    if model.check_size(geometry).is_err() {
+                    // What was not taken may be of another size; its lane is read by nobody.
+                    if !taken[pose] && model.check_size(geometry).is_err() {
                         continue;
                     }
                     let inputs = &mut engine.buffers.inputs;

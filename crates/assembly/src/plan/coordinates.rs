@@ -130,7 +130,7 @@ impl TreeBlocks {
         let (mut rows, mut height) = (Vec::new(), 0);
         for joint in &component.closings {
             let entry = &model.joints()[joint.0];
-            let local = at.to_directions(*joint);
+            let local = at.direction_map(*joint);
             let rigid = topology.joints[joint.0].moving.complement();
             for condition in condition_rows(&local, rigid, size) {
                 let mut row = vec![0.0; count];

@@ -193,7 +193,7 @@ impl Plan {
             let column = |k: usize| read(block, 6 * k).abs();
             match element.source {
                 Source::Spring(joint) => {
-                    let local = at.to_directions(joint).abs();
+                    let local = at.direction_map(joint).abs();
                     let reference = self.topology.carriers[carrier].reference;
                     let to_node = local * shift(geometry, reference, *node).abs();
                     let springs = self.topology.joints[joint.0].springs;

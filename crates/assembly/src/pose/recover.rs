@@ -248,7 +248,7 @@ fn joint_wrenches(
     }
     let joints: Vec<JointForces> = (0..count)
         .map(|k| {
-            let local = at.to_directions(JointId(k));
+            let local = at.direction_map(JointId(k));
             let role = &plan.topology.joints[k];
             JointForces {
                 basis: local.transpose(),

@@ -23,7 +23,7 @@ pub(crate) fn spring_element(
     } = *at;
     let entry = &model.joints()[joint.0];
     let role = &plan.topology.joints[joint.0];
-    let local = at.to_directions(joint);
+    let local = at.direction_map(joint);
     let rows = element.rows;
     let start = element.operator_start;
     workspace.operators[start..start + rows * element.columns.len()].fill(0.0);
@@ -71,7 +71,7 @@ pub(crate) fn spring_initial(
         let Some(node) = node else { continue };
         relative += offset(plan, geometry, workspace, *node) * sign;
     }
-    let local = at.to_directions(joint);
+    let local = at.direction_map(joint);
     start += local * relative;
     for state in workspace.initial.chunks_exact_mut(plan.deformations) {
         let rows = &mut state[element.initial_start..element.initial_start + element.rows];

@@ -73,7 +73,7 @@ impl<'m> Influence<'m> {
         let joints = joints.map(|(k, joint)| ElasticDirections {
             directions: Directions::of(joint),
             basis: joint.joint.basis(),
-            to_directions: at.to_directions(JointId(k)),
+            to_directions: at.direction_map(JointId(k)),
         });
         let mut influence = Self {
             model,

@@ -139,7 +139,7 @@ impl Pass<'_> {
                 largest = largest.max(own.amax());
                 asked += own * sign;
             }
-            let local = self.at.to_directions(*joint);
+            let local = self.at.direction_map(*joint);
             let rigid = topology.joints[joint.0].moving.complement();
             let rows = condition_rows(&local, rigid, self.at.size);
             right_side.extend(rows.map(|condition| (condition * asked)[0]));

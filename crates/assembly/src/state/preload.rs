@@ -44,7 +44,7 @@ pub(crate) fn preloads(at: &Posture<'_>) -> Vec<(JointId, (NodeId, Vector6<f64>)
         if preload == Vector6::zeros() {
             continue;
         }
-        let local = at.to_directions(entry.joint);
+        let local = at.direction_map(entry.joint);
         let on_second = local.transpose() * preload;
         let sides = joint.between.iter().zip([-on_second, on_second]);
         wrenches.extend(sides.filter_map(|(node, wrench)| Some((entry.joint, ((*node)?, wrench)))));
