@@ -31,10 +31,21 @@ fn repository() -> PathBuf {
 fn is_test(attributes: &[syn::Attribute]) -> bool {
     attributes.iter().any(|attribute| {
         attribute.path().is_ident("cfg")
-            && attribute
-                .parse_args::<syn::Ident>()
-                .is_ok_and(|of| of == "test")
+            && attribute.parse_args::<syn::Meta>().is_ok_and(needs_test)
     })
+}
+
+/// Whether a condition holds in tests only: `test`, `all(test, unix)`.
+fn needs_test(condition: syn::Meta) -> bool {
+    match condition {
+        syn::Meta::Path(path) => path.is_ident("test"),
+        syn::Meta::List(list) if list.path.is_ident("all") => {
+            type Conditions = syn::punctuated::Punctuated<syn::Meta, syn::Token![,]>;
+            let all = list.parse_args_with(Conditions::parse_terminated);
+            all.is_ok_and(|all| all.into_iter().any(needs_test))
+        }
+        _ => false,
+    }
 }
 
 impl House {
