@@ -103,13 +103,15 @@ pub(crate) fn unit(name: &str) -> &'static str {
     }
     let last = name.rsplit('.').next().unwrap_or(name);
     let stiffness = name.contains("stiffness");
+    let linear = |names: &[&str; 6]| names[..3].contains(&last);
+    let angular = |names: &[&str; 6]| names[3..].contains(&last);
     match last {
         "x" | "y" | "z" if stiffness => "N/m",
         "u" | "v" | "w" | "drive_stiffness" if stiffness => "N·m/rad",
-        "x" | "y" | "z" | "dx" | "dy" | "dz" => "m",
+        _ if linear(&COORDINATES) || linear(&DISPLACEMENT) => "m",
         // Of a drive.
         "u" | "v" | "w" => "rad",
-        "rx" | "ry" | "rz" | "drx" | "dry" | "drz" => "rad",
+        _ if angular(&COORDINATES) || angular(&DISPLACEMENT) => "rad",
         "diameter" | "outer" | "inner" | "width" | "height" | "thickness" => "m",
         "young" | "shear" | "yield" => "Pa",
         "density" => "kg/m³",
