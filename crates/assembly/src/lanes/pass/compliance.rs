@@ -244,18 +244,26 @@ impl<S: Simd> Compliance<S> {
             LinkKind::Joint(joint) => add_joint(simd, joint, inputs, frame, self),
             LinkKind::Spring { along, compliance } => {
                 let twist = frame.twist(simd, along, inputs);
-                self.add_spring(&twist, Lane::splat(simd, *compliance) * frame.square);
+                self.add_springs([(twist, Lane::splat(simd, *compliance) * frame.square)]);
             }
         }
     }
 
-    /// Adds a spring that gives way along a motion.
+    /// Adds springs, each of which gives way along a motion.
     #[inline(always)]
-    fn add_spring(&mut self, along: &Six<S>, give: Lane<S>) {
+    fn add_springs<const N: usize>(&mut self, springs: [(Six<S>, Lane<S>); N]) {
         for i in 0..6 {
-            let by = along[i] * give;
+            let mut by = [springs[0].1; N];
+            for k in 0..N {
+                by[k] = springs[k].0[i] * springs[k].1;
+            }
             for j in 0..=i {
-                self.entries[i][j] = by.mul_add(along[j], self.entries[i][j]);
+                // Read and written once, whatever their number.
+                let mut entry = self.entries[i][j];
+                for k in 0..N {
+                    entry = by[k].mul_add(springs[k].0[j], entry);
+                }
+                self.entries[i][j] = entry;
             }
         }
     }
@@ -444,12 +452,28 @@ fn add_joint<S: Simd>(
                 sum.add(LINEAR[i], LINEAR[j], translation[i][j]);
             }
         }
-        for k in 0..3 {
-            if values[k] != 0.0 {
-                let (axis, moved) = (&axes[k], cross(&arm, &axes[k]));
-                let along = [axis[0], axis[1], axis[2], moved[1], moved[2], moved[0]];
-                sum.add_spring(&along, Lane::splat(simd, values[k]) * frame.square);
+        let gives = values.map(|value| value != 0.0);
+        let about = About { axes, arm };
+        match gives.iter().filter(|gives| **gives).count() {
+            0 => {}
+            1 => {
+                let k = usize::from(gives[1]) + 2 * usize::from(gives[2]);
+                sum.add_springs([about.spring(simd, k, values[k], frame.square)]);
             }
+            2 => {
+                // The one that is rigid is left out.
+                let first = usize::from(!gives[0]);
+                let second = 1 + usize::from(gives[2]);
+                sum.add_springs([
+                    about.spring(simd, first, values[first], frame.square),
+                    about.spring(simd, second, values[second], frame.square),
+                ]);
+            }
+            _ => sum.add_springs([
+                about.spring(simd, 0, values[0], frame.square),
+                about.spring(simd, 1, values[1], frame.square),
+                about.spring(simd, 2, values[2], frame.square),
+            ]),
         }
         return;
     }
@@ -464,6 +488,22 @@ fn add_joint<S: Simd>(
             let coupling = product_transposed(&product(&columns, &own), &columns);
             sum.add_part(Some(&translation), &rotation, Some(&coupling), &arm);
         }
+    }
+}
+
+/// The axes of a joint as rows, and the arm to it.
+struct About<S: Simd> {
+    axes: Mat3<S>,
+    arm: [Lane<S>; 3],
+}
+
+impl<S: Simd> About<S> {
+    /// The spring about one of the axes: its motion, and what it gives.
+    #[inline(always)]
+    fn spring(&self, simd: S, k: usize, compliance: f64, square: Lane<S>) -> (Six<S>, Lane<S>) {
+        let (axis, moved) = (&self.axes[k], cross(&self.arm, &self.axes[k]));
+        let along = [axis[0], axis[1], axis[2], moved[1], moved[2], moved[0]];
+        (along, Lane::splat(simd, compliance) * square)
     }
 }
 
