@@ -92,7 +92,7 @@ fn entry(name: &str) -> Option<[usize; 2]> {
 }
 
 /// The SI unit of a column; empty where it has none or is unknown.
-pub(crate) fn unit(name: &str) -> &'static str {
+pub fn unit(name: &str) -> &'static str {
     if let Some([row, column]) = entry(name) {
         return match (row > 3, column > 3) {
             (false, false) => "N/m",
@@ -133,7 +133,7 @@ pub fn is_frequency(name: &str) -> bool {
 }
 
 /// What a column is, in words.
-pub(crate) fn words(name: &str) -> String {
+pub fn words(name: &str) -> String {
     const AXES: [&str; 3] = ["x", "y", "z"];
     if let Some([row, column]) = entry(name) {
         let of =

@@ -16,7 +16,6 @@ mod second;
 mod solved;
 mod trajectory;
 
-pub use crate::schema::is_frequency;
 pub use budget::budget;
 pub use deformed::{compare, deformed, mode};
 pub use drawing::Drawing;

@@ -9,7 +9,7 @@ mod read;
 
 use std::io::{self, Write};
 
-pub use crate::schema::{columns, numeric};
+pub use crate::schema::{columns, is_frequency, numeric, unit, words};
 
 use crate::schema::Columns;
 use crate::sweep::Chunk;
