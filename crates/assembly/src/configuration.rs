@@ -24,7 +24,7 @@ pub(crate) type Planned = OnceLock<Result<Plan, SolveError>>;
 
 /// What is found of a configuration, each thing when it is first asked for.
 #[derive(Debug, Default)]
-pub(crate) struct Found {
+pub(crate) struct Kept {
     size: OnceLock<f64>,
     beams: Beams,
     diagnosis: Diagnosis,
@@ -44,16 +44,16 @@ pub struct Configuration<'a> {
     geometry: &'a Geometry,
     plan: &'a Planned,
     /// What is found of the model's own configuration.
-    own: &'a Found,
+    own: &'a Kept,
     /// The same of this one, where it is another.
-    there: Option<Box<Found>>,
+    there: Option<Box<Kept>>,
 }
 
 /// The plan of a model, made in the model's own configuration.
 pub(crate) fn planned<'a>(
     plan: &'a Planned,
     model: &Model,
-    found: &Found,
+    found: &Kept,
 ) -> Result<&'a Plan, SolveError> {
     let made = plan.get_or_init(|| {
         let at = posture(model, model.geometry(), found);
@@ -62,14 +62,14 @@ pub(crate) fn planned<'a>(
     made.as_ref().map_err(Clone::clone)
 }
 
-fn posture<'a>(model: &'a Model, geometry: &'a Geometry, found: &'a Found) -> Posture<'a> {
+fn posture<'a>(model: &'a Model, geometry: &'a Geometry, found: &'a Kept) -> Posture<'a> {
     let size = *found.size.get_or_init(|| characteristic_length(geometry));
     Posture::keeping(model, geometry, size, &found.beams)
 }
 
 impl<'a> Configuration<'a> {
     /// The model's own configuration.
-    pub(crate) fn new(model: &'a Model, plan: &'a Planned, own: &'a Found) -> Self {
+    pub(crate) fn new(model: &'a Model, plan: &'a Planned, own: &'a Kept) -> Self {
         Self {
             model,
             geometry: model.geometry(),
@@ -88,7 +88,7 @@ impl<'a> Configuration<'a> {
         }
     }
 
-    fn found(&self) -> &Found {
+    fn found(&self) -> &Kept {
         self.there.as_deref().unwrap_or(self.own)
     }
 

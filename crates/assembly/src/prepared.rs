@@ -4,7 +4,7 @@ use hyperstat_model::{Geometry, ModalOptions, Model};
 
 use crate::answer::pose_result::PoseResult;
 use crate::answer::solution::Solution;
-use crate::configuration::{Configuration, Found, Planned, planned};
+use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
 use crate::kinematics::redundancy::Redundancy;
@@ -69,7 +69,7 @@ use crate::plan::workspace::Workspace;
 pub struct Prepared {
     model: Model,
     plan: Planned,
-    here: Found,
+    here: Kept,
 }
 
 impl Prepared {
@@ -78,7 +78,7 @@ impl Prepared {
         Self {
             model,
             plan: Planned::new(),
-            here: Found::default(),
+            here: Kept::default(),
         }
     }
 
@@ -94,7 +94,7 @@ impl Prepared {
         Ok(Self {
             model,
             plan: Planned::from(Ok(plan)),
-            here: Found::default(),
+            here: Kept::default(),
         })
     }
 
@@ -105,7 +105,7 @@ impl Prepared {
 
     /// The model, to be changed: whatever was worked out for it is forgotten.
     pub fn model_mut(&mut self) -> &mut Model {
-        (self.plan, self.here) = (Planned::new(), Found::default());
+        (self.plan, self.here) = (Planned::new(), Kept::default());
         &mut self.model
     }
 
@@ -204,7 +204,7 @@ impl Prepared {
 
 /// Asks something of a model's own configuration, and of nothing else.
 fn ask<T>(model: &Model, question: impl FnOnce(Configuration<'_>) -> T) -> T {
-    let (plan, found) = (Planned::new(), Found::default());
+    let (plan, found) = (Planned::new(), Kept::default());
     question(Configuration::new(model, &plan, &found))
 }
 

@@ -10,7 +10,7 @@ use crate::straight::StraightBeam;
 /// them on each other's strains ([`StraightBeam::elastic_work`]), with any weights along the beam.
 #[derive(Debug, Clone, Default)]
 pub struct SampledStates {
-    points: Vec<Point>,
+    points: Vec<Station>,
     /// Section wrenches, by states and points.
     wrenches: Vec<Vector6<f64>>,
     /// The compliances of the sections at the points, with the weights.
@@ -18,7 +18,7 @@ pub struct SampledStates {
 }
 
 #[derive(Debug, Clone)]
-struct Point {
+struct Station {
     xi: f64,
     /// Its share in the integral over the length (m).
     share: f64,
@@ -39,7 +39,7 @@ impl SampledStates {
         let length = beam.length();
         beam.intervals(1.0, &mut |first, last| {
             gauss(first, last, |xi, weight| {
-                points.push(Point {
+                points.push(Station {
                     xi,
                     share: length * weight,
                     compliance: beam.section_compliance_at(xi),
@@ -64,7 +64,7 @@ impl SampledStates {
 
     /// Gives each part of the work a weight along the beam.
     pub fn weigh(&mut self, weight: impl Fn(f64) -> Vector6<f64>) {
-        let weighted = |point: &Point| point.compliance.component_mul(&weight(point.xi));
+        let weighted = |point: &Station| point.compliance.component_mul(&weight(point.xi));
         self.weighted.clear();
         self.weighted.extend(self.points.iter().map(weighted));
     }

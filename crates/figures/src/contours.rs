@@ -20,7 +20,7 @@ pub(crate) struct Field<'a> {
 
 /// A point where a contour starts or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Place {
+enum EndPoint {
     /// A point of the grid.
     Node(usize, usize),
     /// On the side from a point to the next one along x.
@@ -31,15 +31,15 @@ enum Place {
 
 /// Directed ways, with what is above the level on their left.
 #[derive(Debug, Default)]
-struct Ways(BTreeMap<Place, Vec<Place>>);
+struct Ways(BTreeMap<EndPoint, Vec<EndPoint>>);
 
 impl Ways {
-    fn add(&mut self, from: Place, to: Place) {
+    fn add(&mut self, from: EndPoint, to: EndPoint) {
         self.0.entry(from).or_default().push(to);
     }
 
     /// Takes one of the ways that start at a place.
-    fn take(&mut self, from: Place) -> Option<Place> {
+    fn take(&mut self, from: EndPoint) -> Option<EndPoint> {
         let all = self.0.get_mut(&from)?;
         let to = all.pop();
         if all.is_empty() {
@@ -49,9 +49,9 @@ impl Ways {
     }
 
     /// Joins the ways end to end: those with two ends first, then those that close.
-    fn chains(mut self) -> Vec<Vec<Place>> {
-        let ends: Vec<Place> = self.0.values().flatten().copied().collect();
-        let open: Vec<Place> = {
+    fn chains(mut self) -> Vec<Vec<EndPoint>> {
+        let ends: Vec<EndPoint> = self.0.values().flatten().copied().collect();
+        let open: Vec<EndPoint> = {
             let ends: std::collections::BTreeSet<_> = ends.into_iter().collect();
             let starts = self.0.keys().copied();
             starts.filter(|start| !ends.contains(start)).collect()
@@ -63,7 +63,7 @@ impl Ways {
         chains
     }
 
-    fn chain(&mut self, start: Place) -> Vec<Place> {
+    fn chain(&mut self, start: EndPoint) -> Vec<EndPoint> {
         let mut chain = vec![start];
         let mut at = start;
         while let Some(next) = self.take(at) {
@@ -99,7 +99,7 @@ impl Field<'_> {
             }
         }
         let chains = ways.chains();
-        let points = |chain: Vec<Place>| -> Vec<PagePoint> {
+        let points = |chain: Vec<EndPoint>| -> Vec<PagePoint> {
             chain.into_iter().map(|at| self.point(at, level)).collect()
         };
         chains.into_iter().map(points).collect()
@@ -163,7 +163,7 @@ impl Field<'_> {
             let next = (k + 1) % 4;
             let ends = [k, next].map(|k| {
                 let (i, j) = corners(i, j)[k];
-                Place::Node(i, j)
+                EndPoint::Node(i, j)
             });
             match [values[k] >= level, values[next] >= level] {
                 [true, true] => ways.add(ends[0], ends[1]),
@@ -175,18 +175,18 @@ impl Field<'_> {
     }
 
     /// Where a place is, for a level that lies between the values of the side's ends.
-    fn point(&self, place: Place, level: f64) -> PagePoint {
+    fn point(&self, place: EndPoint, level: f64) -> PagePoint {
         let part = |from, to| match (self.value(from), self.value(to)) {
             (Some(from), Some(to)) => (level - from) / (to - from),
             _ => 0.0,
         };
         match place {
-            Place::Node(i, j) => [self.x[i], self.y[j]],
-            Place::AlongX(i, j) => {
+            EndPoint::Node(i, j) => [self.x[i], self.y[j]],
+            EndPoint::AlongX(i, j) => {
                 let part = part((i, j), (i + 1, j));
                 [self.x[i] + part * (self.x[i + 1] - self.x[i]), self.y[j]]
             }
-            Place::AlongY(i, j) => {
+            EndPoint::AlongY(i, j) => {
                 let part = part((i, j), (i, j + 1));
                 [self.x[i], self.y[j] + part * (self.y[j + 1] - self.y[j])]
             }
@@ -200,12 +200,12 @@ fn corners(i: usize, j: usize) -> [(usize, usize); 4] {
 }
 
 /// The side of a cell from corner k to the next.
-fn side(i: usize, j: usize, k: usize) -> Place {
+fn side(i: usize, j: usize, k: usize) -> EndPoint {
     match k {
-        0 => Place::AlongX(i, j),
-        1 => Place::AlongY(i + 1, j),
-        2 => Place::AlongX(i, j + 1),
-        _ => Place::AlongY(i, j),
+        0 => EndPoint::AlongX(i, j),
+        1 => EndPoint::AlongY(i + 1, j),
+        2 => EndPoint::AlongX(i, j + 1),
+        _ => EndPoint::AlongY(i, j),
     }
 }
 

@@ -111,7 +111,7 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
     }
     // The first state is the model's own.
     let base = found.remove(0);
-    let mut output_columns = |solve: &dyn Fn(usize) -> Result<Column, ReferenceError>| {
+    let mut output_columns = |solve: &dyn Fn(usize) -> Result<UnitColumn, ReferenceError>| {
         let mut matrix = Matrix6::zeros();
         for component in 0..6 {
             let column = solve(component)?;
@@ -126,7 +126,7 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
             let mut load = no_load.clone();
             load[6 * structure.output + component] = 1.0;
             let found = system.solve(&load, &at_rest)?;
-            Ok(Column::displacement(&found, structure.output))
+            Ok(UnitColumn::displacement(&found, structure.output))
         })?)
     } else {
         None
@@ -140,7 +140,7 @@ pub fn solve(model: &Model) -> Result<ReferenceSolution, ReferenceError> {
             let mut prescribed = DVector::zeros(moved.len());
             prescribed[first + component] = 1.0;
             let found = system.solve(&no_load, &prescribed)?;
-            Ok(Column::reaction(&found, first))
+            Ok(UnitColumn::reaction(&found, first))
         })?)
     } else {
         None
@@ -207,12 +207,12 @@ fn unrestrained(model: &Model, motions: &FreeMotions, driven: &DVector<f64>) -> 
 }
 
 /// One column of the output's stiffness or compliance.
-struct Column {
+struct UnitColumn {
     values: Vector6<f64>,
     change: f64,
 }
 
-impl Column {
+impl UnitColumn {
     fn displacement(found: &Equilibrium, output: usize) -> Self {
         Self {
             values: node_displacement(found, output),

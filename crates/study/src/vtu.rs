@@ -27,7 +27,7 @@ enum CellKind {
 }
 
 /// What is written of a model: its states, of which the first is the base state, and its modes.
-struct Found<'a> {
+struct Written<'a> {
     model: &'a Model,
     states: Vec<Shown<'a>>,
     modes: &'a [Mode],
@@ -44,12 +44,12 @@ struct Shown<'a> {
 /// A grid of points and cells with what is known at them.
 #[derive(Debug, Default)]
 struct Grid {
-    points: Vec<Point>,
+    points: Vec<Vertex>,
     cells: Vec<Cell>,
 }
 
 #[derive(Debug)]
-struct Point {
+struct Vertex {
     at: [f64; 3],
     /// In every state: translation and rotation.
     displacements: Vec<[f64; 6]>,
@@ -108,7 +108,7 @@ pub fn vtu(
         displacements: &case.state.displacements,
         segments: &case.state.segments,
     });
-    let found = Found {
+    let found = Written {
         model,
         states: std::iter::once(base).chain(cases).collect(),
         modes: modes.map_or(&[], |modes| &modes.modes),
@@ -122,14 +122,14 @@ pub fn vtu(
     Ok(grid.text(&found))
 }
 
-impl Found<'_> {
+impl Written<'_> {
     /// A node of the model as a point.
-    fn node(&self, node: usize) -> Point {
+    fn node(&self, node: usize) -> Vertex {
         self.mean(&[node])
     }
 
     /// The mean of nodes as a point: of a rigid body's nodes it moves with the body.
-    fn mean(&self, nodes: &[usize]) -> Point {
+    fn mean(&self, nodes: &[usize]) -> Vertex {
         let share = 1.0 / nodes.len() as f64;
         let mean = |of: &[Vector6<f64>]| -> Vector6<f64> {
             nodes.iter().map(|node| share * of[*node]).sum()
@@ -140,7 +140,7 @@ impl Found<'_> {
             .sum();
         let states = self.states.iter();
         let modes = self.modes.iter();
-        Point {
+        Vertex {
             at: at.into(),
             displacements: states
                 .map(|state| mean(state.displacements).into())
@@ -152,7 +152,7 @@ impl Found<'_> {
     }
 
     /// A point of a segment's elastic curve.
-    fn along(&self, id: SegmentId, xi: f64) -> Result<Point, SolveError> {
+    fn along(&self, id: SegmentId, xi: f64) -> Result<Vertex, SolveError> {
         let (model, geometry) = (self.model, self.model.geometry());
         let ends = model.segments()[id.0].ends;
         let [start, end] = ends.map(|node| geometry.positions[node.0]);
@@ -164,7 +164,7 @@ impl Found<'_> {
             let moved = mode.segment_displacement(model, id, xi);
             moved.map(|moved| linear(&moved))
         };
-        Ok(Point {
+        Ok(Vertex {
             at: start.lerp(&end, xi).into(),
             displacements: self.states.iter().map(moved).collect::<Result<_, _>>()?,
             modes: self.modes.iter().map(shape).collect::<Result<_, _>>()?,
@@ -201,14 +201,14 @@ impl Found<'_> {
 }
 
 impl Grid {
-    fn add_point(&mut self, point: Point) -> usize {
+    fn add_point(&mut self, point: Vertex) -> usize {
         self.points.push(point);
         self.points.len() - 1
     }
 
     /// Adds a segment as its elastic curve, with the forces on the section in the middle of each
     /// of its pieces.
-    fn add_segment(&mut self, found: &Found<'_>, id: SegmentId) -> Result<(), SolveError> {
+    fn add_segment(&mut self, found: &Written<'_>, id: SegmentId) -> Result<(), SolveError> {
         let segment = &found.model.segments()[id.0];
         // As many in each element, so that the nodes between them are points.
         let pieces = segment.elements * PIECES.div_ceil(segment.elements);
@@ -229,7 +229,7 @@ impl Grid {
     }
 
     /// Adds the bodies that are no beams: lines from the middle of their nodes to each.
-    fn add_bodies(&mut self, found: &Found<'_>) {
+    fn add_bodies(&mut self, found: &Written<'_>) {
         for (number, body) in found.model.bodies().iter().enumerate() {
             if body.kind == BodyKind::Elastic {
                 continue;
@@ -257,7 +257,7 @@ impl Grid {
     }
 
     /// Adds the joints, each a point that moves with the last of its bodies.
-    fn add_joints(&mut self, found: &Found<'_>) {
+    fn add_joints(&mut self, found: &Written<'_>) {
         for (number, joint) in found.model.joints().iter().enumerate() {
             let Some(node) = joint.between.iter().rev().flatten().next() else {
                 continue;
@@ -272,7 +272,7 @@ impl Grid {
         }
     }
 
-    fn text(&self, found: &Found<'_>) -> String {
+    fn text(&self, found: &Written<'_>) -> String {
         let mut text = format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n\

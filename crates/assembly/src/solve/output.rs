@@ -19,7 +19,7 @@ const CORRECTIONS: usize = 3;
 
 /// What is found of the output: itself, its displacements in all sets, the relative size of their
 /// last correction, and the compliance that corrects it where its coordinates are independent.
-pub(crate) type Found = (Output, Vec<Vector6<f64>>, f64, Option<Matrix6<f64>>);
+pub(crate) type OutputFound = (Output, Vec<Vector6<f64>>, f64, Option<Matrix6<f64>>);
 
 impl Plan {
     /// The output's stiffness and its displacement under the first set of loads, its compliance where
@@ -33,7 +33,7 @@ impl Plan {
         pins: &[usize],
         restraint: &Restraint,
         works: &[f64],
-    ) -> Result<Found, SolveError> {
+    ) -> Result<OutputFound, SolveError> {
         let sets = LOADS..workspace.columns();
         let size = restraint.size;
         let free_motions = restraint

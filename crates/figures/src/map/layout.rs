@@ -29,7 +29,7 @@ const TALLEST: f64 = 0.86;
 pub(super) struct Layout {
     /// Height of the page \[pixels\].
     pub(super) height: u32,
-    pub(super) panels: Vec<Place>,
+    pub(super) panels: Vec<Cell>,
     pub(super) bar: Area,
     /// How far left of the bar the name above it starts \[pixels\].
     pub(super) name_room: f64,
@@ -37,9 +37,9 @@ pub(super) struct Layout {
     pub(super) scaled: [Scaled; 2],
 }
 
-/// Place of a panel.
+/// Cell of a panel.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(super) struct Cell {
     pub(super) axes: PlaneAxes,
     /// Whether it shows the labels of its lower and its left axis.
     pub(super) labels: [bool; 2],
@@ -71,7 +71,7 @@ impl Layout {
             let (row, column) = (k / columns, k % columns);
             let left = LEFT + column as f64 * (width + BESIDE);
             let top = TOP + row as f64 * (height + ABOVE);
-            Place {
+            Cell {
                 axes: PlaneAxes {
                     area: Area {
                         left,

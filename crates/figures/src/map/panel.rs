@@ -1,7 +1,7 @@
 //! One plane of a map.
 
 use super::colors::Colors;
-use super::layout::{Layout, Place};
+use super::layout::{Cell, Layout};
 use super::{MapPanel, Samples};
 use crate::canvas::{Canvas, text_width};
 use crate::contours::Field;
@@ -28,7 +28,7 @@ const MARKS_APART: f64 = 8.0;
 pub(super) fn draw(
     canvas: &mut Canvas,
     panel: &MapPanel,
-    place: &Place,
+    place: &Cell,
     layout: &Layout,
     colors: &Colors,
 ) {

@@ -10,13 +10,13 @@ use super::numbers::{fields, number, vector};
 
 /// Materials and sections, each once.
 #[derive(Default)]
-pub(super) struct Parts {
+pub(super) struct Shared {
     materials: Named<Material>,
     /// Sections at the first end and, where they taper, at the second.
     sections: Named<(Section, Option<Section>)>,
 }
 
-impl Parts {
+impl Shared {
     /// Names and values of the materials.
     pub(super) fn materials(&self) -> Vec<(&str, String)> {
         self.materials.named(material)
@@ -61,7 +61,7 @@ impl<T: PartialEq + Clone> Named<T> {
 ///
 /// # Errors
 /// A body that no mechanism file describes.
-pub(super) fn body(model: &Model, body: &Body, parts: &mut Parts) -> Result<String, WriteError> {
+pub(super) fn body(model: &Model, body: &Body, parts: &mut Shared) -> Result<String, WriteError> {
     let names: Vec<_> = (body.nodes.iter())
         .map(|node| format!("{:?}", model.nodes()[node.0].point))
         .collect();
@@ -127,7 +127,7 @@ struct Member<'a> {
     rest: String,
 }
 
-fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Parts) -> Member<'a> {
+fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Shared) -> Member<'a> {
     let segment = &model.segments()[id.0];
     // A segment's own part of a change of section; a model has none that cannot be formed.
     let profile = match segment.change_of_section() {

@@ -13,7 +13,7 @@ use hyperstat_model::{JointId, Model, NodeId};
 use nalgebra::Point3;
 
 use crate::file::registry::Registry;
-use crate::write::bodies::Parts;
+use crate::write::bodies::Shared;
 pub use crate::write::error::WriteError;
 use crate::write::numbers::vector;
 
@@ -26,7 +26,7 @@ const SAME_PLACE: f64 = 1e-12;
 /// # Errors
 /// [`WriteError`]: what a mechanism file cannot say.
 pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
-    let mut parts = Parts::default();
+    let mut parts = Shared::default();
     let points = points(model)?;
     let written_bodies: Vec<_> = (model.bodies().iter())
         .map(|body| Ok((&*body.name, bodies::body(model, body, &mut parts)?)))

@@ -48,13 +48,13 @@ const BEARING: f64 = 1e3;
 const GIVES: f64 = 0.01;
 
 /// What is found of one kind: the first part, its value, and how many parts more.
-struct Found<'m> {
+struct Doubtful<'m> {
     part: &'m str,
     values: [f64; 2],
     more: usize,
 }
 
-impl Found<'_> {
+impl Doubtful<'_> {
     /// The part in words, with those that it stands for.
     fn parts(&self) -> String {
         match self.more {
@@ -65,14 +65,14 @@ impl Found<'_> {
 }
 
 /// The first of the parts for which there is a value, and the number of the others.
-fn first<'m>(parts: impl Iterator<Item = (&'m str, Option<[f64; 2]>)>) -> Option<Found<'m>> {
-    let mut found: Option<Found<'m>> = None;
+fn first<'m>(parts: impl Iterator<Item = (&'m str, Option<[f64; 2]>)>) -> Option<Doubtful<'m>> {
+    let mut found: Option<Doubtful<'m>> = None;
     for (part, values) in parts {
         let Some(values) = values else { continue };
         match &mut found {
             Some(found) => found.more += 1,
             None => {
-                found = Some(Found {
+                found = Some(Doubtful {
                     part,
                     values,
                     more: 0,

@@ -18,14 +18,14 @@ pub struct Solved {
     job: Option<String>,
     design: Option<usize>,
     pose: Option<usize>,
-    output: Output,
+    output: OutputNode,
     /// Not there, `null`, or a budget.
     #[serde(default, deserialize_with = "given")]
     budget: Option<Option<BudgetReport>>,
 }
 
 #[derive(Debug, Deserialize)]
-struct Output {
+struct OutputNode {
     node: String,
 }
 
