@@ -153,11 +153,7 @@ fn run_job(
                 }
             }
             if let Some(trajectory) = &mut trajectory {
-                // Figures are of the first design that can be.
-                let first = job.first_design() * job.len();
-                let place =
-                    |row: usize| row.clamp(chunk.rows.start, chunk.rows.end) - chunk.rows.start;
-                trajectory.add(&chunk.records[place(first)..place(first + job.len())]);
+                trajectory.add(chunk.rows.start, &chunk.records);
             }
             bar.inc(chunk.records.len() as u64);
             Ok(())

@@ -55,6 +55,8 @@ enum Origin {
         job: Box<Job>,
         design: Design,
         pose: usize,
+        /// What the design is called: its number in the job as it was read, of a job that varies.
+        number: Option<usize>,
     },
 }
 
@@ -110,7 +112,7 @@ impl Study {
         Self {
             prepared: Prepared::new(mechanism.model.clone()),
             name: mechanism.model.name.clone(),
-            files: Vec::new(),
+            files: mechanism.files(),
             origin: Origin::Mechanism(Box::new(mechanism)),
         }
     }
@@ -141,8 +143,9 @@ impl Study {
             Ok(model) => Ok(Self {
                 prepared: Prepared::new(model),
                 name: job.name.clone(),
-                files: Vec::new(),
+                files: design.mechanism().map_or_else(Vec::new, Mechanism::files),
                 origin: Origin::Job {
+                    number: (!job.varied().is_empty()).then_some(design.number()),
                     job: Box::new(job),
                     design,
                     pose,
@@ -173,7 +176,12 @@ impl Study {
                 files: self.files.clone(),
                 ..Self::of_mechanism(mechanism.with_values(values)?)
             }),
-            Origin::Job { job, design, pose } => {
+            Origin::Job {
+                job,
+                design,
+                pose,
+                number,
+            } => {
                 // Beside what the design has already, where the job varies it.
                 let given = |path: &str| values.iter().any(|(own, _)| own.as_ref() == path);
                 let kept = job.varied().iter().zip(design.values());
@@ -184,10 +192,13 @@ impl Study {
                 let all: Vec<_> = kept.chain(new).collect();
                 let mut changed = (**job).clone();
                 changed.set_vary(&all, false)?;
-                Ok(Self {
-                    files: self.files.clone(),
-                    ..Self::of_job(changed, 0, *pose)?
-                })
+                let mut study = Self::of_job(changed, 0, *pose)?;
+                study.files.clone_from(&self.files);
+                if let Origin::Job { number: own, .. } = &mut study.origin {
+                    // It goes on to be called what it was.
+                    *own = *number;
+                }
+                Ok(study)
             }
         }
     }
@@ -226,8 +237,8 @@ impl Study {
     /// Number of the design that it is, of a job that varies.
     pub fn design(&self) -> Option<usize> {
         match &self.origin {
-            Origin::Job { job, design, .. } if !job.varied().is_empty() => Some(design.number()),
-            _ => None,
+            Origin::Job { number, .. } => *number,
+            Origin::Mechanism(_) => None,
         }
     }
 
@@ -300,8 +311,17 @@ impl Study {
         }
     }
 
-    /// The mechanism file that it is from, where it is from one.
+    /// The mechanism that it is, where it is one of a file; `None` of a job, which may replace loads and
+    /// values of it.
     pub fn mechanism(&self) -> Option<&Mechanism> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => Some(mechanism),
+            Origin::Job { .. } => None,
+        }
+    }
+
+    /// The mechanism file that it is from, where it is from one, of a job too.
+    pub(crate) fn file(&self) -> Option<&Mechanism> {
         match &self.origin {
             Origin::Mechanism(mechanism) => Some(mechanism),
             Origin::Job { design, .. } => design.mechanism(),

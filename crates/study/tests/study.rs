@@ -273,4 +273,87 @@ fn a_pose_of_a_job_takes_other_values_too() {
         .unwrap();
     let expected = study("b.ron", &written, &second).unwrap();
     assert_eq!(stiffness(&changed), stiffness(&expected));
+    // It is called what it was.
+    assert_eq!(
+        (changed.job(), changed.design()),
+        (Some(("line", 1)), Some(1))
+    );
+    assert!(changed.mechanism().is_none());
+}
+
+#[test]
+fn a_sweep_on_a_thread_of_its_own_pool_ends() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    for count in [1, 2] {
+        let threads = Threads::new(count).unwrap();
+        let seen = threads.install(|| {
+            let mut seen = 0;
+            let take = |chunk: &mut hyperstat_study::sweep::Chunk| -> Result<(), ()> {
+                seen += chunk.records.len();
+                Ok(())
+            };
+            sweep.run(&threads, 0..sweep.len(), |_| {}, take).unwrap();
+            seen
+        });
+        assert_eq!(seen, sweep.len());
+    }
+}
+
+#[test]
+fn tables_are_whole_whether_rendered_before_or_not() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    let threads = Threads::new(2).unwrap();
+    let table = |before: bool| {
+        let columns = Columns::of(&job);
+        let mut table = TableWriter::new(Vec::new(), TableFormat::Csv, &columns).unwrap();
+        let rendered = |chunk: &mut hyperstat_study::sweep::Chunk| {
+            if before {
+                render(TableFormat::Csv, chunk);
+            }
+        };
+        let take = |chunk: &mut _| table.append(chunk);
+        sweep.run(&threads, 0..sweep.len(), rendered, take).unwrap();
+        table.finish().unwrap()
+    };
+    assert!(table(true) == table(false));
+}
+
+#[test]
+fn a_trajectory_takes_any_rows_and_is_of_the_first_design() {
+    let mut job = job();
+    job.set("figures", "[Trajectory()]").unwrap();
+    let records = Sweep::new(&job, Way::Lanes).unwrap().records(0..960);
+    let mut trajectory = figure::Trajectory::wanted_by(&job).unwrap();
+    trajectory.add(0, &records[..100]);
+    trajectory.add(100, &records[100..]);
+    let table = || Err(hyperstat_study::PlotError::AllHeld);
+    let drawn = figure::draw(&job, 0, Some(&trajectory), table).unwrap();
+    assert!(matches!(drawn, Drawing::Trajectory(figure) if figure.commanded.len() < 481));
+    assert!(figure::draw(&job, 1, None, table).is_err());
+}
+
+#[test]
+fn spoilt_tables_are_errors() {
+    let job = job();
+    let sweep = Sweep::new(&job, Way::Lanes).unwrap();
+    let mut table = TableWriter::new(Vec::new(), TableFormat::Parquet, &Columns::of(&job)).unwrap();
+    let take = |chunk: &mut _| table.append(chunk);
+    sweep
+        .run(&Threads::new(1).unwrap(), 0..300, |_| {}, take)
+        .unwrap();
+    let whole = table.finish().unwrap();
+    let mut spoilt = 0;
+    for k in 0..300_usize {
+        let mut bytes = whole.clone();
+        let at = (k * 7919) % bytes.len();
+        bytes[at] ^= 1 << (k % 8);
+        let read = TableReader::of(Path::new("a.parquet"), bytes);
+        let read = read.and_then(|table| table.read(&(0..table.names().len()).collect::<Vec<_>>()));
+        spoilt += usize::from(read.is_err());
+    }
+    assert!(spoilt > 0);
+    let whole = TableReader::of(Path::new("a.parquet"), whole).unwrap();
+    assert!(whole.read(&[10_000]).is_err());
 }

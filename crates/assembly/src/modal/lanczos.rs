@@ -43,6 +43,8 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
             complete: true,
         });
     }
+    // No more than there are.
+    let count = count.min(system.size());
     let mut wanted = count + 2;
     let mut complete = false;
     for _ in 0..MOST_ROUNDS {

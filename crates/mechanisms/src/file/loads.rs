@@ -37,6 +37,11 @@ impl Acting {
         Ok(Some(entries.into_iter().map(|entry| entry.name).collect()))
     }
 
+    /// Whether nothing is given.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.iter().all(Option::is_none)
+    }
+
     /// Whether masses are given.
     pub(crate) fn has_masses(&self) -> bool {
         self.0[3].is_some()

@@ -120,6 +120,13 @@ impl Mechanism {
         Ok(())
     }
 
+    /// Whether a job has put its own loads, cases, masses or misfits in place of the file's.
+    pub(crate) fn is_of_job(&self) -> bool {
+        self.acting
+            .as_ref()
+            .is_some_and(|acting| !acting.is_empty())
+    }
+
     /// All files that were read for it.
     pub fn files(&self) -> Vec<PathBuf> {
         self.output.source.files()

@@ -220,9 +220,16 @@ impl Job {
             let steps = paths::find(root, Fragment::at(&key)).ok();
             let old = steps.and_then(|steps| root.find(&steps));
             let values: Vec<String> = values.iter().map(|value| value.written(old)).collect();
-            format!("{path:?}: [{}]", values.join(", "))
+            for value in &values {
+                // Each is one value, whatever stands in its text.
+                Fragment::of_file(&Source::argument(path, value.clone(), None))?;
+            }
+            Ok(format!("{path:?}: [{}]", values.join(", ")))
         };
-        let axes: Vec<String> = vary.iter().map(axis).collect();
+        let axes = vary
+            .iter()
+            .map(axis)
+            .collect::<Result<Vec<String>, LoadError>>()?;
         let vary = match axes.is_empty() {
             true => String::new(),
             false => format!("{{ {} }}", axes.join(", ")),
@@ -283,6 +290,12 @@ fn recipe(mechanism: JobMechanism, registry: &Registry) -> Result<(Place, Recipe
     match mechanism {
         JobMechanism::Loaded(mechanism) => {
             let root = mechanism.root();
+            if mechanism.is_of_job() {
+                let whole = Place::whole(&Source::argument("mechanism", String::new(), None));
+                return Err(whole
+                    .error("it is a job's, whose loads or masses are not those of its file")
+                    .with_help("load the mechanism's file, and give the new job its loads"));
+            }
             Ok((
                 root.place(),
                 Recipe::of(root.clone(), None, &none, registry),

@@ -473,3 +473,44 @@ fn a_mechanism_at_a_target() {
         .unwrap_err();
     assert!(matches!(error, PoseError::Closure(_)));
 }
+
+#[test]
+fn a_varied_text_is_one_value() {
+    let poses = JobPoses::list(&[[0.0, 0.0, 0.5]]);
+    let mut job = Job::new("j", delta(), poses, &Registry::builtin()).unwrap();
+    for text in [
+        "0.01, 0.02",
+        "",
+        "0.1], \"arm_length\": [0.3",
+        "0.01 /* a */, 0.02",
+    ] {
+        let vary = [("rod.section.diameter", vec![text.into(), 0.03.into()])];
+        assert!(job.set_vary(&vary, false).is_err(), "{text}");
+        assert_eq!(job.designs(), 1, "{text}");
+    }
+}
+
+#[test]
+fn a_job_s_mechanism_is_not_taken_for_that_of_its_file() {
+    let file = "File(\"portal.ron\")";
+    let loads = "loads: [(on: (\"beam\", \"T\"), force: (0.0, 0.0, -1.0))]";
+    let try_load = |rest: &str| {
+        let text = format!("(jobs: [(name: \"j\", mechanism: {file}, {rest})])");
+        let path = Path::new("../../examples/batch.ron");
+        batch_from_str(&text, path, &Disk, &Registry::builtin())
+    };
+    let own = portal();
+    let (body, point) = {
+        let output = own.model.output().unwrap();
+        let name = own.model.node_name(output);
+        let (body, point) = name.split_once('.').unwrap();
+        (body.to_string(), point.to_string())
+    };
+    let loads = loads
+        .replace("beam", &body)
+        .replace("\"T\"", &format!("{point:?}"));
+    let job = try_load(&loads).unwrap().jobs.remove(0);
+    let mechanism = job.mechanism().unwrap().clone();
+    let made = Job::new("n", mechanism, JobPoses::Own, &Registry::builtin());
+    assert!(made.unwrap_err().help().is_some());
+}

@@ -51,7 +51,7 @@ pub struct CheckReport {
 
 /// What is no fault in the file of a mechanism, but may be a slip.
 fn notes(study: &Study) -> Vec<String> {
-    let unused = study.mechanism().map_or(&[][..], |m| m.unused_points());
+    let unused = study.file().map_or(&[][..], |m| m.unused_points());
     match unused {
         [] => Vec::new(),
         [point] => vec![format!("no body runs through point `{point}`")],

@@ -88,10 +88,12 @@ pub fn draw(
     trajectory: Option<&Trajectory>,
     table: impl FnOnce() -> Result<TableReader, PlotError>,
 ) -> Result<Drawing, String> {
-    let figure = &job.figures[place];
+    let Some(figure) = job.figures.get(place) else {
+        return Err("the job has no such figure".into());
+    };
     match figure {
         Figure::Trajectory { scale } => trajectory
-            .filter(|trajectory| !trajectory.is_empty())
+            .filter(|trajectory| trajectory.fits(job) && !trajectory.is_empty())
             .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, figure_scale(*scale))))
             .ok_or_else(|| NO_RESULT.to_string()),
         Figure::Deformed { pose, case, scale } => {

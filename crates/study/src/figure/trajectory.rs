@@ -1,5 +1,7 @@
 //! The figure of a job's trajectory, from the records of its sweep (Fig. 8).
 
+use std::ops::Range;
+
 use hyperstat_assembly::Floor;
 use hyperstat_figures::{Scale, SecondMethod, TrajectoryFigure};
 use hyperstat_mechanisms::{Figure, Job};
@@ -24,8 +26,8 @@ const MOST_POSES: usize = 1000;
 pub struct Trajectory {
     /// Every so many poses one is shown: all of them where they are not too many.
     stride: usize,
-    /// Number of poses seen.
-    seen: usize,
+    /// Rows of the first design that can be: figures are of it.
+    first: Range<usize>,
     poses: Vec<usize>,
     commanded: Vec<[f64; 3]>,
     displacement: Vec<[f64; 3]>,
@@ -37,28 +39,37 @@ impl Trajectory {
         let is_trajectory = |figure: &Figure| matches!(figure, Figure::Trajectory { .. });
         job.figures.iter().any(is_trajectory).then(|| Self {
             stride: job.len().div_ceil(MOST_POSES),
-            seen: 0,
+            first: job.first_design() * job.len()..(job.first_design() + 1) * job.len(),
             poses: Vec::new(),
             commanded: Vec::new(),
             displacement: Vec::new(),
         })
     }
 
-    /// Adds the next poses.
-    pub fn add(&mut self, records: &[Record]) {
-        for record in records {
+    /// Adds records of rows of the job from `first_row` on, in the order of the rows; those of other
+    /// designs than the first that can be are left out.
+    pub fn add(&mut self, first_row: usize, records: &[Record]) {
+        for (row, record) in (first_row..).zip(records) {
+            if !self.first.contains(&row) {
+                continue;
+            }
+            let pose = row - self.first.start;
             match (&record.result, record.pose) {
                 (Ok(found), [Some(x), Some(y), Some(z), ..])
-                    if self.seen.is_multiple_of(self.stride) =>
+                    if pose.is_multiple_of(self.stride) =>
                 {
-                    self.poses.push(self.seen);
+                    self.poses.push(pose);
                     self.commanded.push([x, y, z]);
                     self.displacement.push(linear(&found.displacement));
                 }
                 _ => {}
             }
-            self.seen += 1;
         }
+    }
+
+    /// Whether it is of a job of as many poses.
+    pub(super) fn fits(&self, job: &Job) -> bool {
+        self.first.len() == job.len()
     }
 
     /// Whether no pose has a result.

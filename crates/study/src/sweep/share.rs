@@ -20,6 +20,10 @@ impl Threads {
         use std::sync::{Mutex, PoisonError};
 
         let pool = &self.pool;
+        // On a thread of the pool itself nobody would be left to compute what it waits for.
+        if pool.current_thread_index().is_some() {
+            return in_turn(rows, empty, compute, take);
+        }
         let threads = pool.current_num_threads();
         let own: Vec<Mutex<Option<S>>> = (0..threads).map(|_| Mutex::new(None)).collect();
         let compute = |chunk: &mut Chunk| {
@@ -62,6 +66,22 @@ fn start<'s>(
     arrives
 }
 
+/// Computes a chunk for each of `rows` and has it taken, on the calling thread.
+fn in_turn<S, E>(
+    rows: impl Iterator<Item = Range<usize>>,
+    empty: impl Fn() -> Chunk,
+    compute: impl Fn(&mut Option<S>, &mut Chunk),
+    mut take: impl FnMut(&mut Chunk) -> Result<(), E>,
+) -> Result<(), E> {
+    let (mut own, mut chunk) = (None, empty());
+    for rows in rows {
+        chunk.rows = rows;
+        compute(&mut own, &mut chunk);
+        take(&mut chunk)?;
+    }
+    Ok(())
+}
+
 #[cfg(not(feature = "threads"))]
 impl Threads {
     /// Computes a chunk for each of `rows` and has it taken.
@@ -70,14 +90,8 @@ impl Threads {
         rows: impl Iterator<Item = Range<usize>>,
         empty: impl Fn() -> Chunk,
         compute: impl Fn(&mut Option<S>, &mut Chunk) + Sync,
-        mut take: impl FnMut(&mut Chunk) -> Result<(), E>,
+        take: impl FnMut(&mut Chunk) -> Result<(), E>,
     ) -> Result<(), E> {
-        let (mut own, mut chunk) = (None, empty());
-        for rows in rows {
-            chunk.rows = rows;
-            compute(&mut own, &mut chunk);
-            take(&mut chunk)?;
-        }
-        Ok(())
+        in_turn(rows, empty, compute, take)
     }
 }

@@ -80,6 +80,10 @@ pub struct Extreme {
 impl Statistics {
     /// Adds the pose of a row.
     pub fn add(&mut self, row: usize, at: &[Option<f64>; 6], values: &Values) {
+        // No measure is a number that is not finite.
+        if !values.iter().all(|value| value.is_finite()) {
+            return;
+        }
         self.count += 1;
         for (spread, value) in self.of.iter_mut().zip(values) {
             spread.add(Extreme {

@@ -21,6 +21,10 @@ impl<W: Write> Csv<W> {
     }
 
     pub(super) fn append(&mut self, chunk: &Chunk) -> io::Result<()> {
+        if chunk.text.is_empty() {
+            // Nobody has rendered it.
+            return self.0.write_all(lines(chunk).as_bytes());
+        }
         self.0.write_all(chunk.text.as_bytes())
     }
 
@@ -32,10 +36,21 @@ impl<W: Write> Csv<W> {
 /// Writes the lines of a chunk into its text.
 pub(super) fn render(chunk: &mut Chunk) {
     let mut text = std::mem::take(&mut chunk.text);
-    for row in chunk.table_rows() {
-        append(&mut text, &row);
-    }
+    add_lines(chunk, &mut text);
     chunk.text = text;
+}
+
+/// The lines of a chunk.
+fn lines(chunk: &Chunk) -> String {
+    let mut text = String::new();
+    add_lines(chunk, &mut text);
+    text
+}
+
+fn add_lines(chunk: &Chunk, text: &mut String) {
+    for row in chunk.table_rows() {
+        append(text, &row);
+    }
 }
 
 /// Appends the line of a row to `text`.

@@ -67,7 +67,7 @@ impl<W: Write + Send> TableWriter<W> {
         Ok(Self { form })
     }
 
-    /// Appends the next rows, rendered.
+    /// Appends the next rows, rendered or not.
     ///
     /// # Errors
     /// They cannot be written.
@@ -92,7 +92,8 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-/// What can be done for a chunk before its turn to be written: on any thread, in any order.
+/// What can be done for a chunk before its turn to be written, on any thread, in any order: then
+/// [`TableWriter::append`] has less to do.
 pub fn render(format: TableFormat, chunk: &mut Chunk) {
     match format {
         TableFormat::Csv => csv::render(chunk),

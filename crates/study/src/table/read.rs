@@ -1,12 +1,16 @@
 //! The tables of `hyperstat run`, read back: CSV or Parquet, only the columns that are asked for.
 
 use std::io::{BufRead, BufReader, Read};
+#[cfg(feature = "parquet")]
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use hyperstat_mechanisms::Location;
 #[cfg(feature = "fs")]
 use hyperstat_mechanisms::files;
+#[cfg(feature = "parquet")]
+use parquet::errors::ParquetError;
 #[cfg(feature = "parquet")]
 use parquet::file::reader::{FileReader, SerializedFileReader};
 #[cfg(feature = "parquet")]
@@ -156,6 +160,13 @@ impl TableReader {
     /// A column holds no numbers, a line has another number of cells than there are columns, or the
     /// table cannot be read.
     pub fn read(&self, places: &[usize]) -> Result<Vec<Column>, PlotError> {
+        if let Some(place) = places.iter().find(|place| **place >= self.names.len()) {
+            return Err(PlotError::UnknownColumn {
+                path: self.path.clone(),
+                name: format!("number {place}"),
+                help: format!("it has {} columns, counted from 0", self.names.len()),
+            });
+        }
         match self.form {
             TableFormat::Csv => self.read_csv(places),
             #[cfg(feature = "parquet")]
@@ -291,7 +302,11 @@ impl TableReader {
             .with_fields(fields)
             .build()
             .map_err(error)?;
-        for row in reader.get_row_iter(Some(projection)).map_err(error)? {
+        // Files that are spoilt can make the reader panic.
+        let spoilt = |_| error(ParquetError::General("the file is spoilt".into()));
+        let opened = catch_unwind(AssertUnwindSafe(|| reader.get_row_iter(Some(projection))));
+        let mut rows = opened.map_err(spoilt)?.map_err(error)?;
+        while let Some(row) = catch_unwind(AssertUnwindSafe(|| rows.next())).map_err(spoilt)? {
             let row = row.map_err(error)?;
             let cells: Vec<&Field> = row.get_column_iter().map(|(_, field)| field).collect();
             let cells: Vec<&Field> = order.iter().map(|cell| cells[*cell]).collect();
