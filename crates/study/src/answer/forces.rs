@@ -31,7 +31,7 @@ pub struct WorstReport {
     pub segment: [String; 2],
     /// Place along the segment, 0 to 1.
     pub at: f64,
-    /// The point of the section, element frame [m].
+    /// The point of the section, element frame \[m\].
     pub y: f64,
     /// Its other coordinate \[m\].
     pub z: f64,

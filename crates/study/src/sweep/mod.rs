@@ -62,7 +62,7 @@ impl<'a> Sweep<'a> {
     /// Works out the topology of a job: of the first of its designs that has one.
     ///
     /// # Errors
-    /// Why the first design that can be has none, where none of the next [`TRIED`] has one.
+    /// Why the first design that can be has none, where none of the next 1000 has one.
     pub fn new(job: &'a Job, way: Way) -> Result<Self, StudyError> {
         let planned = |number| -> Result<_, StudyError> {
             let design = job.design(number)?;
