@@ -1,6 +1,8 @@
 //! Measures of the output's stiffness and displacement, each name with its one definition: those that
 //! summaries count, and those that figures find from a table.
 
+use std::cell::OnceCell;
+
 use hyperstat_assembly::measures::principal;
 use nalgebra::{Cholesky, Matrix3, Matrix6, Vector6};
 
@@ -39,47 +41,63 @@ pub(crate) enum Rule {
     Work,
 }
 
-/// What measures are found from.
+/// What measures are found from; what several of them share is worked out once.
 #[derive(Debug)]
 pub(crate) struct Pose {
     stiffness: Matrix6<f64>,
     /// None of a stiffness that is not positive definite.
-    compliance: Option<Matrix6<f64>>,
+    compliance: OnceCell<Option<Matrix6<f64>>>,
+    /// Of the blocks of the compliance, then of the stiffness: translations, rotations.
+    eigenvalues: [OnceCell<[f64; 3]>; 4],
 }
 
 impl Pose {
     /// Of a stiffness.
     pub(crate) fn new(stiffness: &Matrix6<f64>) -> Self {
-        let scale = stiffness.diagonal().map(f64::sqrt);
-        let unit = Matrix6::from_fn(|r, c| stiffness[(r, c)] / (scale[r] * scale[c]));
-        let inverse = Cholesky::new(unit).map(|cholesky| cholesky.inverse());
         Self {
             stiffness: *stiffness,
-            compliance: inverse.map(|i| Matrix6::from_fn(|r, c| i[(r, c)] / (scale[r] * scale[c]))),
+            compliance: OnceCell::new(),
+            eigenvalues: Default::default(),
         }
+    }
+
+    fn compliance(&self) -> Option<&Matrix6<f64>> {
+        let invert = || {
+            let stiffness = &self.stiffness;
+            let scale = stiffness.diagonal().map(f64::sqrt);
+            let unit = Matrix6::from_fn(|r, c| stiffness[(r, c)] / (scale[r] * scale[c]));
+            let inverse = Cholesky::new(unit)?.inverse();
+            Some(Matrix6::from_fn(|r, c| {
+                inverse[(r, c)] / (scale[r] * scale[c])
+            }))
+        };
+        self.compliance.get_or_init(invert).as_ref()
+    }
+
+    /// Ascending, of a block of the compliance (`first` 0) or of the stiffness (2).
+    fn eigenvalues(&self, matrix: &Matrix6<f64>, block: usize, first: usize) -> [f64; 3] {
+        *self.eigenvalues[first + block / 3].get_or_init(|| {
+            let block: Matrix3<f64> = matrix.fixed_view::<3, 3>(block, block).into();
+            principal(&block).values
+        })
     }
 
     /// A measure of it, under a displacement; `None` where it has none.
     pub(crate) fn measure(&self, rule: Rule, displacement: &Vector6<f64>) -> Option<f64> {
-        let eigenvalues = |matrix: &Matrix6<f64>, block: usize| {
-            let block: Matrix3<f64> = matrix.fixed_view::<3, 3>(block, block).into();
-            principal(&block).values
-        };
-        let compliance = self.compliance.as_ref();
         let found = match rule {
             Rule::Length(block) => displacement.fixed_rows::<3>(block).norm(),
-            Rule::Compliance(place) => compliance?[(place, place)],
-            Rule::InverseCompliance(place) => 1.0 / compliance?[(place, place)],
-            Rule::Softest(block) => eigenvalues(compliance?, block)[2],
+            Rule::Compliance(place) => self.compliance()?[(place, place)],
+            Rule::InverseCompliance(place) => 1.0 / self.compliance()?[(place, place)],
+            Rule::Softest(block) => self.eigenvalues(self.compliance()?, block, 0)[2],
             Rule::Free { block, least } => {
-                let values = eigenvalues(compliance?, block);
+                let values = self.eigenvalues(self.compliance()?, block, 0);
                 1.0 / values[if least { 2 } else { 0 }]
             }
             Rule::Held { block, least } => {
-                let values = eigenvalues(&self.stiffness, block);
+                let values = self.eigenvalues(&self.stiffness, block, 2);
                 values[if least { 0 } else { 2 }]
             }
-            Rule::Work => compliance?.fixed_view::<3, 3>(0, 0).trace() / 3.0,
+            Rule::Work => self.compliance()?.fixed_view::<3, 3>(0, 0).trace() / 3.0,
         };
         Some(found).filter(|value| value.is_finite())
     }

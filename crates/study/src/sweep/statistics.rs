@@ -1,6 +1,7 @@
 //! What the stiffness is over a workspace, smallest, mean, percentiles, and where.
 
 use std::collections::HashMap;
+use std::sync::LazyLock;
 
 use serde::Serialize;
 
@@ -27,8 +28,15 @@ const MEASURED: [&str; COUNT] = [
 ];
 const COUNT: usize = 10;
 
-fn measured() -> impl Iterator<Item = &'static Measure> {
-    MEASURED.iter().filter_map(|name| measures::named(name))
+/// The measures of these names, looked up once: every pose asks for them.
+fn measured() -> &'static [&'static Measure] {
+    static FOUND: LazyLock<Vec<&Measure>> = LazyLock::new(|| {
+        MEASURED
+            .iter()
+            .filter_map(|name| measures::named(name))
+            .collect()
+    });
+    &FOUND
 }
 
 /// The measures of one pose.
@@ -105,6 +113,7 @@ impl Statistics {
     /// The statistics as they are reported; `None` of no pose.
     pub fn report(&self) -> Option<Vec<MeasureReport>> {
         measured()
+            .iter()
             .zip(&self.of)
             .map(|(measure, spread)| {
                 Some(MeasureReport {
