@@ -1,6 +1,6 @@
 //! A mechanism made ready, and the shortest ways through.
 
-use hyperstat_model::{Geometry, ModalOptions, Model};
+use hyperstat_model::{Geometry, LANES, ModalOptions, Model};
 
 use crate::answer::pose_result::PoseResult;
 use crate::answer::solution::Solution;
@@ -8,7 +8,7 @@ use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
 use crate::kinematics::redundancy::Redundancy;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::Lanes;
 use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;

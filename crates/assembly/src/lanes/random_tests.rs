@@ -6,12 +6,12 @@ use hyperstat_joints::{
     Cylindrical, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
     frame_from_axes,
 };
-use hyperstat_model::{Connection, Geometry, JointStiffness, Member, Model, Tapering};
+use hyperstat_model::{Connection, Geometry, JointStiffness, LANES, Member, Model, Tapering};
 use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
 use crate::answer::pose_result::PoseResult;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::Lanes;
 use crate::plan::Plan;
 
 /// Mechanisms.

@@ -1,9 +1,11 @@
 //! One design of a job: its mechanism with one choice of the varied values.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, LANES, Model};
 
+use super::mover::Placing;
 use super::poses::Poses;
 use super::subject::{Checked, Recipe, Subject};
 use super::vary::{Variation, Varied};
@@ -60,6 +62,22 @@ impl Design {
     /// If `pose` is not below [`Design::len`].
     pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
         self.subject.place(&self.poses, pose, geometry)
+    }
+
+    /// Brings geometries, each as that of [`Design::place`], to these poses (from 0), the first of
+    /// them to the first pose: at most [`LANES`] together, which is faster than one by one. What is
+    /// found at a pose does not depend on the others; `placing` is kept from call to call.
+    ///
+    /// # Panics
+    /// If a pose is not below [`Design::len`], or if there are more poses than geometries or [`LANES`].
+    pub fn place_lanes(
+        &self,
+        poses: Range<usize>,
+        geometries: &mut [Geometry],
+        placing: &mut Placing,
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        self.subject
+            .place_lanes(&self.poses, poses, geometries, placing)
     }
 
     /// The mechanism, where it comes from a file; its loads are the job's.

@@ -1,10 +1,16 @@
 //! A mechanism of a file, moved by loop closure.
 
+use std::ops::Range;
+
 use hyperstat_closure::{LoopClosure, Target};
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, LANES, Model};
 
 use super::targets::{Asked, Targets};
 use crate::prebuilt::PoseError;
+
+/// What a thread keeps from pose to pose: room for numbers, no results.
+#[derive(Debug, Default)]
+pub struct Placing {}
 
 /// A mechanism that is moved from pose to pose.
 ///
@@ -20,6 +26,21 @@ impl Mover {
         Self {
             closure: LoopClosure::new(model).map_err(PoseError::from),
         }
+    }
+
+    /// Brings geometries of the model to these poses; returns the output's whole poses.
+    pub(crate) fn place_lanes(
+        &self,
+        targets: &Targets,
+        range: Range<usize>,
+        geometries: &mut [Geometry],
+        _placing: &mut Placing,
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        let mut placed = [const { None }; LANES];
+        for (lane, pose) in range.enumerate() {
+            placed[lane] = Some(self.place(targets, pose, &mut geometries[lane]));
+        }
+        placed
     }
 
     /// Brings a geometry of the model to pose `k`; returns the output's whole pose.

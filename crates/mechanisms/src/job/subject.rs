@@ -1,9 +1,11 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_model::{Geometry, Model, NodeId, ValuePlace};
+use std::ops::Range;
+
+use hyperstat_model::{Geometry, LANES, Model, NodeId, ValuePlace};
 use nalgebra::{Rotation3, Vector3};
 
-use super::mover::Mover;
+use super::mover::{Mover, Placing};
 use super::poses::Poses;
 use super::targets::{Asked, Targets};
 use crate::error::LoadError;
@@ -319,6 +321,35 @@ impl Subject {
             Self::Prebuilt { mechanism, .. } => {
                 let (target, count) = given(mechanism.as_ref(), &poses.get(number));
                 mechanism.place(&target[..count], geometry)
+            }
+        }
+    }
+
+    /// The same for several geometries, each with a pose of its own.
+    pub(crate) fn place_lanes(
+        &self,
+        poses: &Poses,
+        range: Range<usize>,
+        geometries: &mut [Geometry],
+        placing: &mut Placing,
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        match self {
+            Self::File { mover, .. } => {
+                if let (Some(mover), Poses::Asked(targets)) = (mover, poses) {
+                    return mover.place_lanes(targets, range, geometries, placing);
+                }
+                let mut placed = [const { None }; LANES];
+                for (lane, pose) in range.enumerate() {
+                    placed[lane] = Some(self.place(poses, pose, &mut geometries[lane]));
+                }
+                placed
+            }
+            Self::Prebuilt { mechanism, .. } => {
+                let mut targets = [[0.0; 6]; LANES];
+                for (target, pose) in targets.iter_mut().zip(range.clone()) {
+                    *target = given(mechanism.as_ref(), &poses.get(pose)).0;
+                }
+                mechanism.place_lanes(&targets[..range.len()], geometries)
             }
         }
     }

@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Prepared, SolveError};
-use hyperstat_mechanisms::{Design, Job};
+use hyperstat_mechanisms::{Design, Job, Placing};
 
 use crate::error::StudyError;
 pub use crate::schema::Columns;
@@ -182,6 +182,7 @@ impl<'a> Sweep<'a> {
                     number,
                     design: None,
                     ready: Err(Failure::Design(Arc::new(error))),
+                    placing: Placing::default(),
                 };
             }
         };
@@ -201,6 +202,7 @@ impl<'a> Sweep<'a> {
             number,
             design: Some(design),
             ready,
+            placing: Placing::default(),
         }
     }
 }
@@ -247,6 +249,7 @@ struct Solver {
     design: Option<Design>,
     /// Why no pose of it can be solved, where none can.
     ready: Result<(Arc<Planned>, Lanes), Failure>,
+    placing: Placing,
 }
 
 impl Solver {
@@ -276,10 +279,8 @@ impl Solver {
         };
         let Some(design) = &self.design else { return };
         for first in poses.clone().step_by(LANES) {
-            let mut placed = [const { None }; LANES];
-            for (lane, pose) in (first..poses.end).take(LANES).enumerate() {
-                placed[lane] = Some(design.place(pose, lanes.geometry_mut(lane)));
-            }
+            let poses = first..poses.end.min(first + LANES);
+            let placed = design.place_lanes(poses, lanes.geometries_mut(), &mut self.placing);
             let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
             let mut found = planned.prepared.sweep_lanes(lanes, filled);
             for (lane, placed) in placed.into_iter().enumerate() {
