@@ -15,6 +15,7 @@ mod pass;
 mod program;
 #[cfg(test)]
 mod random_tests;
+pub(crate) mod single;
 #[cfg(test)]
 mod tests;
 use hyperstat_model::{Geometry, LANES, Model, characteristic_length};

@@ -50,16 +50,25 @@ impl Mover {
         k: usize,
         geometry: &mut Geometry,
     ) -> Result<[f64; 6], PoseError> {
-        let closure = self.closure.as_ref().map_err(PoseError::clone)?;
         let asked = targets.get(k);
         let target = match &asked {
             Asked::Output(asked) => Target::Output(*asked),
             Asked::Drives(drives) => Target::Drives(drives),
         };
-        let reached = closure.reach(&closure.home(), &target)?;
+        self.bring(&target, geometry)
+    }
+
+    /// Brings a geometry of the model to a target; returns the output's whole pose.
+    pub(crate) fn bring(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+    ) -> Result<[f64; 6], PoseError> {
+        let closure = self.closure.as_ref().map_err(PoseError::clone)?;
+        let reached = closure.reach(&closure.home(), target)?;
         closure.write(&reached, geometry)?;
         let mut pose = closure.pose(&reached)?;
-        if let Asked::Output(asked) = asked {
+        if let Target::Output(asked) = target {
             for (coordinate, asked) in pose.iter_mut().zip(asked) {
                 *coordinate = asked.unwrap_or(*coordinate);
             }
