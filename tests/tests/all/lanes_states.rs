@@ -63,5 +63,8 @@ fn prebuilt_mechanisms_under_all_that_acts() {
     }
     println!("{kinds} kinds, {poses} poses, {handed_on} handed on");
     assert!(kinds > 100, "{kinds} mechanisms under what acts");
-    assert!(1000 * handed_on <= poses as u64, "{handed_on} of {poses} handed on");
+    assert!(
+        1000 * handed_on <= poses as u64,
+        "{handed_on} of {poses} handed on"
+    );
 }

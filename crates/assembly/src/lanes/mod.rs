@@ -15,9 +15,10 @@ mod pass;
 mod program;
 #[cfg(test)]
 mod random_tests;
+pub(crate) mod single;
 #[cfg(test)]
 mod tests;
-use hyperstat_model::{Geometry, Model, characteristic_length};
+use hyperstat_model::{Geometry, LANES, Model, characteristic_length};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -31,9 +32,6 @@ use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;
 
-/// Poses that are handed to [`Prepared::sweep_lanes`](crate::Prepared::sweep_lanes) together.
-pub const LANES: usize = 8;
-
 /// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
 /// promised: of 160 000 poses of random mechanisms the largest error below this was 7e-12.
 const TRUSTED: f64 = 5e-13;
@@ -44,7 +42,7 @@ pub struct Lanes {
     /// The plan and the model that they were made for.
     plan: u64,
     model: [u64; 2],
-    geometries: Vec<Geometry>,
+    geometries: [Geometry; LANES],
     workspace: Workspace,
     arch: Arch,
     engine: Option<Engine>,
@@ -101,7 +99,7 @@ impl Plan {
         Lanes {
             plan: self.id,
             model: model.revisions(),
-            geometries: vec![model.geometry().clone(); LANES],
+            geometries: std::array::from_fn(|_| model.geometry().clone()),
             workspace: self.workspace(),
             arch,
             engine,
@@ -182,6 +180,11 @@ impl Lanes {
     /// If `pose` is not below [`LANES`].
     pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
         &mut self.geometries[pose]
+    }
+
+    /// The configurations of all poses, to be changed.
+    pub fn geometries_mut(&mut self) -> &mut [Geometry; LANES] {
+        &mut self.geometries
     }
 
     /// Whether the mechanism goes through the lanes at all.

@@ -190,7 +190,11 @@ impl Element {
 
     /// Finds the columns of what acts on it, and coordinates that move two of its nodes.
     pub fn settle(&mut self) {
-        let all: Vec<usize> = self.nodes.iter().flat_map(NodeMotion::coordinates).collect();
+        let all: Vec<usize> = self
+            .nodes
+            .iter()
+            .flat_map(NodeMotion::coordinates)
+            .collect();
         let first = |k: usize| all.iter().position(|c| *c == all[k]);
         let shared = (0..all.len()).filter_map(|k| Some([k, first(k).filter(|f| *f < k)?]));
         self.shared = shared.collect();

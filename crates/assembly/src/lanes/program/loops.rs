@@ -91,7 +91,11 @@ impl Loops {
             screws: topology.coordinates,
             ..Self::default()
         };
-        for component in topology.components.iter().filter(|c| !c.closings.is_empty()) {
+        for component in topology
+            .components
+            .iter()
+            .filter(|c| !c.closings.is_empty())
+        {
             let maker = Maker {
                 model,
                 geometry,
@@ -109,7 +113,10 @@ impl Loops {
 
     /// Takes in a loop, with the screws of its bodies.
     fn add(&mut self, mut own: Loop, topology: &Topology, component: &Component) {
-        let dependent = own.pivots.iter().map(|[_, column]| own.coordinates[*column]);
+        let dependent = own
+            .pivots
+            .iter()
+            .map(|[_, column]| own.coordinates[*column]);
         self.dependent.extend(dependent);
         for tie in &component.ties {
             let on_way = &topology.carriers[tie.child].coordinates;
@@ -158,7 +165,10 @@ impl Loops {
 
     /// Entries of the largest matrix of conditions, and conditions of the loop that has most.
     pub fn room(&self) -> [usize; 2] {
-        let entries = self.list.iter().map(|l| l.conditions.len() * l.coordinates.len());
+        let entries = self
+            .list
+            .iter()
+            .map(|l| l.conditions.len() * l.coordinates.len());
         let rows = self.list.iter().map(|l| l.conditions.len());
         [entries.max().unwrap_or(0), rows.max().unwrap_or(0)]
     }
@@ -246,7 +256,9 @@ impl Maker<'_> {
         let reference = at(own.reference);
         for (row, condition) in own.conditions.iter().enumerate() {
             let part = |first: usize| -> Vector3<f64> {
-                (0..3).map(|k| at(condition.axes[k]) * condition.dual[first + k]).sum()
+                (0..3)
+                    .map(|k| at(condition.axes[k]) * condition.dual[first + k])
+                    .sum()
             };
             let force = part(0);
             let moment = part(3) + (at(condition.point) - reference).cross(&force);
@@ -277,7 +289,11 @@ impl Maker<'_> {
             for &row in &free_rows {
                 for &column in &free_columns {
                     let share = matrix[(row, column)].abs() / scales[row].sqrt();
-                    let wanted = if springs[column] { share * SPRING } else { share };
+                    let wanted = if springs[column] {
+                        share * SPRING
+                    } else {
+                        share
+                    };
                     if wanted > best.0 {
                         best = (wanted, share, row, column);
                     }

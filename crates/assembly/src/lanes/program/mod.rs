@@ -81,11 +81,15 @@ impl Program {
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
         let topology = Topology::new(model, geometry, plan.output, false).ok()?;
         let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
-        let closed = topology.components.iter().filter(|c| !c.closings.is_empty());
+        let closed = topology
+            .components
+            .iter()
+            .filter(|c| !c.closings.is_empty());
         // Misfits in loops of rigid bodies may not fit.
         let misfit = closed.into_iter().any(|c| {
             let ties = c.ties.iter().map(|t| t.joint);
-            ties.chain(c.closings.iter().copied()).any(|joint| is_misfit(&joint))
+            ties.chain(c.closings.iter().copied())
+                .any(|joint| is_misfit(&joint))
         });
         if misfit || topology.coordinates > MOST_COORDINATES {
             return None;

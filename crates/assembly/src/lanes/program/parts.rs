@@ -5,9 +5,7 @@ use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 
 use super::chain::{Chain, Link, Release};
 use super::columns::Brought;
-use super::element::{
-    Element, FlexibleElement, Kind, Moving, NodeMotion, Screw, Shift, Spring,
-};
+use super::element::{Element, FlexibleElement, Kind, Moving, NodeMotion, Screw, Shift, Spring};
 use super::inputs::{Inputs, Point};
 use super::loops::Loops;
 use crate::plan::subassemblies::Subassembly;
@@ -49,8 +47,13 @@ pub(crate) fn screws(
     inputs: &mut Inputs,
 ) -> Option<Vec<Screw>> {
     let mut screws = Vec::new();
-    let closed = topology.components.iter().filter(|c| !c.closings.is_empty());
-    let closed: Vec<usize> = closed.flat_map(|c| c.ties.iter().map(|t| t.child)).collect();
+    let closed = topology
+        .components
+        .iter()
+        .filter(|c| !c.closings.is_empty());
+    let closed: Vec<usize> = closed
+        .flat_map(|c| c.ties.iter().map(|t| t.child))
+        .collect();
     let looped = |carrier: usize| closed.contains(&carrier);
     for tie in topology.components.iter().flat_map(|c| &c.ties) {
         let reference = placed[tie.child].as_ref()?.reference;

@@ -160,7 +160,10 @@ impl Series {
         ];
         let is_ring = outer[0].root.is_some() && outer[0].root == outer[1].root;
         // A motion that the ends share does no work on the chain, but it does on loads within.
-        let shares = outer[0].screws.iter().any(|s| outer[1].is_moved_by(s.coordinate));
+        let shares = outer[0]
+            .screws
+            .iter()
+            .any(|s| outer[1].is_moved_by(s.coordinate));
         let is_loaded = self.loads.iter().any(|l| l.node.root == Some(root));
         let has_room = a[0] + b[0] <= MOST_RELEASES && a[1] + b[1] <= MOST_IDLE;
         let would_lose = shares && (is_loaded || a[2] + b[2] > 0);
