@@ -5,6 +5,7 @@ pub mod build;
 pub mod extended;
 pub mod gripper;
 pub mod lattice;
+pub mod networks;
 pub mod prebuilt;
 pub mod random;
 pub mod runner;

@@ -64,7 +64,7 @@ impl Program {
     /// whose elimination depends on the pose, motions of the output without energy, too many
     /// coordinates.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
-        let topology = Topology::new(model, geometry, plan.output, false).ok()?;
+        let topology = Topology::new(model, geometry, plan.output, false);
         let closed = |component: &crate::plan::trees::Component| !component.closings.is_empty();
         if topology.components.iter().any(closed) || topology.coordinates > MOST_COORDINATES {
             return None;
