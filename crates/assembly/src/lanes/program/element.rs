@@ -1,7 +1,8 @@
 //! Elements as the lanes take them.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Matrix6;
 
+use super::acts::Act;
 use super::chain::{Chain, InnerLoad, Release};
 use super::inputs::Point;
 
@@ -43,6 +44,24 @@ impl NodeMotion {
 pub(crate) struct Element {
     pub kind: Kind,
     pub nodes: Vec<NodeMotion>,
+    /// Where its nodes stand when no force is on it.
+    pub shifts: Vec<Shift>,
+    /// Columns of what acts on it; filled in once all elements are joined.
+    pub columns: Vec<usize>,
+}
+
+/// What a node of an element stands off by when no force is on the element, in one of the columns of
+/// what acts.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shift {
+    /// Of the element's nodes.
+    pub node: usize,
+    /// Displacement, at a point that the node moves as one with.
+    pub act: Act,
+    pub point: Point,
+    /// 1, or −1 for the opposite.
+    pub sign: f64,
+    pub column: usize,
 }
 
 /// Where an element's stiffness comes from.
@@ -54,6 +73,7 @@ pub(crate) enum Kind {
     Flexible(FlexibleElement),
     /// A stiffness between two nodes at one point, in a joint's frame (its columns' places).
     Bushing {
+        point: Point,
         columns: [usize; 3],
         stiffness: Box<Matrix6<f64>>,
     },
@@ -81,7 +101,9 @@ pub(crate) struct Spring {
 pub(crate) struct NodeLoad {
     pub node: NodeMotion,
     pub point: Point,
-    pub wrench: Vector6<f64>,
+    /// Wrench, about the point.
+    pub act: Act,
+    pub column: usize,
 }
 
 impl NodeLoad {
@@ -89,7 +111,8 @@ impl NodeLoad {
     pub fn inner(self) -> InnerLoad {
         InnerLoad {
             point: self.point,
-            wrench: self.wrench,
+            act: self.act,
+            column: self.column,
         }
     }
 }
@@ -125,8 +148,8 @@ impl Element {
 
     /// Whether anything moves it, or loads within could work on an idle motion of its own.
     pub fn counts(&self) -> bool {
-        let has_idle = matches!(&self.kind, Kind::Chain(chain) if !chain.idle.is_empty());
-        self.moves() || (has_idle && self.is_loaded())
+        let works = |chain: &Chain| !chain.idle.is_empty() && !chain.loads.is_empty();
+        self.moves() || matches!(&self.kind, Kind::Chain(chain) if works(chain))
     }
 
     /// Whether anything moves it.
@@ -134,9 +157,30 @@ impl Element {
         self.nodes.iter().any(NodeMotion::moves)
     }
 
-    /// Whether loads act on what lies within it.
+    /// Whether anything acts on what lies within it.
     pub fn is_loaded(&self) -> bool {
-        matches!(&self.kind, Kind::Chain(chain) if !chain.loads.is_empty())
+        !self.shifts.is_empty()
+            || matches!(&self.kind, Kind::Chain(chain) if !chain.loads.is_empty())
+    }
+
+    /// Links of a chain that something acts on.
+    pub fn loaded_links(&self) -> usize {
+        match &self.kind {
+            Kind::Chain(chain) if self.is_loaded() => chain.links.len(),
+            _ => 0,
+        }
+    }
+
+    /// Finds the columns of what acts on it.
+    pub fn find_columns(&mut self) {
+        let own = self.shifts.iter().map(|shift| shift.column);
+        self.columns = own.collect();
+        if let Kind::Chain(chain) = &self.kind {
+            self.columns
+                .extend(chain.loads.iter().map(|load| load.column));
+        }
+        self.columns.sort_unstable();
+        self.columns.dedup();
     }
 
     /// Coordinates of a chain.

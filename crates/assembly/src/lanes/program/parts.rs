@@ -4,7 +4,8 @@ use hyperstat_joints::Dof;
 use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 
 use super::chain::{Chain, Link, Release};
-use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Spring};
+use super::columns::Brought;
+use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Shift, Spring};
 use super::inputs::{Inputs, Point};
 use crate::plan::subassemblies::Subassembly;
 use crate::plan::topology::Topology;
@@ -82,6 +83,10 @@ pub(crate) struct Parts<'a> {
     pub placed: &'a [Option<Placed>],
     /// Of the mechanism.
     pub size: f64,
+    /// By carriers: what joints' misfits displace them by.
+    pub standing: Vec<Vec<Shift>>,
+    /// What acts on segments and joints.
+    pub brought: Brought,
     pub elements: Vec<Element>,
     pub springs: Vec<Spring>,
 }
@@ -105,11 +110,51 @@ impl Parts<'_> {
         Some(inputs.point(placed.reference))
     }
 
+    /// Takes in what acts on segments and joints, before any element is added.
+    pub fn take(&mut self, brought: Brought, inputs: &mut Inputs) {
+        self.standing = vec![Vec::new(); self.topology.carriers.len()];
+        for tie in self.topology.components.iter().flat_map(|c| &c.ties) {
+            let mut standing = match tie.parent {
+                Some(parent) => self.standing[parent].clone(),
+                None => Vec::new(),
+            };
+            let between = &self.model.joints()[tie.joint.0].between;
+            let is_second = between[1] == Some(tie.child_node);
+            let sign = if is_second { 1.0 } else { -1.0 };
+            let point = inputs.point(tie.child_node);
+            standing.extend(brought.by_joint(tie.joint, 0, point, sign));
+            self.standing[tie.child] = standing;
+        }
+        self.brought = brought;
+    }
+
+    /// What the misfits between a component's root and these nodes ask of an element.
+    fn standing(&self, nodes: &[NodeId]) -> Vec<Shift> {
+        let carrier = |node: &NodeId| self.topology.carrier_of[node.0];
+        let all: Vec<&Vec<Shift>> = nodes.iter().map(|n| &self.standing[carrier(n)]).collect();
+        let mut shifts = Vec::new();
+        for (node, own) in all.iter().enumerate() {
+            let moves_alone = |s: &&Shift| !all.iter().all(|other| other.contains(s));
+            // The element stands where its nodes would be the other way.
+            shifts.extend(own.iter().filter(moves_alone).map(|shift| Shift {
+                node,
+                sign: -shift.sign,
+                ..shift.clone()
+            }));
+        }
+        shifts
+    }
+
     /// Adds an element whose nodes move as the model's nodes say, unless it is rigidly held.
-    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>) {
+    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>, shifts: Vec<Shift>) {
         drop_shared(&mut nodes);
         if nodes.iter().any(NodeMotion::moves) {
-            self.elements.push(Element { kind, nodes });
+            self.elements.push(Element {
+                kind,
+                nodes,
+                shifts,
+                columns: Vec::new(),
+            });
         }
     }
 
@@ -122,6 +167,7 @@ impl Parts<'_> {
         for node in &subassembly.nodes {
             nodes.push(self.motion(*node, inputs)?);
         }
+        let mut shifts = self.standing(&subassembly.nodes);
         let kind = match subassembly.flexible {
             Some(id) => {
                 let stiffness = self.model.flexibles()[id.0].element.held_stiffness();
@@ -143,10 +189,13 @@ impl Parts<'_> {
                 }
                 let link = Link::beam(self.model, self.geometry, *id, inputs)?;
                 let [a, b] = ends.map(|n| self.origin(n, inputs));
+                shifts = self.standing(&ends);
+                let second = inputs.point(ends[1]);
+                shifts.extend(self.brought.by_segment(*id, 1, second));
                 Kind::Chain(Chain::new(link, Vec::new(), [a?, b?]))
             }
         };
-        self.add(kind, nodes);
+        self.add(kind, nodes, shifts);
         Some(())
     }
 
@@ -190,9 +239,18 @@ impl Parts<'_> {
         for node in entry.between.iter().flatten() {
             nodes.push(self.motion(*node, inputs)?);
         }
+        let between: Vec<NodeId> = entry.between.iter().flatten().copied().collect();
+        let at = between.first()?;
+        let mut shifts = self.standing(&between);
+        let (own, sign) = match entry.between {
+            [None, Some(_)] => (0, 1.0),
+            [Some(_), None] => (0, -1.0),
+            _ => (1, 1.0),
+        };
+        let point = inputs.point(*at);
+        shifts.extend(self.brought.by_joint(joint, own, point, sign));
         let kind = match compliance {
             Some(compliance) => {
-                let at = entry.between.iter().flatten().next()?;
                 let own = basis * compliance * basis.transpose();
                 let link = Link::joint(&own, *at, columns, self.size, inputs);
                 let free = role.directions.free.iter();
@@ -207,14 +265,18 @@ impl Parts<'_> {
             None if *has_stiffness => {
                 let inverse = basis.try_inverse()?;
                 let stiffness = Box::new(inverse.transpose() * stiffness * inverse);
-                Kind::Bushing { columns, stiffness }
+                Kind::Bushing {
+                    point,
+                    columns,
+                    stiffness,
+                }
             }
             None => return None,
         };
         if matches!(kind, Kind::Chain(_)) && nodes.len() == 1 {
             nodes.push(NodeMotion::default());
         }
-        self.add(kind, nodes);
+        self.add(kind, nodes, shifts);
         Some(())
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::chain::{Idle, MOST_IDLE, MOST_RELEASES, Release};
-use super::element::{Element, Kind, NodeLoad, NodeMotion, Screw, Spring};
+use super::element::{Element, Kind, NodeLoad, NodeMotion, Screw, Shift, Spring};
 use super::parts::drop_shared;
 
 /// What a mechanism is made of, while elements are joined.
@@ -97,7 +97,7 @@ impl Series {
         let stiffness = self.springs.iter().filter(|s| own(s)).map(|s| s.stiffness);
         let stiffness: f64 = stiffness.sum();
         let is_idle = self.idle.contains(&screw);
-        let Element { kind, nodes } = &mut self.elements[k];
+        let Element { kind, nodes, .. } = &mut self.elements[k];
         let Kind::Chain(chain) = kind else {
             return;
         };
@@ -180,12 +180,31 @@ impl Series {
             let mut nodes = vec![own.nodes[own_end].clone(), next.nodes[next_end].clone()];
             drop_shared(&mut nodes);
             let chain = chain.followed_by(following, [own_end, next_end]);
-            let kind = Kind::Chain(chain);
-            self.elements.insert(low, Element { kind, nodes });
+            let mut shifts = as_second(own.shifts, own_end == 0);
+            shifts.extend(as_second(next.shifts, next_end == 1));
+            let joined = Element {
+                kind: Kind::Chain(chain),
+                nodes,
+                shifts,
+                columns: Vec::new(),
+            };
+            self.elements.insert(low, joined);
         }
         for coordinate in component.clone() {
             self.gone[coordinate] = true;
         }
         true
     }
+}
+
+/// Shifts of a chain's ends, all at its second one; of a chain that is run through backwards, all
+/// the other way.
+fn as_second(mut shifts: Vec<Shift>, forwards: bool) -> Vec<Shift> {
+    for shift in &mut shifts {
+        if (shift.node == 1) != forwards {
+            shift.sign = -shift.sign;
+        }
+        shift.node = 1;
+    }
+    shifts
 }
