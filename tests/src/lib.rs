@@ -6,6 +6,7 @@ pub mod build;
 pub mod extended;
 pub mod gripper;
 pub mod lattice;
+pub mod networks;
 pub mod prebuilt;
 pub mod random;
 pub mod runner;

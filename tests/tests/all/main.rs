@@ -22,6 +22,7 @@ mod logan_space_frame_example_5_8;
 mod magnitudes;
 mod misfits;
 mod natural_frequencies;
+mod networks;
 mod parallelogram_closed_form;
 mod prebuilt_legs;
 mod prebuilt_limbs;

@@ -37,6 +37,7 @@ use super::program::parts::{Parts, Placed, screws};
 use super::program::series::Series;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
+use crate::plan::trees::Component;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;
@@ -79,7 +80,7 @@ impl Program {
     /// elimination is not clear, or with misfits; motions of the output without energy; too many
     /// coordinates.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
-        let topology = Topology::new(model, geometry, plan.output, false).ok()?;
+        let topology = Topology::new(model, geometry, plan.output, false);
         let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
         let closed = topology
             .components
@@ -91,7 +92,8 @@ impl Program {
             ties.chain(c.closings.iter().copied())
                 .any(|joint| is_misfit(&joint))
         });
-        if misfit || topology.coordinates > MOST_COORDINATES {
+        let network = topology.components.iter().any(Component::is_network);
+        if misfit || network || topology.coordinates > MOST_COORDINATES {
             return None;
         }
         let mut inputs = Inputs::new(model, geometry, APART)?;
