@@ -1,40 +1,32 @@
 //! Natural frequencies and modes: K φ = ω² M φ over the independent displacement coordinates.
 //!
-//! The model's segments are divided into their elements, whose inner nodes have coordinates here,
-//! and no joint is absorbed, so that every node with a mass has its displacement. Loops are closed
-//! by the same elimination as in statics: rigid joints and bodies are exact, and no mass or
-//! stiffness is invented for them.
+//! No joint is absorbed, so that every node with a mass has its displacement, and every segment has
+//! inner shapes beside its static ones, as many as its length of wave at the highest frequency asks
+//! for ([`InnerShapes`](hyperstat_elements::InnerShapes)); or, for consistent and lumped masses, the
+//! inner nodes of its elements. Loops are closed by the same elimination as in statics: rigid joints
+//! and bodies are exact, and no mass or stiffness is invented for them.
 
 mod lanczos;
 mod mass;
+mod member;
+mod ready;
 mod sensitivity;
 mod shape;
 mod system;
 
+use hyperstat_elements::rotate_vector6;
+use hyperstat_model::{BodyId, Geometry, ModalOptions, Model, NodeId, Segment};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
-use crate::kinematics::diagnosis::Diagnosis;
-use crate::modal::lanczos::lowest;
-use crate::modal::mass::{MassPlan, Masses};
 pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
-use crate::modal::system::{Mode as Found, System};
-use crate::plan::Plan;
+use crate::modal::ready::{Outcome, Ready};
+use crate::modal::shape::Curve;
+use crate::modal::system::Mode as Found;
 use crate::plan::fault::Fault;
-use crate::plan::workspace::Workspace;
-use crate::pose::evaluate;
-use crate::pose::restraint::Restraint;
-use crate::posture::Posture;
-use crate::room;
-use crate::room::MOST_NUMBERS;
-use hyperstat_model::ModalOptions;
-use hyperstat_model::Model;
-use hyperstat_model::{BodyId, Geometry, NodeId, Segment};
 
-/// What the inner nodes of too many elements ask for.
-const COORDINATES: &str = "the coordinates of its elements";
-/// Elements of a model at the most.
-const MOST_ELEMENTS: usize = 200_000;
+/// Times that members are made again for a configuration, each finer than the last.
+const MOST_ROUNDS: usize = 10;
 
 /// A natural mode.
 #[derive(Debug, Clone)]
@@ -54,6 +46,8 @@ pub struct Mode {
     pub kinetic: Vec<f64>,
     /// ‖ω² K⁻¹ M φ − φ‖ in the mass, φ having length 1: ω² is good to about its square.
     pub residual: f64,
+    /// What every segment does along it.
+    curves: Vec<Curve>,
 }
 
 impl Mode {
@@ -80,48 +74,34 @@ pub struct Modes {
     /// Whether a count of all frequencies below the last one (Sylvester's law of inertia) says
     /// that none is missing.
     pub complete: bool,
+    /// How many there are below which frequency, by that count.
+    pub counted: Option<Counted>,
+}
+
+/// A count of frequencies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Counted {
+    /// The frequency \[Hz\] below which they were counted: in the gap after the last that was asked
+    /// for, or after those that equal it.
+    pub below: f64,
+    /// Their number, with those of the output's free motions, which are zero, and without the idle
+    /// ones.
+    pub modes: usize,
 }
 
 /// A topology made ready for natural frequencies: one plan serves every pose of a mechanism.
 #[derive(Debug)]
 pub struct ModalPlan {
     model: Model,
-    /// The same with the nodes inside segments.
-    divided: Model,
     options: ModalOptions,
     ready: Ready,
 }
 
-/// A topology made ready: where the coordinates are, and where the masses.
-#[derive(Debug)]
-struct Ready {
-    plan: Plan,
-    masses: MassPlan,
-}
-
-impl Ready {
-    fn new(divided: &Model, geometry: &Geometry) -> Result<Self, SolveError> {
-        let at = Posture::new(divided, geometry);
-        let plan = Plan::absorbing(&at, false, &Diagnosis::default())?;
-        let masses = MassPlan::new(&plan, divided)?;
-        Ok(Self { plan, masses })
-    }
-}
-
-/// What was found in a configuration, and from what.
-struct Outcome<'a> {
-    ready: &'a Ready,
-    workspace: &'a Workspace,
-    geometry: &'a Geometry,
-    masses: &'a Masses,
-    modes: Vec<Found>,
-    idle: usize,
-    complete: bool,
-}
-
 impl ModalPlan {
     /// Plan of a model, whose elastic bodies have densities. Masses of nodes belong to the model's
-    /// own configuration.
+    /// own configuration, and so does the highest frequency by which exact masses are as fine as they
+    /// need to be: poses of frequencies beyond twice that ω² make finer ones of their own.
     ///
     /// # Errors
     /// As [`Prepared::unknowns`](crate::Prepared::unknowns); [`SolveError::NoDensity`]; [`SolveError::TooLarge`] for more than 200 000
@@ -135,17 +115,24 @@ impl ModalPlan {
                 body: model.bodies()[segment.body.0].name.clone(),
             });
         }
-        let sizes = model.segments().iter().map(|segment| segment.elements);
-        let elements = sizes.fold(0, usize::saturating_add);
-        room::check(COORDINATES, elements.saturating_mul(6), 6 * MOST_ELEMENTS)?;
-        let divided = model.divided()?;
-        let ready = Ready::new(&divided, divided.geometry())?;
-        let unknowns = ready.plan.unknowns;
-        let numbers = room::matrix(options.count.min(unknowns), unknowns);
-        room::check("its natural modes", numbers, MOST_NUMBERS)?;
+        let made = |limit| Ready::new(model, model.geometry(), options, limit);
+        let mut ready = made(None)?;
+        for _ in 0..MOST_ROUNDS {
+            // What is wrong with a configuration is told of it, when it is asked for.
+            let wanted = match ready.find(model, model.geometry(), options.count, false) {
+                Ok(outcome) => outcome.wanted(options.count),
+                Err(_) => break,
+            };
+            let settled = wanted <= ready.limit();
+            if wanted != ready.limit() {
+                ready = made(Some(wanted))?;
+            }
+            if settled {
+                break;
+            }
+        }
         Ok(Self {
             model: model.clone(),
-            divided,
             options: options.clone(),
             ready,
         })
@@ -171,6 +158,10 @@ impl ModalPlan {
             mass: outcome.masses.total,
             idle: outcome.idle,
             complete: outcome.complete,
+            counted: outcome.counted.map(|(below, modes)| Counted {
+                below: hertz(below),
+                modes,
+            }),
         })
     }
 
@@ -187,28 +178,27 @@ impl ModalPlan {
 
     /// A mode at the nodes.
     fn mode(&self, outcome: &Outcome<'_>, found: &Found) -> Mode {
-        let (ready, x) = (outcome.ready, &found.vector);
-        let at = |node| {
-            let (plan, workspace) = (&ready.plan, outcome.workspace);
-            ready
-                .masses
-                .displacement(plan, workspace, outcome.geometry, node, x)
-        };
-        let mut inner = (self.model.nodes().len()..).map(NodeId);
-        let segments = self.model.segments().iter();
+        let segments = self.model.segments();
+        let curves = outcome.curves(found);
+        let frames = outcome.frames(&self.model);
+        let inner = segments.iter().zip(&curves).zip(frames);
         let bodies = self.model.bodies().len();
-        let (participation, kinetic) = ready.masses.shares(outcome.masses, bodies, x);
+        let (participation, kinetic) = outcome.shares(bodies, found);
+        let nodes = (0..self.model.nodes().len()).map(NodeId);
         Mode {
             frequency: hertz(found.eigenvalue),
-            displacements: (0..self.model.nodes().len())
-                .map(|k| at(NodeId(k)))
-                .collect(),
-            inner: segments
-                .map(|segment| inner.by_ref().take(segment.elements - 1).map(at).collect())
+            displacements: nodes.map(|node| outcome.displacement(node, found)).collect(),
+            inner: inner
+                .map(|((segment, curve), frame)| {
+                    let place = |k: usize| k as f64 / segment.elements as f64;
+                    let inner = (1..segment.elements).map(place);
+                    inner.map(|xi| rotate_vector6(&curve.at(xi), &frame)).collect()
+                })
                 .collect(),
             effective_mass: participation.map(|p| p * p).into(),
             kinetic,
             residual: found.residual,
+            curves,
         }
     }
 
@@ -221,64 +211,19 @@ impl ModalPlan {
         diagnose: bool,
         take: impl FnOnce(Outcome<'_>) -> T,
     ) -> Result<T, SolveError> {
-        self.model
-            .check_geometry(geometry, self.ready.plan.one_point)?;
-        let geometry = self.model.divided_geometry(geometry)?;
-        let at = Posture::new(&self.divided, &geometry);
-        let mut workspace = self.ready.plan.workspace();
-        let mut changed = None;
-        let mut ready = &self.ready;
-        match evaluate(&ready.plan, &at, &[], &mut workspace) {
-            Ok(()) => {}
-            Err(Fault::Error(error)) => return Err(error),
-            Err(Fault::Changed) => {
-                ready = changed.insert(Ready::new(&self.divided, &geometry)?);
-                workspace = ready.plan.workspace();
-                let again = evaluate(&ready.plan, &at, &[], &mut workspace);
-                again.map_err(|fault| match fault {
-                    Fault::Error(error) => error,
-                    Fault::Changed => SolveError::Singular,
-                })?;
-            }
+        let mut own: Option<Ready> = None;
+        for _ in 0..MOST_ROUNDS {
+            let ready = own.as_ref().unwrap_or(&self.ready);
+            let limit = match ready.find(&self.model, geometry, count, diagnose) {
+                Ok(outcome) if outcome.is_resolved(count) => return Ok(take(outcome)),
+                Ok(outcome) => outcome.wanted(count),
+                Err(Fault::Error(error)) => return Err(error),
+                Err(Fault::Changed) if own.is_some() => return Err(SolveError::Singular),
+                Err(Fault::Changed) => ready.limit(),
+            };
+            own = Some(Ready::new(&self.model, geometry, &self.options, Some(limit))?);
         }
-        let (plan, workspace) = (&ready.plan, &workspace);
-        let parts = self.model.segments().iter().map(|s| s.elements);
-        let masses = ready.masses.elements(
-            plan,
-            &self.divided,
-            &geometry,
-            workspace,
-            parts,
-            &self.options,
-        )?;
-        if masses.total <= 0.0 {
-            return Err(SolveError::NoMass);
-        }
-        let system = |restraint: Option<&Restraint>| {
-            let restraint = restraint.map(|r| (r, &at));
-            System::new(plan, workspace, &ready.masses, &masses, restraint)
-        };
-        let held = (!diagnose && !plan.has_idle).then(|| system(None));
-        let mut system = match held {
-            Some(Ok(system)) => system,
-            _ => system(Some(&Restraint::of(&at, plan.output)?))?,
-        };
-        let mut modes: Vec<Found> = system.moving().take(count).map(Found::at_rest).collect();
-        let mut complete = true;
-        if modes.len() < count {
-            let elastic = lowest(&mut system, count - modes.len())?;
-            complete = elastic.complete;
-            modes.extend(elastic.modes);
-        }
-        Ok(take(Outcome {
-            ready,
-            workspace,
-            geometry: &geometry,
-            masses: &masses,
-            idle: system.idle,
-            modes,
-            complete,
-        }))
+        Err(SolveError::ModesNotFound { found: 0 })
     }
 }
 
