@@ -88,7 +88,12 @@ impl Direction {
             degree,
             of_moments,
         };
-        let both = |k| [Some(answer(first + k, false)), moments.then(|| answer(k, true))];
+        let both = |k| {
+            [
+                Some(answer(first + k, false)),
+                moments.then(|| answer(k, true)),
+            ]
+        };
         (0..MOST).flat_map(both).flatten().collect()
     }
 }
@@ -194,7 +199,10 @@ impl LineMass {
         let mut coupling = DMatrix::<f64>::zeros(12, count);
         let carried = beam.cantilever_stiffness();
         self.each_place(beam, MassShape::Exact, rotary, |xi, weight, n| {
-            let (give, per_length) = (beam.section_compliance_at(xi), self.per_length_at(xi, rotary));
+            let (give, per_length) = (
+                beam.section_compliance_at(xi),
+                self.per_length_at(xi, rotary),
+            );
             let (legendre, shape) = (Legendre::at(xi), beam.shape(xi));
             let to_section = transport(&(beam.span() * (1.0 - xi))).transpose() * carried;
             let mut moved = free_displacements(beam, &answers, xi);
@@ -226,12 +234,16 @@ impl LineMass {
         for own in &all {
             let (count, rows) = (own.len(), own[0].direction.rows());
             let part = |of: &DMatrix<f64>| {
-                DMatrix::from_fn(count, count, |r, c| of[(first + r.max(c), first + r.min(c))])
+                DMatrix::from_fn(count, count, |r, c| {
+                    of[(first + r.max(c), first + r.min(c))]
+                })
             };
             let block = Block {
                 energy: part(&energy),
                 mass: part(&mass),
-                coupling: DMatrix::from_fn(rows.len(), count, |r, c| coupling[(rows[r], first + c)]),
+                coupling: DMatrix::from_fn(rows.len(), count, |r, c| {
+                    coupling[(rows[r], first + c)]
+                }),
                 nodes: DMatrix::from_fn(rows.len(), rows.len(), |r, c| nodes[(rows[r], rows[c])]),
             };
             if let Some((kept, resolved)) = block.kept(limit) {
@@ -327,7 +339,11 @@ impl Block {
             (whole - taken(&kept, square) <= LEFT_OUT).then_some(kept)
         });
         let kept = enough.unwrap_or(all);
-        let finite = kept.coupling.iter().chain(&kept.squares).all(|v| v.is_finite());
+        let finite = kept
+            .coupling
+            .iter()
+            .chain(&kept.squares)
+            .all(|v| v.is_finite());
         finite.then_some((kept, resolved))
     }
 }
@@ -392,7 +408,12 @@ impl InnerShapes {
         let free: Vector6<f64> = answers
             .map(|(answer, sum)| answer.wrench(&legendre, beam.length()) * *sum)
             .sum();
-        let end: Vector6<f64> = self.ends.iter().zip(&sums).map(|(end, sum)| end * *sum).sum();
+        let end: Vector6<f64> = self
+            .ends
+            .iter()
+            .zip(&sums)
+            .map(|(end, sum)| end * *sum)
+            .sum();
         let arm = Vector3::new(beam.length() * (1.0 - xi), 0.0, 0.0);
         free - transport(&arm).transpose() * (beam.cantilever_stiffness() * end)
     }

@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::Counted;
 use super::system::{Mode, System};
 use crate::error::SolveError;
 use crate::plan::blocks::{dot, subtract};
@@ -35,7 +36,7 @@ pub(super) struct Lowest {
     /// Whether the number of eigenvalues below says that none is missing.
     pub complete: bool,
     /// How many there are below which eigenvalue.
-    pub counted: Option<(f64, usize)>,
+    pub counted: Option<Counted>,
 }
 
 /// Finds the `count` lowest modes; fewer where there are no more.
@@ -76,7 +77,11 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
             }
             counted => {
                 complete = counted == Some(below);
-                of_count = counted.map(|counted| (limit, counted));
+                of_count = counted.map(|modes| Counted {
+                    below: limit,
+                    modes,
+                    found: below,
+                });
                 break;
             }
         }

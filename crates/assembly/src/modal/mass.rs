@@ -77,6 +77,15 @@ pub(super) struct Inner {
     forces: Vec<f64>,
 }
 
+impl Inner {
+    /// ω² of every shape, and the mass between it and the segment's coordinates, so many.
+    pub fn each(&self, coordinates: usize) -> impl Iterator<Item = (f64, &[f64])> {
+        let couplings = move |k: usize| &self.couplings[k * coordinates..(k + 1) * coordinates];
+        let shapes = self.squares.iter().enumerate();
+        shapes.map(move |(k, square)| (*square, couplings(k)))
+    }
+}
+
 /// What asks for too much room where masses depend on many coordinates.
 const COUPLINGS: &str = "its masses at the ends of chains of rigid bodies";
 

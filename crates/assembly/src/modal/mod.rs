@@ -19,8 +19,8 @@ use hyperstat_model::{BodyId, Geometry, ModalOptions, Model, NodeId, Segment};
 use nalgebra::Vector6;
 
 use crate::error::SolveError;
-pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
 use crate::modal::ready::{Outcome, Ready};
+pub use crate::modal::sensitivity::{FrequencySensitivity, ModalSensitivities};
 use crate::modal::shape::Curve;
 use crate::modal::system::Mode as Found;
 use crate::plan::fault::Fault;
@@ -88,6 +88,8 @@ pub struct Counted {
     /// Their number, with those of the output's free motions, which are zero, and without the idle
     /// ones.
     pub modes: usize,
+    /// How many of them were found: the same where none is missing.
+    pub found: usize,
 }
 
 /// A topology made ready for natural frequencies: one plan serves every pose of a mechanism.
@@ -158,9 +160,9 @@ impl ModalPlan {
             mass: outcome.masses.total,
             idle: outcome.idle,
             complete: outcome.complete,
-            counted: outcome.counted.map(|(below, modes)| Counted {
-                below: hertz(below),
-                modes,
+            counted: outcome.counted.map(|counted| Counted {
+                below: hertz(counted.below),
+                ..counted
             }),
         })
     }
@@ -187,12 +189,16 @@ impl ModalPlan {
         let nodes = (0..self.model.nodes().len()).map(NodeId);
         Mode {
             frequency: hertz(found.eigenvalue),
-            displacements: nodes.map(|node| outcome.displacement(node, found)).collect(),
+            displacements: nodes
+                .map(|node| outcome.displacement(node, found))
+                .collect(),
             inner: inner
                 .map(|((segment, curve), frame)| {
                     let place = |k: usize| k as f64 / segment.elements as f64;
                     let inner = (1..segment.elements).map(place);
-                    inner.map(|xi| rotate_vector6(&curve.at(xi), &frame)).collect()
+                    inner
+                        .map(|xi| rotate_vector6(&curve.at(xi), &frame))
+                        .collect()
                 })
                 .collect(),
             effective_mass: participation.map(|p| p * p).into(),
@@ -221,7 +227,12 @@ impl ModalPlan {
                 Err(Fault::Changed) if own.is_some() => return Err(SolveError::Singular),
                 Err(Fault::Changed) => ready.limit(),
             };
-            own = Some(Ready::new(&self.model, geometry, &self.options, Some(limit))?);
+            own = Some(Ready::new(
+                &self.model,
+                geometry,
+                &self.options,
+                Some(limit),
+            )?);
         }
         Err(SolveError::ModesNotFound { found: 0 })
     }

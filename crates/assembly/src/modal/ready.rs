@@ -6,6 +6,7 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
+use crate::modal::Counted;
 use crate::modal::lanczos::lowest;
 use crate::modal::mass::{MassPlan, Masses};
 use crate::modal::member::Members;
@@ -45,8 +46,8 @@ pub(super) struct Outcome<'a> {
     pub modes: Vec<Mode>,
     pub idle: usize,
     pub complete: bool,
-    /// How many eigenvalues are below which.
-    pub counted: Option<(f64, usize)>,
+    /// How many eigenvalues are below which ω².
+    pub counted: Option<Counted>,
 }
 
 impl Ready {
@@ -120,7 +121,11 @@ impl Ready {
             let elastic = lowest(&mut system, count - modes.len())?;
             complete = elastic.complete;
             let at_rest = modes.len();
-            counted = elastic.counted.map(|(below, modes)| (below, modes + at_rest));
+            counted = elastic.counted.map(|counted| Counted {
+                modes: counted.modes + at_rest,
+                found: counted.found + at_rest,
+                ..counted
+            });
             modes.extend(elastic.modes);
         }
         let idle = system.idle;
@@ -141,7 +146,7 @@ impl Outcome<'_> {
     /// The highest ω² that was looked at.
     fn top(&self) -> f64 {
         let last = self.modes.last().map_or(0.0, |mode| mode.eigenvalue);
-        self.counted.map_or(last, |(below, _)| below.max(last))
+        self.counted.map_or(last, |counted| counted.below.max(last))
     }
 
     /// Whether the members are fine enough for what was found, where `count` modes are wanted.

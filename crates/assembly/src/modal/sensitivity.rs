@@ -13,9 +13,7 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use hyperstat_elements::{
-    BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, Vibration,
-};
+use hyperstat_elements::{BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, Vibration};
 use hyperstat_model::{BeamMass, Geometry, NodeId, NodeMass};
 use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 
@@ -199,7 +197,9 @@ impl ModalPlan {
             },
         );
         let nodes = (0..ready.divided.nodes().len()).map(NodeId);
-        shape.nodes = nodes.map(|node| outcome.displacement(node, found)).collect();
+        shape.nodes = nodes
+            .map(|node| outcome.displacement(node, found))
+            .collect();
         let curves = outcome.curves(found);
         for (part, segment) in curves.iter().flat_map(|curve| &curve.0).zip(segments) {
             if self.options.mass == BeamMass::Exact {

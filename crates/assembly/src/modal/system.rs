@@ -166,9 +166,8 @@ impl<'a> System<'a> {
     /// it to, and that mass.
     fn each_inner(&self, mut take: impl FnMut(usize, f64, &[usize], &[f64])) {
         for (inner, columns, _) in self.masses.inner(self.elements) {
-            let couplings = inner.couplings.chunks_exact(columns.len());
-            for (k, (square, coupling)) in inner.squares.iter().zip(couplings).enumerate() {
-                take(inner.start + k, *square, columns, coupling);
+            for (k, (square, coupling)) in inner.each(columns.len()).enumerate() {
+                take(inner.start + k, square, columns, coupling);
             }
         }
     }
@@ -220,7 +219,7 @@ impl<'a> System<'a> {
             }
             let nodes = self.plan.unknowns;
             let right_side: Vec<&[f64]> = block.iter().map(|force| &force[..nodes]).collect();
-            let mut moved = self.solve_block(&right_side.concat())?;
+            let mut moved = self.solve_block(block.len(), &right_side.concat())?;
             for (moved, force) in moved.iter_mut().zip(&block) {
                 moved.extend_from_slice(&force[nodes..]);
                 self.each_inner(|own, square, _, _| moved[own] /= square);
@@ -230,8 +229,11 @@ impl<'a> System<'a> {
         Ok(solutions)
     }
 
-    fn solve_block(&mut self, forces: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+    fn solve_block(&mut self, columns: usize, forces: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
         let n = self.plan.unknowns;
+        if n == 0 {
+            return Ok(vec![Vec::new(); columns]);
+        }
         let mut whole = vec![0.0; forces.len()];
         let mut rest = forces.to_vec();
         let mut last = f64::INFINITY;
@@ -314,9 +316,8 @@ impl<'a> System<'a> {
         subtract(&mut values, limit, &self.mass);
         let mut held = 0;
         for (inner, columns, places) in self.masses.inner(self.elements) {
-            let couplings = inner.couplings.chunks_exact(columns.len());
-            for (square, coupling) in inner.squares.iter().zip(couplings) {
-                held += usize::from(*square < limit);
+            for (square, coupling) in inner.each(columns.len()) {
+                held += usize::from(square < limit);
                 let weight = limit * limit / (square - limit);
                 let mut places = places.iter();
                 for (b, mass) in coupling.iter().enumerate() {
