@@ -7,7 +7,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::Counted;
+use super::mode::Counted;
 use super::system::{Mode, System};
 use crate::error::SolveError;
 use crate::plan::blocks::{dot, subtract};

@@ -6,10 +6,10 @@ use nalgebra::{Rotation3, Vector3, Vector6};
 
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
-use crate::modal::Counted;
 use crate::modal::lanczos::lowest;
 use crate::modal::mass::{MassPlan, Masses};
 use crate::modal::member::Members;
+use crate::modal::mode::Counted;
 use crate::modal::shape::{Curve, Part};
 use crate::modal::system::{Mode, System};
 use crate::plan::Plan;

@@ -20,7 +20,9 @@ use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 use super::system::each_deformation;
 use crate::error::SolveError;
 use crate::modal::member::Member;
-use crate::modal::{Found, ModalPlan, Outcome, hertz};
+use crate::modal::plan::{ModalPlan, hertz};
+use crate::modal::ready::Outcome;
+use crate::modal::system::Mode as Found;
 use crate::plan::elements::Source;
 use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 

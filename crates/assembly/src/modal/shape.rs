@@ -1,13 +1,9 @@
-//! A mode between the nodes.
+//! What segments do in a mode, between their nodes.
 
 use std::sync::Arc;
 
-use hyperstat_elements::{element_frame, rotate_vector6};
-use hyperstat_model::{Model, SegmentId};
 use nalgebra::Vector6;
 
-use crate::error::SolveError;
-use crate::modal::Mode;
 use crate::modal::member::Member;
 
 /// What a segment does in a mode, part by part.
@@ -43,34 +39,5 @@ impl Curve {
         let along = xi * self.0.len() as f64;
         let part = (along.floor().max(0.0) as usize).min(self.0.len() - 1);
         self.0[part].at(along - part as f64)
-    }
-}
-
-impl Mode {
-    /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes
-    /// \[m/√kg, rad/√kg\]: the mode's own shape where masses are exact; else between the nodes of its
-    /// elements the beam's own static curve, which are the shapes that the masses are made with
-    /// (cubic for a prismatic beam without shear).
-    ///
-    /// `model` is the one whose mode it is, in its own configuration.
-    ///
-    /// # Errors
-    /// A segment or model that is not the mode's.
-    pub fn segment_displacement(
-        &self,
-        model: &Model,
-        id: SegmentId,
-        xi: f64,
-    ) -> Result<Vector6<f64>, SolveError> {
-        model.check_segment(id)?;
-        if self.displacements.len() != model.nodes().len()
-            || self.curves.len() != model.segments().len()
-        {
-            return Err(SolveError::ForeignModel);
-        }
-        let (segment, geometry) = (&model.segments()[id.0], model.geometry());
-        let [start, end] = segment.ends.map(|node| geometry.positions[node.0]);
-        let frame = element_frame(&(end - start), geometry.y_axes[id.0].as_ref())?;
-        Ok(rotate_vector6(&self.curves[id.0].at(xi), &frame))
     }
 }
