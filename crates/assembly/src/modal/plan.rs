@@ -1,7 +1,7 @@
 //! A mechanism made ready for natural frequencies: what is asked of it.
 
 use hyperstat_elements::rotate_vector6;
-use hyperstat_model::{Geometry, ModalOptions, Model, NodeId, Segment};
+use hyperstat_model::{BeamMass, Geometry, ModalOptions, Model, NodeId, Segment};
 
 use crate::error::SolveError;
 use crate::modal::mode::{Counted, Mode, Modes};
@@ -90,12 +90,17 @@ impl ModalPlan {
     /// Natural frequencies \[Hz\] alone, lowest first.
     ///
     /// # Errors
-    /// As [`ModalPlan::modes`].
+    /// As [`ModalPlan::modes`], which tells of a count that fails in its result: here it is
+    /// [`SolveError::ModesUncounted`], where masses are exact.
     pub fn frequencies(&self, geometry: &Geometry) -> Result<Vec<f64>, SolveError> {
         self.find(geometry, self.options.count, false, |outcome| {
+            if !outcome.complete && self.options.mass == BeamMass::Exact {
+                let found = outcome.modes.len();
+                return Err(SolveError::ModesUncounted { found });
+            }
             let modes = outcome.modes.iter();
-            modes.map(|mode| hertz(mode.eigenvalue)).collect()
-        })
+            Ok(modes.map(|mode| hertz(mode.eigenvalue)).collect())
+        })?
     }
 
     /// A mode at the nodes.
