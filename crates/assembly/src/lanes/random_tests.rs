@@ -4,7 +4,7 @@
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
-    Universal, frame_from_axes,
+    Universal, frame_from_axes, frame_from_axis,
 };
 use hyperstat_model::{
     Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,
@@ -372,7 +372,9 @@ fn add_four_bar(model: &mut Model, random: &mut Random, steel: &Material) -> Opt
     }
     let section = random.section(true);
     let points = [("p34", e), ("p0", top)];
-    model.add_beam("link", &points, steel, &section, None, 1).ok()?;
+    model
+        .add_beam("link", &points, steel, &section, None, 1)
+        .ok()?;
     let frame = frame_from_axis(Some(&axis), None).ok()?;
     let pairs = [
         ([None, Some("crank")], "p30"),
