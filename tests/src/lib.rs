@@ -1,5 +1,6 @@
 //! Shared parts of the tests: reference results, models made from models, measures of agreement.
 
+pub mod acted;
 pub mod agreement;
 pub mod build;
 pub mod extended;

@@ -14,6 +14,7 @@ mod frame3dd_self_weight;
 mod freed;
 mod lanes_agree;
 mod lanes_soft;
+mod lanes_states;
 mod large_mechanisms;
 mod lattices;
 mod logan_gable_frame_p5_30;

@@ -7,14 +7,14 @@ use hyperstat_joints::{
     Universal, frame_from_axes,
 };
 use hyperstat_model::{
-    Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LineLoad, Load,
+    Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,
     LoadCase, LoadSet, Member, Model, NodeId, SegmentId, Tapering,
 };
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{ERROR, displacement, displacement_error};
 use crate::answer::pose_result::PoseResult;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::Lanes;
 use crate::plan::Plan;
 
 /// Mechanisms.

@@ -17,7 +17,7 @@ pub(crate) struct Assembly<'a, S: Simd> {
     pub size: usize,
     /// By variables: what was added to the diagonal, as a measure of its rounding.
     pub errors: &'a mut [S::f64s],
-    /// Twists of the screws, six entries a coordinate.
+    /// Twists of the screws, six entries each.
     pub screws: &'a [S::f64s],
     pub inputs: &'a [S::f64s],
     /// By coordinates: whether it tells an idle motion.
@@ -82,8 +82,8 @@ impl<S: Simd> Assembly<'_, S> {
     }
 
     #[inline(always)]
-    pub fn screw(&self, coordinate: usize) -> (Vec3<S>, Vec3<S>) {
-        let at = &self.screws[6 * coordinate..6 * coordinate + 6];
+    pub fn screw(&self, screw: usize) -> (Vec3<S>, Vec3<S>) {
+        let at = &self.screws[6 * screw..6 * screw + 6];
         (
             three!(k => Lane::new(self.simd, at[k])),
             three!(k => Lane::new(self.simd, at[3 + k])),
@@ -164,16 +164,16 @@ impl<S: Simd> Assembly<'_, S> {
     /// A block of one node with itself.
     #[inline(always)]
     fn add_own(&mut self, block: &[S::f64s], node: &NodeMotion, places: &Places<'_>) {
-        for (b, &coordinate) in node.screws.iter().enumerate() {
-            let (linear, angular) = self.times(block, coordinate, [6, 1]);
+        for (b, own) in node.screws.iter().enumerate() {
+            let (linear, angular) = self.times(block, own.screw, [6, 1]);
             if let Some(root) = places.root {
                 for i in 0..3 {
                     self.add(root[i], places.screws[b], linear[i]);
                     self.add(root[3 + i], places.screws[b], angular[i]);
                 }
             }
-            for (a, &other) in node.screws[..=b].iter().enumerate() {
-                let (v, w) = self.screw(other);
+            for (a, other) in node.screws[..=b].iter().enumerate() {
+                let (v, w) = self.screw(other.screw);
                 let energy = dot(&v, &linear) + dot(&w, &angular);
                 if a == b {
                     self.add_diagonal(places.screws[b], energy);
@@ -193,24 +193,24 @@ impl<S: Simd> Assembly<'_, S> {
         places: [&Places<'_>; 2],
     ) {
         if let Some(root) = places[1].root {
-            for (a, &coordinate) in nodes[0].screws.iter().enumerate() {
-                let (linear, angular) = self.times(block, coordinate, [1, 6]);
+            for (a, own) in nodes[0].screws.iter().enumerate() {
+                let (linear, angular) = self.times(block, own.screw, [1, 6]);
                 for j in 0..3 {
                     self.add_pair(places[0].screws[a], root[j], linear[j]);
                     self.add_pair(places[0].screws[a], root[3 + j], angular[j]);
                 }
             }
         }
-        for (b, &coordinate) in nodes[1].screws.iter().enumerate() {
-            let (linear, angular) = self.times(block, coordinate, [6, 1]);
+        for (b, own) in nodes[1].screws.iter().enumerate() {
+            let (linear, angular) = self.times(block, own.screw, [6, 1]);
             if let Some(root) = places[0].root {
                 for i in 0..3 {
                     self.add_pair(root[i], places[1].screws[b], linear[i]);
                     self.add_pair(root[3 + i], places[1].screws[b], angular[i]);
                 }
             }
-            for (a, &other) in nodes[0].screws.iter().enumerate() {
-                let (v, w) = self.screw(other);
+            for (a, other) in nodes[0].screws.iter().enumerate() {
+                let (v, w) = self.screw(other.screw);
                 let energy = dot(&v, &linear) + dot(&w, &angular);
                 self.add_pair(places[0].screws[a], places[1].screws[b], energy);
             }
@@ -222,10 +222,10 @@ impl<S: Simd> Assembly<'_, S> {
     fn times(
         &self,
         block: &[S::f64s],
-        coordinate: usize,
+        screw: usize,
         [rows, columns]: [usize; 2],
     ) -> (Vec3<S>, Vec3<S>) {
-        let (v, w) = self.screw(coordinate);
+        let (v, w) = self.screw(screw);
         (
             three!(i => product_of_row(self.simd, &block[i * rows..], columns, &v, &w)),
             three!(i => product_of_row(self.simd, &block[(3 + i) * rows..], columns, &v, &w)),
@@ -307,8 +307,8 @@ impl<S: Simd> Assembly<'_, S> {
                 self.add_load_error(row, root[3 + k], dot(&moment, &moment));
             }
         }
-        for (a, &coordinate) in node.screws.iter().enumerate() {
-            let (v, w) = self.screw(coordinate);
+        for (a, own) in node.screws.iter().enumerate() {
+            let (v, w) = self.screw(own.screw);
             let place = places.screws[a];
             self.add(row, place, dot(&v, force) + dot(&w, &moment));
             let by_force = dot(&v, &v) * dot(force, force);

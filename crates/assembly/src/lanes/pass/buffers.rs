@@ -32,6 +32,9 @@ pub(crate) struct Buffers {
     pub wrenches: Numbers,
     /// Compliances of one chain's links.
     pub links: Numbers,
+    /// Conditions of one loop of rigid bodies, and their scales.
+    pub conditions: Numbers,
+    pub scales: Numbers,
     /// Displacements by columns, with their relative errors and squared sizes.
     pub columns: Numbers,
     pub results: Numbers,
@@ -42,11 +45,12 @@ impl Buffers {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
         let fronts = &program.fronts;
         let rows = fronts.rows;
+        let [entries, conditions] = program.loops.room();
         Self {
             width,
             inputs: zeros(3 * program.inputs.len()),
             acts: zeros(6 * program.acts.count),
-            screws: zeros(6 * program.coordinates),
+            screws: zeros(6 * program.loops.screws),
             errors: zeros(program.coordinates + rows),
             local_errors: zeros(fronts.largest),
             load_errors: zeros(rows * program.coordinates),
@@ -58,6 +62,8 @@ impl Buffers {
             blocks: zeros(36 * program.most_blocks),
             wrenches: zeros(7 * program.most_ends),
             links: zeros(TRIANGLE * program.most_links),
+            conditions: zeros(entries),
+            scales: zeros(conditions),
             columns: zeros(8 * program.rows.len()),
             results: zeros(results(program.states.len())),
         }

@@ -154,7 +154,7 @@ impl<S: Simd> Acting<'_, S> {
         for (end, node) in element.nodes.iter().enumerate() {
             for coordinate in node.coordinates() {
                 let place = places[next];
-                let terms = Terms::new(assembly, chain, frame, end, node.root, coordinate);
+                let terms = Terms::new(assembly, chain, frame, end, node, coordinate);
                 let mut sum = terms.of(&ends[end]) + terms.by(doubt, doubt);
                 if assembly.idle[coordinate] {
                     for a in 0..R {

@@ -11,6 +11,7 @@ pub(crate) mod factor;
 pub(crate) mod hang;
 pub(crate) mod lane;
 pub(crate) mod loaded;
+pub(crate) mod loops;
 pub(crate) mod reflections;
 pub(crate) mod transmit;
 
@@ -23,6 +24,7 @@ use super::pass::buffers::Buffers;
 use super::pass::factor::{Matrix, ROUNDING, eliminate};
 use super::pass::hang::{Motion, make_relative};
 use super::pass::lane::{Lane, Vec3, add, cross, scaled};
+use super::pass::loops::close;
 use super::pass::transmit::add_chain;
 use super::program::Program;
 use super::program::element::{Kind, Screw};
@@ -74,6 +76,8 @@ struct Registers<'a, S: Simd> {
     blocks: &'a mut [S::f64s],
     wrenches: &'a mut [S::f64s],
     links: &'a mut [S::f64s],
+    conditions: &'a mut [S::f64s],
+    scales: &'a mut [S::f64s],
     columns: &'a mut [S::f64s],
     results: &'a mut [S::f64s],
 }
@@ -98,6 +102,8 @@ impl WithSimd for Pass<'_> {
             blocks,
             wrenches,
             links,
+            conditions,
+            scales,
             columns,
             results,
             ..
@@ -117,12 +123,18 @@ impl WithSimd for Pass<'_> {
             blocks: S::as_mut_simd_f64s(blocks).0,
             wrenches: S::as_mut_simd_f64s(wrenches).0,
             links: S::as_mut_simd_f64s(links).0,
+            conditions: S::as_mut_simd_f64s(conditions).0,
+            scales: S::as_mut_simd_f64s(scales).0,
             columns: S::as_mut_simd_f64s(columns).0,
             results: S::as_mut_simd_f64s(results).0,
         };
         form(simd, &self.program.acts, registers.inputs, registers.acts);
         for screw in &self.program.screws {
             registers.place_screw(simd, screw);
+        }
+        for own in &self.program.loops.list {
+            let room = (&mut *registers.conditions, &mut *registers.scales);
+            close(simd, own, registers.inputs, registers.screws, room);
         }
         registers.errors.fill(simd.splat_f64s(0.0));
         registers.load_errors.fill(simd.splat_f64s(0.0));

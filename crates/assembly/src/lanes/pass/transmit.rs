@@ -186,13 +186,21 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         );
     }
     let count = places.len() - element.columns.len();
+    // What moves both ends does the work of both.
+    for [from, to] in &element.shared {
+        for a in 0..R {
+            let own = wrenches[from * R + a];
+            wrenches[from * R + a] = zero.value;
+            wrenches[to * R + a] = simd.add_f64s(wrenches[to * R + a], own);
+        }
+    }
     let mut next = 0;
     for (end, node) in nodes.iter().enumerate() {
         for coordinate in node.coordinates() {
             let place = places[next];
             next += 1;
             if assembly.idle[coordinate] {
-                let terms = Terms::new(assembly, chain, frame, end, node.root, coordinate);
+                let terms = Terms::new(assembly, chain, frame, end, node, coordinate);
                 let mut sum = Lane::new(simd, assembly.errors[place]);
                 for a in 0..R {
                     sum = terms.of(&directions[a]).mul_add(stiffness[a], sum);

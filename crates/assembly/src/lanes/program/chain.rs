@@ -262,7 +262,7 @@ impl Chain {
 
 impl Release {
     /// The twist at a point, its translations over `size`.
-    fn twist(
+    pub fn twist(
         &self,
         at: impl Fn(usize) -> Vector3<f64>,
         about: &Vector3<f64>,

@@ -10,10 +10,20 @@ use super::inputs::Point;
 /// component's reference point.
 #[derive(Debug, Clone)]
 pub(crate) struct Screw {
+    /// Its coordinate, and its place among the screws.
     pub coordinate: usize,
+    /// Whether its joint is in a loop of rigid bodies.
+    pub in_loop: bool,
     pub motion: Release,
     /// From the joint to the reference point, where they differ.
     pub arm: Option<[Point; 2]>,
+}
+
+/// A coordinate that moves something, with the place of the screw that it moves it along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Moving {
+    pub coordinate: usize,
+    pub screw: usize,
 }
 
 /// How a node of an element moves.
@@ -22,7 +32,7 @@ pub(crate) struct NodeMotion {
     /// First of the six coordinates of its component's root.
     pub root: Option<usize>,
     /// Coordinates of the joints between root and node.
-    pub screws: Vec<usize>,
+    pub screws: Vec<Moving>,
     /// From the component's reference point to the node, where they differ.
     pub arm: Option<[Point; 2]>,
 }
@@ -35,7 +45,12 @@ impl NodeMotion {
 
     pub fn coordinates(&self) -> impl Iterator<Item = usize> {
         let root = self.root.into_iter().flat_map(|start| start..start + 6);
-        root.chain(self.screws.iter().copied())
+        root.chain(self.screws.iter().map(|moving| moving.coordinate))
+    }
+
+    /// Whether a joint's coordinate moves it.
+    pub fn is_moved_by(&self, coordinate: usize) -> bool {
+        self.screws.iter().any(|s| s.coordinate == coordinate)
     }
 }
 
@@ -48,6 +63,8 @@ pub(crate) struct Element {
     pub shifts: Vec<Shift>,
     /// Columns of what acts on it; filled in once all elements are joined.
     pub columns: Vec<usize>,
+    /// Of a chain whose ends one coordinate moves: its places among the ends' coordinates, two by two.
+    pub shared: Vec<[usize; 2]>,
 }
 
 /// What a node of an element stands off by when no force is on the element, in one of the columns of
@@ -171,8 +188,16 @@ impl Element {
         }
     }
 
-    /// Finds the columns of what acts on it.
-    pub fn find_columns(&mut self) {
+    /// Finds the columns of what acts on it, and coordinates that move two of its nodes.
+    pub fn settle(&mut self) {
+        let all: Vec<usize> = self
+            .nodes
+            .iter()
+            .flat_map(NodeMotion::coordinates)
+            .collect();
+        let first = |k: usize| all.iter().position(|c| *c == all[k]);
+        let shared = (0..all.len()).filter_map(|k| Some([k, first(k).filter(|f| *f < k)?]));
+        self.shared = shared.collect();
         let own = self.shifts.iter().map(|shift| shift.column);
         self.columns = own.collect();
         if let Kind::Chain(chain) = &self.kind {

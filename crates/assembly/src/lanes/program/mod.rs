@@ -18,6 +18,7 @@ pub(crate) mod fronts;
 pub(crate) mod hang;
 pub(crate) mod idle;
 pub(crate) mod inputs;
+pub(crate) mod loops;
 pub(crate) mod parts;
 pub(crate) mod scatter;
 pub(crate) mod series;
@@ -31,10 +32,12 @@ use super::program::fronts::{Fronts, Group, Scatter};
 use super::program::hang::{hang, last_roots};
 use super::program::idle::idle_coordinates;
 use super::program::inputs::Inputs;
+use super::program::loops::Loops;
 use super::program::parts::{Parts, Placed, screws};
 use super::program::series::Series;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
+use crate::plan::trees::Component;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;
@@ -46,6 +49,8 @@ const APART: f64 = 1e-9;
 pub(crate) struct Program {
     pub inputs: Inputs,
     pub screws: Vec<Screw>,
+    /// Loops of rigid bodies.
+    pub loops: Loops,
     pub elements: Vec<Element>,
     /// Constant stiffnesses between two coordinates.
     pub springs: Vec<Spring>,
@@ -71,24 +76,39 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// The program of a plan; `None` where the lanes do not take it: closed loops of rigid bodies
-    /// whose elimination depends on the pose, motions of the output without energy, too many
+    /// The program of a plan; `None` where the lanes do not take it: loops of rigid bodies whose
+    /// elimination is not clear, or with misfits; motions of the output without energy; too many
     /// coordinates.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
         let topology = Topology::new(model, geometry, plan.output, false);
-        let closed = |component: &crate::plan::trees::Component| !component.closings.is_empty();
-        if topology.components.iter().any(closed) || topology.coordinates > MOST_COORDINATES {
+        let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
+        let closed = topology
+            .components
+            .iter()
+            .filter(|c| !c.closings.is_empty());
+        // Misfits in loops of rigid bodies may not fit.
+        let misfit = closed.into_iter().any(|c| {
+            let ties = c.ties.iter().map(|t| t.joint);
+            ties.chain(c.closings.iter().copied())
+                .any(|joint| is_misfit(&joint))
+        });
+        let network = topology.components.iter().any(Component::is_network);
+        if misfit || network || topology.coordinates > MOST_COORDINATES {
             return None;
         }
         let mut inputs = Inputs::new(model, geometry, APART)?;
         let placed = Placed::all(&topology);
+        let size = characteristic_length(geometry);
         let screws = screws(model, &topology, &placed, &mut inputs)?;
+        let seen = (&placed[..], &screws[..]);
+        let loops = Loops::new(model, geometry, &topology, seen, size, &mut inputs)?;
         let mut parts = Parts {
             model,
             geometry,
             topology: &topology,
             placed: &placed,
-            size: characteristic_length(geometry),
+            loops: &loops,
+            size,
             standing: Vec::new(),
             brought: Brought::default(),
             elements: Vec::new(),
@@ -105,7 +125,8 @@ impl Program {
             parts.add_joint(JointId(joint), &mut inputs)?;
         }
         let idle = if plan.has_idle {
-            idle_coordinates(plan, &topology, model, geometry, &placed, &parts.elements)?
+            let seen = (&parts.elements[..], &loops.dependent[..]);
+            idle_coordinates(plan, &topology, model, geometry, &placed, seen)?
         } else {
             Vec::new()
         };
@@ -121,7 +142,9 @@ impl Program {
             loads,
             private: idle.clone(),
             idle,
-            gone: vec![false; topology.coordinates],
+            gone: (0..topology.coordinates)
+                .map(|c| loops.dependent.contains(&c))
+                .collect(),
         };
         let Series {
             mut elements,
@@ -137,10 +160,10 @@ impl Program {
         }
         let screws: Vec<Screw> = screws
             .into_iter()
-            .filter(|screw| !gone[screw.coordinate])
+            .filter(|screw| screw.in_loop || !gone[screw.coordinate])
             .collect();
         for element in &mut elements {
-            element.find_columns();
+            element.settle();
         }
         let of_output =
             |l: &NodeLoad| l.node.root == Some(output.start) && l.node.screws.is_empty();
@@ -199,6 +222,7 @@ impl Program {
             idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
             inputs,
             screws,
+            loops,
             elements,
             springs,
             acts,

@@ -5,8 +5,9 @@ use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 
 use super::chain::{Chain, Link, Release};
 use super::columns::Brought;
-use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Shift, Spring};
+use super::element::{Element, FlexibleElement, Kind, Moving, NodeMotion, Screw, Shift, Spring};
 use super::inputs::{Inputs, Point};
+use super::loops::Loops;
 use crate::plan::subassemblies::Subassembly;
 use crate::plan::topology::Topology;
 
@@ -46,12 +47,21 @@ pub(crate) fn screws(
     inputs: &mut Inputs,
 ) -> Option<Vec<Screw>> {
     let mut screws = Vec::new();
+    let closed = topology
+        .components
+        .iter()
+        .filter(|c| !c.closings.is_empty());
+    let closed: Vec<usize> = closed
+        .flat_map(|c| c.ties.iter().map(|t| t.child))
+        .collect();
+    let looped = |carrier: usize| closed.contains(&carrier);
     for tie in topology.components.iter().flat_map(|c| &c.ties) {
         let reference = placed[tie.child].as_ref()?.reference;
         let moving = topology.joints[tie.joint.0].moving;
         for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
             screws.push(Screw {
                 coordinate,
+                in_loop: looped(tie.child),
                 motion: release(model, tie.joint, dof, tie.child_node, inputs),
                 arm: inputs.arm(tie.child_node, reference),
             });
@@ -81,6 +91,8 @@ pub(crate) struct Parts<'a> {
     pub geometry: &'a Geometry,
     pub topology: &'a Topology,
     pub placed: &'a [Option<Placed>],
+    /// Loops of rigid bodies.
+    pub loops: &'a Loops,
     /// Of the mechanism.
     pub size: f64,
     /// By carriers: what joints' misfits displace them by.
@@ -100,7 +112,17 @@ impl Parts<'_> {
         let moves = !own.is_empty();
         Some(NodeMotion {
             root: placed.root,
-            screws: own[skipped..].to_vec(),
+            screws: match self.loops.of_carrier(carrier) {
+                Some(screws) => screws.to_vec(),
+                None => {
+                    let own = own[skipped..].iter();
+                    own.map(|c| Moving {
+                        coordinate: *c,
+                        screw: *c,
+                    })
+                    .collect()
+                }
+            },
             arm: inputs.arm(placed.reference, node).filter(|_| moves),
         })
     }
@@ -154,6 +176,7 @@ impl Parts<'_> {
                 nodes,
                 shifts,
                 columns: Vec::new(),
+                shared: Vec::new(),
             });
         }
     }
