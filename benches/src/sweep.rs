@@ -35,7 +35,14 @@ impl<'a> Sweep<'a> {
     /// # Panics
     /// Where the job has no model or no plan.
     pub fn new(job: &'a Job) -> Self {
-        let model = job.model().expect("a pose within reach");
+        Self::of(job, job.model().expect("a pose within reach"))
+    }
+
+    /// The same with other loads.
+    ///
+    /// # Panics
+    /// Where the model has no plan.
+    pub fn of(job: &'a Job, model: Model) -> Self {
         let prepared = Prepared::new(model.clone());
         let study = Study::of_job(job.clone(), 0, 0).expect("a pose within reach");
         Self {

@@ -42,8 +42,8 @@ impl Plan {
         model.check_geometry(geometry, self.one_point)?;
         if let Some(engine) = &mut lanes.engine {
             let buffers = &mut engine.buffers;
-            let (inputs, width) = (&mut buffers.inputs, buffers.width);
-            engine.program.inputs.read(geometry, inputs, width, 0);
+            let inputs = (&mut buffers.inputs[..], buffers.width, 0);
+            engine.program.inputs.read(model, geometry, inputs);
             lanes.arch.dispatch(Pass {
                 program: &engine.program,
                 buffers,
