@@ -6,6 +6,7 @@ mod share;
 mod statistics;
 mod summary;
 mod threads;
+mod wide;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
+pub use wide::placing;
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
@@ -182,7 +184,7 @@ impl<'a> Sweep<'a> {
                     number,
                     design: None,
                     ready: Err(Failure::Design(Arc::new(error))),
-                    placing: Placing::default(),
+                    placing: placing(),
                 };
             }
         };
@@ -202,7 +204,7 @@ impl<'a> Sweep<'a> {
             number,
             design: Some(design),
             ready,
-            placing: Placing::default(),
+            placing: placing(),
         }
     }
 }
