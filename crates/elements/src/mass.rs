@@ -73,6 +73,12 @@ impl LineMass {
         self.density * length * (first + middle + last) / 3.0
     }
 
+    /// Mass per length \[kg/m\], which is quadratic along the beam, by its Bernstein coefficients as
+    /// [`BeamLoad::quadratic`] takes them.
+    pub fn distribution(&self) -> [f64; 3] {
+        self.taper.area_controls().map(|area| self.density * area)
+    }
+
     /// The part from `first` to `last` (0 to 1).
     pub fn part(&self, first: f64, last: f64) -> Self {
         Self {
@@ -172,7 +178,7 @@ impl LineMass {
 
     /// Calls `visit` with the places along the beam that integrals are taken at, their weights
     /// \[m\], and the displacement there per displacement of the nodes.
-    fn each_place(
+    pub(crate) fn each_place(
         &self,
         beam: &(impl StraightBeam + ?Sized),
         shape: MassShape,
@@ -195,6 +201,16 @@ impl LineMass {
                 visit(xi, weight * length, &over_nodes(&first, &second));
             });
         });
+    }
+
+    /// The section at `xi` along the beam.
+    pub(crate) fn section_at(&self, xi: f64) -> Section {
+        self.taper.at(xi)
+    }
+
+    /// Mass and moments of inertia per length at `xi` along the beam.
+    pub(crate) fn per_length_at(&self, xi: f64, rotary: RotaryInertia) -> Vector6<f64> {
+        self.per_length(&self.taper.at(xi), rotary)
     }
 
     /// Mass and moments of inertia per length of a section.

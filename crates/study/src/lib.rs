@@ -25,7 +25,7 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, FrameReport,
+    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, CountReport, FrameReport,
     FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
     ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
     SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
@@ -39,8 +39,8 @@ pub use error::{Problem, StudyError};
 #[cfg(feature = "fs")]
 pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
-    Along, Batch, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError, Location,
-    Mechanism, MemoryFiles, PoseError, Registry, Value,
+    Along, Batch, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError, Location,
+    Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
 };
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;

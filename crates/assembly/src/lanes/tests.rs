@@ -258,6 +258,7 @@ impl WithSimd for Eliminate {
             entries: &mut entries,
             size,
             errors: &mut errors,
+            rows: 0,
             load_errors: &mut [],
         };
         eliminate(simd, &mut matrix, self.pivots, 0, &mut panel, &mut rest);

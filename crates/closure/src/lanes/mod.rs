@@ -138,6 +138,21 @@ impl LoopClosure {
         results
     }
 
+    /// The same for one target: to the bit what [`LoopClosure::place_lanes`] finds.
+    ///
+    /// # Errors
+    /// As [`LoopClosure::place_at`]; a geometry of another model.
+    pub fn place(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+        lanes: &mut Lanes,
+    ) -> Result<[f64; 6], ClosureError> {
+        let alone = std::slice::from_mut(geometry);
+        let [placed, ..] = self.place_lanes(&[*target], alone, lanes);
+        placed.unwrap_or_else(|| self.place_one(target, geometry))
+    }
+
     /// Writes what the lanes vouch for.
     fn take(
         &self,

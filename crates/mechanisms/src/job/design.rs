@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use hyperstat_closure::Target;
 use hyperstat_model::{Geometry, LANES, Model};
 
 use super::mover::Placing;
@@ -23,6 +24,18 @@ pub struct Design {
     pub(crate) values: Vec<Value>,
     pub(crate) subject: Arc<Subject>,
     pub(crate) poses: Arc<Poses>,
+}
+
+impl Mechanism {
+    /// The mechanism as the only design of a job in its own configuration.
+    pub fn design(&self) -> Design {
+        Design {
+            number: 0,
+            values: Vec::new(),
+            subject: Arc::new(Subject::of(Box::new(self.clone()))),
+            poses: Arc::new(Poses::Own),
+        }
+    }
 }
 
 impl Design {
@@ -78,6 +91,21 @@ impl Design {
     ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
         self.subject
             .place_lanes(&self.poses, poses, geometries, placing)
+    }
+
+    /// Brings `geometry`, as that of [`Design::place`], to a target that need be no pose of the job; returns
+    /// the output's whole pose. A prebuilt mechanism is asked for all coordinates of the output that it
+    /// takes, and for no others but zeros. `placing` is kept from call to call.
+    ///
+    /// # Errors
+    /// The target cannot be reached, or is not one of this mechanism; `geometry` is then as it was.
+    pub fn bring(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+        placing: &mut Placing,
+    ) -> Result<[f64; 6], PoseError> {
+        self.subject.bring(target, geometry, placing)
     }
 
     /// The mechanism, where it comes from a file; its loads are the job's.

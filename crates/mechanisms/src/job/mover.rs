@@ -68,8 +68,8 @@ impl Mover {
         }
         let goals = asked.each_ref().map(Asked::target);
         let reached = closure.place_lanes(&goals[..count], geometries, &mut placing.lanes);
-        for ((placed, reached), asked) in placed.iter_mut().zip(reached).zip(&asked) {
-            let whole = |pose| asked.whole(pose);
+        for ((placed, reached), target) in placed.iter_mut().zip(reached).zip(&goals) {
+            let whole = |pose| whole(target, pose);
             *placed = reached.map(|reached| reached.map(whole).map_err(PoseError::from));
         }
         placed
@@ -84,9 +84,23 @@ impl Mover {
     ) -> Result<[f64; 6], PoseError> {
         let closure = self.closure.as_ref().map_err(PoseError::clone)?;
         let asked = targets.get(k);
-        let reached = closure.reach(&closure.home(), &asked.target())?;
+        let target = asked.target();
+        let reached = closure.reach(&closure.home(), &target)?;
         closure.write(&reached, geometry)?;
-        Ok(asked.whole(closure.pose(&reached)?))
+        Ok(whole(&target, closure.pose(&reached)?))
+    }
+
+    /// Brings a geometry of the model to a target; returns the output's whole pose. The numbers are those
+    /// of [`Mover::place_lanes`], to the bit.
+    pub(crate) fn bring(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+        placing: &mut Placing,
+    ) -> Result<[f64; 6], PoseError> {
+        let closure = self.closure.as_ref().map_err(PoseError::clone)?;
+        let reached = closure.place(target, geometry, &mut placing.lanes)?;
+        Ok(whole(target, reached))
     }
 }
 
@@ -97,14 +111,14 @@ impl Asked {
             Self::Drives(drives) => Target::Drives(drives),
         }
     }
+}
 
-    /// A pose that was reached, the asked coordinates as they were asked.
-    fn whole(&self, mut pose: [f64; 6]) -> [f64; 6] {
-        if let Self::Output(asked) = self {
-            for (coordinate, asked) in pose.iter_mut().zip(asked) {
-                *coordinate = asked.unwrap_or(*coordinate);
-            }
+/// A pose that was reached, the asked coordinates as they were asked.
+fn whole(target: &Target<'_>, mut pose: [f64; 6]) -> [f64; 6] {
+    if let Target::Output(asked) = target {
+        for (coordinate, asked) in pose.iter_mut().zip(asked) {
+            *coordinate = asked.unwrap_or(*coordinate);
         }
-        pose
     }
+    pose
 }
