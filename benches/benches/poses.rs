@@ -1,6 +1,6 @@
 //! One pose to the output's stiffness and its displacement under load, inverse kinematics
-//! included: eight poses in SIMD lanes, one by one with a sparse factorization, and by the
-//! traditional dense program. Times are of one pose on one core.
+//! included: eight poses in SIMD lanes, a single pose as a program asks for it, one by one with a
+//! sparse factorization, and by the traditional dense program. Times are of one pose on one core.
 
 use std::time::Duration;
 
@@ -22,6 +22,13 @@ fn poses(c: &mut Criterion) {
         });
         group.bench_function("lanes, inverse kinematics alone", |b| {
             b.iter_custom(|poses| sweep.time(poses, Sweep::place_lanes));
+        });
+        group.bench_function("one pose from a program", |b| {
+            b.iter_custom(|poses| {
+                sweep.time(poses, |sweep, first| {
+                    (first..first + LANES).for_each(|pose| sweep.from_program(pose));
+                })
+            });
         });
         group.bench_function("one by one", |b| {
             b.iter_custom(|poses| {

@@ -6,6 +6,8 @@ use std::time::{Duration, Instant};
 use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Prepared, Workspace};
 use hyperstat_mechanisms::Job;
 use hyperstat_reference::{TraditionalForm, TraditionalOptions, traditional};
+use hyperstat_study::sweep::Poser;
+use hyperstat_study::{Study, Target};
 
 /// Springs for what is rigid or free, as good as they get on the delta.
 const SPRINGS: TraditionalOptions = TraditionalOptions {
@@ -24,6 +26,7 @@ pub struct Sweep<'a> {
     geometry: Geometry,
     workspace: Workspace,
     lanes: Lanes,
+    poser: Poser,
 }
 
 impl<'a> Sweep<'a> {
@@ -32,13 +35,22 @@ impl<'a> Sweep<'a> {
     /// # Panics
     /// Where the job has no model or no plan.
     pub fn new(job: &'a Job) -> Self {
-        let model = job.model().expect("a pose within reach");
+        Self::of(job, job.model().expect("a pose within reach"))
+    }
+
+    /// The same with other loads.
+    ///
+    /// # Panics
+    /// Where the model has no plan.
+    pub fn of(job: &'a Job, model: Model) -> Self {
         let prepared = Prepared::new(model.clone());
+        let study = Study::of_job(job.clone(), 0, 0).expect("a pose within reach");
         Self {
             job,
             geometry: model.geometry().clone(),
             workspace: prepared.workspace().expect("a plan"),
             lanes: prepared.lanes().expect("a plan"),
+            poser: study.poser().expect("a plan"),
             model,
             prepared,
         }
@@ -96,6 +108,15 @@ impl<'a> Sweep<'a> {
         for result in results {
             black_box(result.expect("a filled lane").expect("a result"));
         }
+    }
+
+    /// One pose by `Poser::at`, as a program asks for it that has no other to go with it.
+    ///
+    /// # Panics
+    /// Where the pose has no result.
+    pub fn from_program(&mut self, pose: usize) {
+        let found = self.poser.at(&Target::Output(self.job.target(pose)));
+        black_box(found.result.expect("a result"));
     }
 
     /// One pose by `Prepared::sweep`, faer's sparse Cholesky in it.

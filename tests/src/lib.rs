@@ -1,10 +1,12 @@
 //! Shared parts of the tests: reference results, models made from models, measures of agreement.
 
+pub mod acted;
 pub mod agreement;
 pub mod build;
 pub mod extended;
 pub mod gripper;
 pub mod lattice;
+pub mod networks;
 pub mod prebuilt;
 pub mod random;
 pub mod runner;

@@ -12,7 +12,6 @@ use crate::kinematics::motion::Motion;
 use crate::kinematics::redundancy::Redundancy;
 use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
-use crate::pose::recover::check_recovery;
 use crate::pose::restraint::Restraint;
 use crate::posture::{Beams, Posture};
 use crate::response::influence::Influence;
@@ -28,7 +27,7 @@ pub(crate) struct Kept {
     size: OnceLock<f64>,
     beams: Beams,
     diagnosis: Diagnosis,
-    restraint: OnceLock<Restraint>,
+    restraint: OnceLock<Result<Restraint, SolveError>>,
     factored: Mutex<Option<Box<Factored>>>,
 }
 
@@ -212,7 +211,8 @@ impl<'a> Configuration<'a> {
     fn restraint(&self, plan: &Plan) -> Result<&Restraint, SolveError> {
         let kinematics = self.kinematics()?;
         let found = || Restraint::new(&self.posture(), kinematics, plan.output);
-        Ok(self.found().restraint.get_or_init(found))
+        let found = self.found().restraint.get_or_init(found);
+        found.as_ref().map_err(Clone::clone)
     }
 
     fn solve_all(
@@ -232,7 +232,6 @@ impl<'a> Configuration<'a> {
         plan: &Plan,
         ask: impl FnOnce(Free<'_>, &mut Option<Box<Factored>>) -> Result<T, SolveError>,
     ) -> Result<T, SolveError> {
-        check_recovery(plan, self.model)?;
         let free = Free {
             diagnosis: &self.found().diagnosis,
             kinematics: self.kinematics()?,

@@ -37,13 +37,15 @@ pub use configuration::Configuration;
 pub use error::SolveError;
 pub use hyperstat_model::{
     Axes, BeamMass, Body, BodyId, BodyKind, Connection, Doubt, Flexible, FlexibleId, Geometry,
-    JointId, JointStiffness, LineLoad, Load, LoadCase, LoadSet, Member, Misfit, ModalOptions,
-    Model, ModelError, Node, NodeId, NodeMass, Segment, SegmentId, Tapering, ValuePlace,
+    JointId, JointStiffness, LANES, LineLoad, Load, LoadCase, LoadSet, Member, Misfit,
+    ModalOptions, Model, ModelError, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
+    ValuePlace,
 };
 pub use kinematics::Kinematics;
 pub use kinematics::motion::{Motion, describe_motions};
 pub use kinematics::redundancy::Redundancy;
-pub use lanes::{LANES, Lanes};
+pub use lanes::Lanes;
+pub use lanes::single::Single;
 pub use modal::{Counted, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
 pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};

@@ -68,6 +68,24 @@ impl<'a> Posture<'a> {
         }
     }
 
+    /// Mean length of the arms from the bodies' first nodes to their joints (m), which keeps the
+    /// conditions of a small part of a large mechanism far from zero; the mechanism's size where
+    /// there are none.
+    pub fn arm_length(&self) -> f64 {
+        let Posture {
+            model, geometry, ..
+        } = *self;
+        let nodes = model.joints().iter().flat_map(|joint| joint.between);
+        let arms = nodes.flatten().map(|node| {
+            let origin = model.bodies()[model.nodes()[node.0].body.0].nodes[0];
+            (geometry.positions[node.0] - geometry.positions[origin.0]).norm()
+        });
+        let (sum, count) = arms
+            .filter(|arm| *arm > 0.0)
+            .fold((0.0, 0.0), |(sum, count), arm| (sum + arm, count + 1.0));
+        if sum > 0.0 { sum / count } else { self.size }
+    }
+
     /// The beam of a segment.
     pub fn beam(&self, id: SegmentId) -> Result<Cow<'a, PlacedBeam>, ElementError> {
         let Some(beams) = self.beams else {

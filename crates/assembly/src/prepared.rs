@@ -1,6 +1,6 @@
 //! A mechanism made ready, and the shortest ways through.
 
-use hyperstat_model::{Geometry, ModalOptions, Model};
+use hyperstat_model::{Geometry, LANES, ModalOptions, Model};
 
 use crate::answer::pose_result::PoseResult;
 use crate::answer::solution::Solution;
@@ -8,7 +8,8 @@ use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
 use crate::kinematics::redundancy::Redundancy;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::Lanes;
+use crate::lanes::single::Single;
 use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
@@ -187,6 +188,25 @@ impl Prepared {
             Ok(plan) => plan.sweep_lanes(&self.model, lanes, filled),
             Err(error) => filled.map(|filled| filled.then(|| Err(error.clone()))),
         }
+    }
+
+    /// A pose and buffers for one thread whose poses come one at a time, as those of a program do that
+    /// moves the mechanism; the pose is in the model's configuration.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn single(&self) -> Result<Single, SolveError> {
+        Ok(self.plan()?.single(&self.model))
+    }
+
+    /// Output stiffness and displacement at the pose that [`Single::geometry_mut`] was brought to: what
+    /// [`Prepared::sweep_lanes`] finds there, to the last bit. `single` is of this mechanism. Nothing is
+    /// allocated where the lanes take the mechanism and vouch for the pose.
+    ///
+    /// # Errors
+    /// As [`Prepared::sweep`].
+    pub fn sweep_single(&self, single: &mut Single) -> Result<PoseResult, SolveError> {
+        self.plan()?.sweep_single(&self.model, single)
     }
 
     /// The mechanism made ready for natural frequencies.

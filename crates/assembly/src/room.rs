@@ -5,9 +5,6 @@ use crate::error::SolveError;
 
 /// Numbers of one kind of buffer at the most: 1 GiB.
 pub(crate) const MOST_NUMBERS: usize = 1 << 27;
-/// Numbers of a matrix that is eliminated with complete pivoting at the most (5792 × 5792). It takes
-/// some copies and, where it fills, minutes.
-pub(crate) const MOST_ELIMINATED: usize = 1 << 25;
 /// Numbers of a sparse factor at the most: 8 GiB.
 pub(crate) const MOST_FACTORED: usize = 1 << 30;
 

@@ -73,6 +73,12 @@ impl LineMass {
         self.density * length * (first + middle + last) / 3.0
     }
 
+    /// Mass per length \[kg/m\], which is quadratic along the beam, by its Bernstein coefficients as
+    /// [`BeamLoad::quadratic`] takes them.
+    pub fn distribution(&self) -> [f64; 3] {
+        self.taper.area_controls().map(|area| self.density * area)
+    }
+
     /// The part from `first` to `last` (0 to 1).
     pub fn part(&self, first: f64, last: f64) -> Self {
         Self {

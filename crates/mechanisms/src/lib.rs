@@ -29,6 +29,7 @@ pub use job::commanded::Commanded;
 pub use job::design::Design;
 pub use job::figures::{Along, ColorScale, Figure, Scale};
 pub use job::made::{JobLoad, JobMechanism, JobPoses};
+pub use job::mover::Placing;
 pub use job::vary::Varied;
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,

@@ -25,7 +25,7 @@ pub use orientation::{body_frame, turn};
 pub use parts::ValuePlace;
 pub use parts::{
     Body, BodyId, BodyKind, Connection, Flexible, FlexibleId, Geometry, JointId, JointStiffness,
-    Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
+    LANES, Member, Misfit, Node, NodeId, NodeMass, Segment, SegmentId, Tapering,
 };
 pub use revision::fresh_revision;
 pub use segment_beam::{SegmentBeam, segment_beam, unit_beam};

@@ -217,6 +217,9 @@ pub struct NodeMass {
     pub mass: RigidMass,
 }
 
+/// Poses that go side by side, from a pose's place to its result.
+pub const LANES: usize = 8;
+
 /// What a pose changes: positions, section directions and joint frames, in global axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {

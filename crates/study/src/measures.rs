@@ -61,7 +61,8 @@ impl Pose {
         }
     }
 
-    fn compliance(&self) -> Option<&Matrix6<f64>> {
+    /// The inverse of the stiffness.
+    pub(crate) fn compliance(&self) -> Option<&Matrix6<f64>> {
         let invert = || {
             let stiffness = &self.stiffness;
             let scale = stiffness.diagonal().map(f64::sqrt);

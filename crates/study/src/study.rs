@@ -303,6 +303,14 @@ impl Study {
         self.here().idle_motions().ok()
     }
 
+    /// The design of a job that it is a pose of, or the mechanism as one.
+    pub(crate) fn as_design(&self) -> Design {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => mechanism.design(),
+            Origin::Job { design, .. } => design.clone(),
+        }
+    }
+
     /// The natural frequencies that its job asks for.
     pub(crate) fn modes_of_job(&self) -> Option<&ModalOptions> {
         match &self.origin {

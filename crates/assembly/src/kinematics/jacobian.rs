@@ -80,7 +80,7 @@ impl Jacobian {
         let Posture {
             model, geometry, ..
         } = *at;
-        let size = if large { arm_length(at) } else { at.size };
+        let size = if large { at.arm_length() } else { at.size };
         let mut rows = Vec::new();
         let mut directions = Vec::new();
         for (k, joint) in model.joints().iter().enumerate() {
@@ -263,24 +263,6 @@ impl Jacobian {
 /// Whether a mechanism has too many conditions for complete pivoting.
 fn is_large(model: &Model) -> bool {
     model.bodies().len().max(model.joints().len()) > SMALL
-}
-
-/// Mean length of the arms from the bodies' first nodes to their joints (m), which keeps the
-/// conditions of a small part of a large mechanism far from zero; the mechanism's size where
-/// there are none.
-fn arm_length(at: &Posture<'_>) -> f64 {
-    let Posture {
-        model, geometry, ..
-    } = *at;
-    let nodes = model.joints().iter().flat_map(|joint| joint.between);
-    let arms = nodes.flatten().map(|node| {
-        let origin = model.bodies()[model.nodes()[node.0].body.0].nodes[0];
-        (geometry.positions[node.0] - geometry.positions[origin.0]).norm()
-    });
-    let (sum, count) = arms
-        .filter(|arm| *arm > 0.0)
-        .fold((0.0, 0.0), |(sum, count), arm| (sum + arm, count + 1.0));
-    if sum > 0.0 { sum / count } else { at.size }
 }
 
 fn entries(vector: &DVector<f64>) -> SparseVector {

@@ -15,9 +15,10 @@ mod pass;
 mod program;
 #[cfg(test)]
 mod random_tests;
+pub(crate) mod single;
 #[cfg(test)]
 mod tests;
-use hyperstat_model::{Geometry, Model, characteristic_length};
+use hyperstat_model::{Geometry, LANES, Model, characteristic_length};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -25,14 +26,11 @@ use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
-use crate::lanes::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, Pass};
+use crate::lanes::pass::{Pass, displacement as place_of_displacement, displacement_error};
 use crate::lanes::program::Program;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;
-
-/// Poses that are handed to [`Prepared::sweep_lanes`](crate::Prepared::sweep_lanes) together.
-pub const LANES: usize = 8;
 
 /// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
 /// promised: of 160 000 poses of random mechanisms the largest error below this was 7e-12.
@@ -44,7 +42,7 @@ pub struct Lanes {
     /// The plan and the model that they were made for.
     plan: u64,
     model: [u64; 2],
-    geometries: Vec<Geometry>,
+    geometries: [Geometry; LANES],
     workspace: Workspace,
     arch: Arch,
     engine: Option<Engine>,
@@ -84,12 +82,12 @@ impl Plan {
 
     fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let taken =
-            model.has_plain_loads() && model.misfits().is_empty() && model.cases().is_empty();
-        let program = taken.then(|| Program::new(self, model, model.geometry()));
-        let engine = program.flatten().map(|mut program| {
+        let program = Program::new(self, model, model.geometry());
+        let engine = program.map(|mut program| {
             let mut inputs = vec![0.0; 3 * program.inputs.len()];
-            program.inputs.read(model.geometry(), &mut inputs, 1, 0);
+            program
+                .inputs
+                .read(model, model.geometry(), (&mut inputs, 1, 0));
             order_chains(&mut program, &inputs);
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
@@ -101,7 +99,7 @@ impl Plan {
         Lanes {
             plan: self.id,
             model: model.revisions(),
-            geometries: vec![model.geometry().clone(); LANES],
+            geometries: std::array::from_fn(|_| model.geometry().clone()),
             workspace: self.workspace(),
             arch,
             engine,
@@ -149,8 +147,8 @@ impl Plan {
                     if !taken[pose] && model.check_size(geometry).is_err() {
                         continue;
                     }
-                    let inputs = &mut engine.buffers.inputs;
-                    engine.program.inputs.read(geometry, inputs, width, lane);
+                    let inputs = (&mut engine.buffers.inputs[..], width, lane);
+                    engine.program.inputs.read(model, geometry, inputs);
                 }
                 lanes.arch.dispatch(Pass {
                     program: &engine.program,
@@ -182,6 +180,11 @@ impl Lanes {
     /// If `pose` is not below [`LANES`].
     pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
         &mut self.geometries[pose]
+    }
+
+    /// The configurations of all poses, to be changed.
+    pub fn geometries_mut(&mut self) -> &mut [Geometry; LANES] {
+        &mut self.geometries
     }
 
     /// Whether the mechanism goes through the lanes at all.
@@ -216,16 +219,29 @@ impl Engine {
                 next += 1;
             }
         }
-        let displacement = Vector6::from_fn(|k, _| at(DISPLACEMENT + k));
-        let numbers = stiffness.iter().chain(displacement.iter());
-        let sound = numbers.clone().all(|v| v.is_finite())
+        let mut cases = Vec::new();
+        let mut displacement = None;
+        for state in 0..self.program.states.len() {
+            let found = Vector6::from_fn(|k, _| at(place_of_displacement(state) + k));
+            let sound = found.iter().all(|v| v.is_finite());
+            if !sound
+                || at(displacement_error(state)).is_nan()
+                || at(displacement_error(state)) > TRUSTED
+            {
+                return None;
+            }
+            match displacement {
+                None => displacement = Some(found),
+                Some(_) => cases.push(found),
+            }
+        }
+        let sound = stiffness.iter().all(|v| v.is_finite())
             && stiffness.diagonal().iter().all(|k| *k > 0.0)
-            && at(DISPLACEMENT_ERROR) <= TRUSTED
             && !is_nearly_free(&stiffness, size);
         sound.then_some(PoseResult {
             stiffness: Some(stiffness),
-            displacement: Some(displacement),
-            cases: Vec::new(),
+            displacement,
+            cases,
         })
     }
 }

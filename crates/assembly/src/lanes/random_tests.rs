@@ -1,17 +1,20 @@
 //! The lanes against the one-by-one path, wherever their estimate lets them answer, on random
 //! mechanisms: a platform on limbs of beams, with joints of every kind, elastic, locked or free.
 
-use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
+use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{
-    Cylindrical, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical, Universal,
-    frame_from_axes,
+    Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
+    Universal, frame_from_axes,
 };
-use hyperstat_model::{Connection, Geometry, JointStiffness, Member, Model, Tapering};
-use nalgebra::{Matrix6, Point3, Rotation3, Vector3, Vector6};
+use hyperstat_model::{
+    Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,
+    LoadCase, LoadSet, Member, Model, NodeId, SegmentId, Tapering,
+};
+use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
-use super::pass::{DISPLACEMENT, DISPLACEMENT_ERROR, ERROR};
+use super::pass::{ERROR, displacement, displacement_error};
 use crate::answer::pose_result::PoseResult;
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::Lanes;
 use crate::plan::Plan;
 
 /// Mechanisms.
@@ -117,7 +120,8 @@ fn join(model: &mut Model, random: &mut Random, between: [&str; 2], point: &str)
 /// A platform on two to four limbs of up to three beams each; points are numbered.
 fn mechanism(random: &mut Random) -> Option<Model> {
     let mut model = Model::new("random");
-    let steel = Material::new(2e11, Elasticity::Poisson(0.3), None).ok()?;
+    let steel = Material::new(2e11, Elasticity::Poisson(0.3), Some(7.8e3)).ok()?;
+    let steel = steel.with_expansion(1.2e-5).ok()?;
     let limbs = 2 + random.below(3);
     let names: Vec<String> = (0..40).map(|k| format!("p{k}")).collect();
     let above = Point3::new(0.0, 0.0, 0.8);
@@ -163,10 +167,10 @@ fn mechanism(random: &mut Random) -> Option<Model> {
         join(&mut model, random, [&before, "ground"], at.0)?;
     }
     let nodes = model.nodes().len();
-    model.set_output(hyperstat_model::NodeId(0));
+    model.set_output(NodeId(0));
     for _ in 0..1 + random.below(2) {
         let (force, moment) = (random.vector(100.0), random.vector(10.0));
-        let node = hyperstat_model::NodeId(random.below(nodes));
+        let node = NodeId(random.below(nodes));
         let wrench = Vector6::from_fn(|k, _| if k < 3 { force[k] } else { moment[k - 3] });
         model.add_load(node, wrench).ok()?;
     }
@@ -216,8 +220,8 @@ fn errors(stiffness: &Matrix6<f64>, displacement: &Vector6<f64>, one: &PoseResul
 fn estimates(lanes: &Lanes, lane: usize) -> [f64; 2] {
     let engine = lanes.engine.as_ref().expect("lanes");
     let at = |k: usize| engine.buffers.result(k, lane);
-    assert!(at(DISPLACEMENT).is_finite());
-    [at(ERROR), at(DISPLACEMENT_ERROR)]
+    assert!(at(displacement(0)).is_finite());
+    [at(ERROR), at(displacement_error(0))]
 }
 
 #[test]
@@ -289,4 +293,208 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
         answered > CASES,
         "only {answered} of {poses} poses answered"
     );
+}
+
+/// Six numbers of either sign, of these sizes.
+fn six(random: &mut Random, linear: f64, angular: f64) -> Vector6<f64> {
+    let (a, b) = (random.vector(linear), random.vector(angular));
+    Vector6::from_fn(|k, _| if k < 3 { a[k] } else { b[k - 3] })
+}
+
+/// Axes of a load: global ones, or some body's.
+fn axes(random: &mut Random, model: &Model) -> Axes {
+    let body = BodyId(random.below(model.bodies().len()));
+    match model.body_frame(body) {
+        Some(_) if random.unit() < 0.5 => Axes::Body {
+            body,
+            home: random.turn(2.0),
+        },
+        _ => Axes::Global,
+    }
+}
+
+fn loads(random: &mut Random, model: &Model) -> LoadSet {
+    let mut set = LoadSet::default();
+    for _ in 0..random.below(3) {
+        set.nodes.push(Load {
+            node: NodeId(random.below(model.nodes().len())),
+            wrench: six(random, 100.0, 10.0),
+            axes: axes(random, model),
+        });
+    }
+    for _ in 0..random.below(3) {
+        set.lines.push(LineLoad {
+            segment: SegmentId(random.below(model.segments().len())),
+            ends: [six(random, 200.0, 20.0), six(random, 200.0, 20.0)],
+            axes: axes(random, model),
+        });
+    }
+    set
+}
+
+/// A body of finite elements between some points, by a random stiffness.
+fn flexible(random: &mut Random, points: &[Point3<f64>]) -> DMatrix<f64> {
+    let rows = 6 * (points.len() - 1);
+    let own = |k: usize| if k % 6 < 3 { 1e3 } else { 1e2 };
+    let half = DMatrix::from_fn(rows, rows, |i, j| {
+        let diagonal = if i == j { 2.0 } else { 0.0 };
+        own(i) * (diagonal + random.between(-0.3, 0.3))
+    });
+    let held = &half * half.transpose();
+    let mut deformation = DMatrix::zeros(rows, rows + 6);
+    for (k, point) in points[1..].iter().enumerate() {
+        let arm = point - points[0];
+        let carry = hyperstat_elements::transport(&arm);
+        deformation.view_mut((6 * k, 0), (6, 6)).copy_from(&-carry);
+        deformation
+            .view_mut((6 * k, 6 * k + 6), (6, 6))
+            .fill_diagonal(1.0);
+    }
+    deformation.transpose() * held * deformation
+}
+
+/// A random mechanism with all that can act on it.
+fn acted_on(random: &mut Random) -> Option<Model> {
+    let mut model = mechanism(random)?;
+    if random.unit() < 0.3 {
+        // Two feet of a body of finite elements, between the ground and the platform.
+        let points = [0.0, 0.4].map(|x| Point3::new(x, 0.0, 0.5) + random.vector(0.2));
+        let points: Vec<_> = [("q0", Point3::from(model.geometry().positions[0].coords))]
+            .into_iter()
+            .chain(["q1", "q2"].into_iter().zip(points))
+            .collect();
+        let places: Vec<_> = points.iter().map(|(_, at)| *at).collect();
+        let stiffness = flexible(random, &places);
+        model.add_flexible("flexible", &points, &stiffness).ok()?;
+        let between = [Some(NodeId(0)), model.node("flexible", "q0")];
+        let ends = [
+            [model.node("flexible", "q1"), None],
+            [None, model.node("flexible", "q2")],
+        ];
+        for between in std::iter::once(between).chain(ends) {
+            let (joint, locked, stiffness) = random.joint();
+            let frame = frame_from_axes(&random.vector(1.0), &random.vector(1.0)).ok()?;
+            let name = format!("j{}", model.joints().len());
+            let connection = Connection {
+                name,
+                between,
+                joint,
+                locked,
+                stiffness,
+            };
+            model.add_joint(connection, frame).ok()?;
+        }
+    }
+    if random.unit() < 0.5 {
+        model.set_gravity(random.vector(10.0)).ok()?;
+        let mass = RigidMass::point(random.between(0.1, 3.0)).ok()?;
+        model.add_mass(NodeId(random.below(model.nodes().len())), mass);
+    }
+    for body in 0..model.bodies().len() {
+        if random.unit() < 0.2 {
+            let change = random.between(-30.0, 30.0);
+            // Only bodies of beams have one.
+            let _ = model.set_temperature(BodyId(body), change);
+        }
+    }
+    if random.unit() < 0.7 {
+        for joint in 0..model.joints().len() {
+            let directions = Directions::of(&model.joints()[joint]);
+            let mut misfit = six(random, 1e-4, 1e-3);
+            let mut preload = six(random, 100.0, 10.0);
+            for k in 0..6 {
+                let own = Dof::ALL[k];
+                if directions.free.contains(own) {
+                    misfit[k] = 0.0;
+                }
+                if directions.rigid.contains(own) || random.unit() < 0.5 {
+                    preload[k] = 0.0;
+                }
+            }
+            if random.unit() < 0.4 {
+                model.set_misfit(JointId(joint), &misfit).ok()?;
+            }
+            if random.unit() < 0.3 {
+                model.set_preload(JointId(joint), &preload).ok()?;
+            }
+        }
+    }
+    if random.unit() < 0.5 {
+        let set = loads(random, &model);
+        model.set_loads(set).ok()?;
+    }
+    for case in 0..random.below(4) {
+        let name = format!("case {case}");
+        let loads = loads(random, &model);
+        model.add_case(LoadCase { name, loads }).ok()?;
+    }
+    Some(model)
+}
+
+#[test]
+fn wherever_the_lanes_answer_all_that_acts_agrees() {
+    let cases = std::env::var("HYPERSTAT_RANDOM").ok();
+    let cases = cases.and_then(|count| count.parse().ok()).unwrap_or(CASES);
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let (mut taken, mut poses, mut handed_on, mut states) = (0, 0, 0, 0);
+    let (mut largest, mut wrong) = (0.0_f64, Vec::new());
+    for case in 0..cases {
+        let Some(model) = acted_on(&mut random) else {
+            continue;
+        };
+        let Ok(plan) = Plan::new(&model) else {
+            continue;
+        };
+        let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+        if lanes.engine.is_none() {
+            continue;
+        }
+        taken += 1;
+        let chosen: Vec<_> = (0..LANES).map(|k| pose(&model, &mut random, k)).collect();
+        for (lane, pose) in chosen.iter().enumerate() {
+            lanes.geometry_mut(lane).clone_from(pose);
+        }
+        let before = lanes.one_by_one();
+        let results = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+        poses += LANES;
+        handed_on += (lanes.one_by_one() - before) as usize;
+        for (lane, pose) in chosen.iter().enumerate() {
+            let one = plan.sweep(&model, pose, &mut workspace);
+            match (&results[lane], &one) {
+                (Some(Ok(found)), Ok(one)) => {
+                    let (Some(k), Some(u)) = (found.stiffness, found.displacement) else {
+                        continue;
+                    };
+                    let both = std::iter::once((u, one.displacement));
+                    let others = found
+                        .cases
+                        .iter()
+                        .copied()
+                        .zip(one.cases.iter().copied().map(Some));
+                    assert_eq!(found.cases.len(), model.cases().len());
+                    for (state, (u, expected)) in both.chain(others).enumerate() {
+                        let own = PoseResult {
+                            displacement: expected,
+                            ..one.clone()
+                        };
+                        let [_, error] = errors(&k, &u, &own);
+                        states += 1;
+                        largest = largest.max(error);
+                        if error.is_nan() || error > AGREEMENT {
+                            wrong.push(format!("{case}, {lane}, state {state}: {error:e}"));
+                        }
+                    }
+                }
+                (Some(Err(_)), Err(_)) => {}
+                (_, Err(error)) => wrong.push(format!("{case}, {lane}: no result: {error}")),
+                _ => wrong.push(format!("{case}, {lane}: a result only one by one")),
+            }
+        }
+    }
+    println!(
+        "{taken} mechanisms, {poses} poses, {states} states, {handed_on} handed on, error {largest:e}"
+    );
+    assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
+    assert!(taken > cases / 3, "only {taken} mechanisms");
+    assert!(poses > 2 * handed_on, "{handed_on} of {poses} handed on");
 }

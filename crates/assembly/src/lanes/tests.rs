@@ -3,13 +3,12 @@
 
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, DofSet, Fixed, Revolute, Spherical, frame_from_axis};
-use hyperstat_model::{Connection, Geometry, JointStiffness, Model};
+use hyperstat_model::{Connection, Geometry, JointStiffness, LANES, Model};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use super::pass::factor::{Matrix, eliminate};
 use crate::answer::pose_result::PoseResult;
-use crate::lanes::LANES;
 use crate::plan::Plan;
 
 /// Two legs of flat bars, hinged to a platform, on elastic feet.
@@ -259,6 +258,7 @@ impl WithSimd for Eliminate {
             entries: &mut entries,
             size,
             errors: &mut errors,
+            rows: 0,
             load_errors: &mut [],
         };
         eliminate(simd, &mut matrix, self.pivots, 0, &mut panel, &mut rest);

@@ -5,14 +5,12 @@
 //! the topology, which global component each coordinate is may change from pose to pose.
 
 use hyperstat_joints::{Dof, JointError};
-use hyperstat_model::{NodeId, condition_rows};
-use nalgebra::{DMatrix, Matrix6};
+use hyperstat_model::NodeId;
+use nalgebra::Matrix6;
 
 use super::blocks::{read, shift, write};
 use super::topology::Topology;
-use super::trees::Component;
 use crate::posture::Posture;
-use crate::rank::dense::Elimination;
 
 /// Blocks over the tree coordinates, before loops are closed.
 #[derive(Debug, Clone)]
@@ -46,7 +44,7 @@ impl TreeBlocks {
             model, geometry, ..
         } = *at;
         for component in &topology.components {
-            if let Some(root) = component.root {
+            for &root in component.root.iter().chain(&component.network) {
                 let carrier = &topology.carriers[root];
                 let start = self.starts[root];
                 self.values[start..start + 36].copy_from_slice(Matrix6::identity().as_slice());
@@ -80,78 +78,5 @@ impl TreeBlocks {
             }
         }
         Ok(())
-    }
-
-    /// Solves the closing joints of a component; columns are its coordinates.
-    pub fn close(
-        &self,
-        component: &Component,
-        topology: &Topology,
-        at: &Posture<'_>,
-        spared: usize,
-    ) -> Elimination {
-        let conditions = self.closing_conditions(component, topology, at);
-        let size = at.size;
-        let first = component.coordinates.start;
-        let scale = |coordinate| self.scale(coordinate, size);
-        let mut solved = Elimination::new(conditions, spared);
-        let count = component.coordinates.len();
-        for (c, k) in (0..count).flat_map(|c| (0..solved.independent.len()).map(move |k| (c, k))) {
-            solved.map[(c, k)] *= scale(first + c) / scale(first + solved.independent[k]);
-        }
-        solved
-    }
-
-    /// The length that a tree coordinate is divided by in conditions: `size` for a translation.
-    pub fn scale(&self, coordinate: usize, size: f64) -> f64 {
-        if self.identities[coordinate].1.index() < 3 {
-            size
-        } else {
-            1.0
-        }
-    }
-
-    /// The conditions that a component's closing joints put on its scaled coordinates, a row a
-    /// rigid or absorbed direction.
-    pub fn closing_conditions(
-        &self,
-        component: &Component,
-        topology: &Topology,
-        at: &Posture<'_>,
-    ) -> DMatrix<f64> {
-        let Posture {
-            model,
-            geometry,
-            size,
-            ..
-        } = *at;
-        let first = component.coordinates.start;
-        let count = component.coordinates.len();
-        let (mut rows, mut height) = (Vec::new(), 0);
-        for joint in &component.closings {
-            let entry = &model.joints()[joint.0];
-            let local = at.direction_map(*joint);
-            let rigid = topology.joints[joint.0].moving.complement();
-            for condition in condition_rows(&local, rigid, size) {
-                let mut row = vec![0.0; count];
-                for (node, sign) in entry.between.iter().zip([1.0, -1.0]) {
-                    let Some(node) = node else { continue };
-                    let carrier = topology.carrier_of[node.0];
-                    let entry = &topology.carriers[carrier];
-                    let shift = shift(geometry, entry.reference, *node);
-                    for (k, &coordinate) in entry.coordinates.iter().enumerate() {
-                        let mut u = shift * read(&self.values, self.starts[carrier] + 6 * k);
-                        for t in 0..3 {
-                            u[t] /= size;
-                        }
-                        row[coordinate - first] +=
-                            sign * (condition * u)[0] * self.scale(coordinate, size);
-                    }
-                }
-                rows.extend(row);
-                height += 1;
-            }
-        }
-        DMatrix::from_row_slice(height, count, &rows)
     }
 }

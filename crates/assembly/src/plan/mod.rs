@@ -2,8 +2,8 @@
 //! symbolic factorization; and the buffers that one thread needs for a pose.
 
 pub(crate) mod blocks;
+pub(crate) mod closing;
 pub(crate) mod coordinates;
-pub(crate) mod dissection;
 pub(crate) mod elements;
 pub(crate) mod fault;
 pub(crate) mod roles;
@@ -16,18 +16,18 @@ pub(crate) mod workspace;
 use std::sync::Arc;
 
 use hyperstat_joints::DofSet;
-use hyperstat_model::{BodyId, Directions, JointId, Model, NodeId, fresh_revision};
+use hyperstat_model::{BodyId, Directions, Model, NodeId, fresh_revision};
 
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
+use crate::plan::closing::{Closing, Conditions, NETWORK, Order};
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::elements::{ElementPlan, elements, places};
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
 use crate::posture::Posture;
-use crate::rank::dense::Elimination;
 use crate::room;
-use crate::room::{MOST_ELIMINATED, MOST_NUMBERS};
+use crate::room::MOST_NUMBERS;
 
 /// A topology made ready: one plan serves every pose of a mechanism.
 #[derive(Debug)]
@@ -65,11 +65,24 @@ pub(crate) struct Plan {
 #[derive(Debug)]
 pub(crate) struct Closed {
     pub component: usize,
-    /// Coordinates to keep independent if possible (the output's six, or none).
-    pub spared: usize,
+    /// Which of its coordinates are to stay independent if possible.
+    pub order: Order,
+    /// How many of the spared ones are independent if all are, else none: their IDCs are the last.
+    pub last: usize,
+    /// The independent coordinates of a network, by their places in it: its pattern is theirs.
+    pub independent: Option<Vec<usize>>,
     /// IDC of every independent coordinate, in ascending order of the coordinates with the
     /// spared ones last.
     pub idcs: Vec<usize>,
+}
+
+impl Closed {
+    /// The IDC of an independent coordinate by its place in their ascending order: an output's come
+    /// first there, and last here.
+    pub fn idc(&self, place: usize) -> usize {
+        let count = self.idcs.len();
+        self.idcs[(place + count - self.last) % count]
+    }
 }
 
 impl Plan {
@@ -102,38 +115,45 @@ impl Plan {
         let one_point = model.one_point();
         model.check_geometry(geometry, one_point)?;
         check_held(model, output)?;
-        let topology = Topology::new(model, geometry, output, absorbs)?;
+        let topology = Topology::new(model, geometry, output, absorbs);
         check_stiffness(model, &topology)?;
-        check_loops(&topology)?;
         let mut tree = TreeBlocks::new(&topology);
         tree.evaluate(&topology, at)?;
 
         let output_carrier = topology.carrier_of[output.0];
-        let mut eliminations: Vec<Option<Elimination>> = Vec::new();
+        let mut eliminations: Vec<Option<(Order, Closing)>> = Vec::new();
         let mut output_component = 0;
         for (k, component) in topology.components.iter().enumerate() {
-            let holds_output = component.root == Some(output_carrier);
+            let holds_output = component.members().next() == Some(output_carrier);
             if holds_output {
                 output_component = k;
             }
-            eliminations.push((!component.closings.is_empty()).then(|| {
-                let spared = if holds_output { 6 } else { 0 };
-                tree.close(component, &topology, at, spared)
-            }));
+            eliminations.push(if component.closings.is_empty() {
+                None
+            } else {
+                let order = Order::new(component, &topology, at, holds_output);
+                let conditions = Conditions::new(component, &tree, &topology, at);
+                let solved = conditions.solved(&order)?;
+                Some((order, solved))
+            });
         }
         let output_free = match &eliminations[output_component] {
-            Some(solved) => solved.independent.iter().take_while(|c| **c < 6).count() == 6,
+            Some((_, solved)) => {
+                let independent = solved.independent().iter();
+                independent.take_while(|c| **c < 6).count() == 6
+            }
             None => true,
         };
 
         // Number the IDCs: components in order, the output's six last where they are independent.
         let mut next = 0;
         let mut idc_of = vec![None; topology.coordinates];
-        let mut closed = Vec::new();
+        let mut closed: Vec<Closed> = Vec::new();
+        let mut closings = Vec::new();
         let mut nodes = Vec::new();
         let node_of = |coordinate: usize| tree.identities[coordinate].0.0;
         for (k, (component, elimination)) in
-            topology.components.iter().zip(&eliminations).enumerate()
+            topology.components.iter().zip(eliminations).enumerate()
         {
             let holds_output = k == output_component;
             match elimination {
@@ -149,20 +169,21 @@ impl Plan {
                         }
                     }
                 }
-                Some(solved) => {
+                Some((order, solved)) => {
                     let last = if holds_output && output_free { 6 } else { 0 };
-                    let own = solved.independent.len() - last;
+                    let own = solved.independent().len() - last;
                     let first = component.coordinates.start;
-                    nodes.extend(
-                        solved.independent[last..]
-                            .iter()
-                            .map(|c| node_of(first + c)),
-                    );
+                    let independent = solved.independent()[last..].iter();
+                    nodes.extend(independent.map(|c| node_of(first + c)));
                     closed.push(Closed {
                         component: k,
-                        spared: if holds_output { 6 } else { 0 },
+                        order,
+                        last,
+                        independent: (component.is_network())
+                            .then(|| solved.independent().to_vec()),
                         idcs: (next..next + own).collect(),
                     });
+                    closings.push(solved);
                     next += own;
                 }
             }
@@ -187,18 +208,22 @@ impl Plan {
             .collect();
         let mut reduced_starts = vec![None; topology.carriers.len()];
         let mut reduced_len = 0;
-        for closed in &closed {
+        for (closed, solved) in closed.iter().zip(&closings) {
             let component = &topology.components[closed.component];
-            let members = component
-                .root
-                .into_iter()
-                .chain(component.ties.iter().map(|t| t.child));
-            let size = room::matrix(6 * (component.ties.len() + 1), closed.idcs.len());
-            room::check(LOOPS, reduced_len + size, MOST_NUMBERS)?;
-            for carrier in members {
-                columns[carrier].clone_from(&closed.idcs);
+            for carrier in component.members() {
+                columns[carrier] = if component.is_network() {
+                    let own = topology.carriers[carrier].coordinates.iter();
+                    let own = own.flat_map(|c| solved.weights(c - component.coordinates.start));
+                    let mut own: Vec<usize> = own.map(|(place, _)| closed.idc(place)).collect();
+                    own.sort_unstable();
+                    own.dedup();
+                    own
+                } else {
+                    closed.idcs.clone()
+                };
                 reduced_starts[carrier] = Some(reduced_len);
-                reduced_len += 6 * closed.idcs.len();
+                reduced_len += 6 * columns[carrier].len();
+                room::check(NETWORK, reduced_len, MOST_NUMBERS)?;
             }
         }
 
@@ -249,7 +274,7 @@ impl Plan {
         }
         model.check()?;
         let geometry = model.geometry();
-        let topology = Topology::new(model, geometry, self.output, true)?;
+        let topology = Topology::new(model, geometry, self.output, true);
         if !topology.is_like(&self.topology) {
             return Self::new(model);
         }
@@ -287,27 +312,8 @@ impl Plan {
     }
 }
 
-/// What asks for too much room where loops are closed.
-const LOOPS: &str = "its loops of rigid bodies and joints, eliminated as one dense matrix,";
 /// What asks for too much room where elements depend on many coordinates.
 const COUPLINGS: &str = "its elastic parts at the ends of chains of rigid bodies";
-
-/// Refuses loops whose elimination would not end, or not fit into memory.
-fn check_loops(topology: &Topology) -> Result<(), SolveError> {
-    for component in topology.components.iter() {
-        let rigid = |joint: &JointId| topology.joints[joint.0].moving.complement().len();
-        let height = component.closings.iter().map(rigid).sum::<usize>();
-        let count = component.coordinates.len();
-        if height > 0 {
-            room::check(
-                LOOPS,
-                room::matrix(count, height.max(count)),
-                MOST_ELIMINATED,
-            )?;
-        }
-    }
-    Ok(())
-}
 
 /// Refuses springs with coordinates of their own that are rigid in some combination of them.
 fn check_stiffness(model: &Model, topology: &Topology) -> Result<(), SolveError> {

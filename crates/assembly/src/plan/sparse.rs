@@ -17,8 +17,8 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 use nalgebra::Point3;
 
-use super::dissection::nested_dissection;
 use crate::error::SolveError;
+use crate::rank::dissection::nested_dissection;
 use crate::room;
 use crate::room::MOST_FACTORED;
 

@@ -10,7 +10,6 @@ use hyperstat_model::{Geometry, Model, NodeId};
 use super::roles::{JointRole, roles};
 use super::subassemblies::{Subassembly, subassemblies};
 use super::trees::{Carrier, Component, carriers, components};
-use crate::error::SolveError;
 
 /// Topology of a model.
 #[derive(Debug, Clone)]
@@ -30,15 +29,7 @@ pub(crate) struct Topology {
 impl Topology {
     /// The topology of a model; `absorbs`: elastic joints go into the subassemblies where they
     /// can, else each keeps coordinates of its own.
-    ///
-    /// # Errors
-    /// Chains of joints too long.
-    pub fn new(
-        model: &Model,
-        geometry: &Geometry,
-        output: NodeId,
-        absorbs: bool,
-    ) -> Result<Self, SolveError> {
+    pub fn new(model: &Model, geometry: &Geometry, output: NodeId, absorbs: bool) -> Self {
         let (mut carriers, carrier_of) = carriers(model, output);
         let joints = roles(model, geometry, output, absorbs);
         let subassemblies = subassemblies(model, &joints);
@@ -50,8 +41,8 @@ impl Topology {
             &carrier_of,
             carrier_of[output.0],
             &mut coordinates,
-        )?;
-        Ok(Self {
+        );
+        Self {
             carriers,
             carrier_of,
             joints,
@@ -59,7 +50,7 @@ impl Topology {
             subassemblies,
             coordinates,
             output_start,
-        })
+        }
     }
 
     /// Whether another topology is the same but for the joints' stiffness.

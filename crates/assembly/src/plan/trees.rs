@@ -8,12 +8,9 @@ use hyperstat_joints::DofSet;
 use hyperstat_model::{BodyKind, JointId, Model, NodeId};
 
 use super::roles::JointRole;
-use crate::error::SolveError;
-use crate::room;
-use crate::room::MOST_NUMBERS;
-
-/// What asks for too much room where trees are deep.
-pub(crate) const CHAINS: &str = "its chains of rigid bodies and joints, one after another,";
+/// Most coordinates that a tree hands to one carrier, or eliminates where it closes loops: rigid
+/// bodies tied together by more are a network.
+const MOST_HANDED: usize = 64;
 
 /// A carrier of six displacement coordinates, kept at `reference`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,15 +33,32 @@ pub(crate) struct Tie {
     pub coordinates: Range<usize>,
 }
 
-/// Carriers tied together by joints, ground apart.
+/// Carriers tied together by joints, ground apart: a tree, or a network.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Component {
-    /// Carrier with six coordinates of its own, unless the tree hangs from the ground.
+    /// Carrier of a tree with six coordinates of its own, unless the tree hangs from the ground.
     pub root: Option<usize>,
     pub ties: Vec<Tie>,
-    /// Joints whose rigid directions are conditions on the tree's coordinates.
+    /// Joints whose rigid directions are conditions on the coordinates.
     pub closings: Vec<JointId>,
+    /// Carriers of a network, each with six coordinates of its own, an output's first; nothing is
+    /// handed on, all joints are closings. Empty in a tree.
+    pub network: Vec<usize>,
     pub coordinates: Range<usize>,
+}
+
+impl Component {
+    /// Its carriers.
+    pub fn members(&self) -> impl Iterator<Item = usize> {
+        let children = self.ties.iter().map(|tie| tie.child);
+        let tree = self.root.into_iter().chain(children);
+        tree.chain(self.network.iter().copied())
+    }
+
+    /// Whether it is a network.
+    pub fn is_network(&self) -> bool {
+        !self.network.is_empty()
+    }
 }
 
 /// One carrier a node of an elastic body, one a rigid body; the output is its carrier's reference.
@@ -78,7 +92,7 @@ pub(crate) fn carriers(model: &Model, output: NodeId) -> (Vec<Carrier>, Vec<usiz
 }
 
 /// Spanning trees: from the output's carrier, from the ground, or from the carrier with the most
-/// joints; joints with the fewest moving directions first.
+/// joints; joints with the fewest moving directions first. Networks where these would be large.
 pub(crate) fn components(
     model: &Model,
     roles: &[JointRole],
@@ -86,7 +100,7 @@ pub(crate) fn components(
     carrier_of: &[usize],
     output: usize,
     coordinates: &mut usize,
-) -> Result<(Vec<Component>, usize), SolveError> {
+) -> (Vec<Component>, usize) {
     struct Edge {
         joint: usize,
         ends: [Option<usize>; 2],
@@ -110,8 +124,8 @@ pub(crate) fn components(
     let mut components = Vec::with_capacity(members.len());
     let mut reached = vec![false; carriers.len()];
     let mut output_start = 0;
-    // Every carrier depends on all coordinates between it and its root.
-    let mut handed_on = 0;
+    // Numbers of coordinates between a carrier and its root.
+    let mut handed = vec![0; carriers.len()];
     for group in members {
         let start = *coordinates;
         let grounded = group
@@ -132,8 +146,8 @@ pub(crate) fn components(
             if root == output {
                 output_start = *coordinates;
             }
-            carriers[root].coordinates = (*coordinates..*coordinates + 6).collect();
             *coordinates += 6;
+            handed[root] = 6;
             reached[root] = true;
         }
         // Ties in the order of the fewest moving directions, then of the joints, among those that
@@ -175,12 +189,7 @@ pub(crate) fn components(
             let count = roles[edge.joint].moving.len();
             let range = *coordinates..*coordinates + count;
             *coordinates += count;
-            let mut columns = parent.map_or(Vec::new(), |p| carriers[p].coordinates.clone());
-            columns.extend(range.clone());
-            handed_on += 6 * columns.len();
-            room::check(CHAINS, handed_on, MOST_NUMBERS)?;
-            carriers[child].coordinates = columns;
-            carriers[child].reference = child_node;
+            handed[child] = parent.map_or(0, |p| handed[p]) + count;
             reached[child] = true;
             leading.extend(edges_at[child].iter().map(|&e| key(e)));
             ties.push(Tie {
@@ -192,16 +201,46 @@ pub(crate) fn components(
                 coordinates: range,
             });
         }
+        let closes = used.len() < own.len();
+        let most = group.iter().map(|c| handed[*c]).max().unwrap_or(0);
+        let is_network = most > MOST_HANDED || (closes && *coordinates - start > MOST_HANDED);
+        if is_network {
+            let mut network = group;
+            network.sort_unstable_by_key(|c| (*c != output, *c));
+            for (k, &carrier) in network.iter().enumerate() {
+                let first = start + 6 * k;
+                carriers[carrier].coordinates = (first..first + 6).collect();
+            }
+            *coordinates = start + 6 * network.len();
+            components.push(Component {
+                root: None,
+                ties: Vec::new(),
+                closings: own.iter().map(|&e| JointId(edges[e].joint)).collect(),
+                network,
+                coordinates: start..*coordinates,
+            });
+            continue;
+        }
+        if let Some(root) = root {
+            carriers[root].coordinates = (start..start + 6).collect();
+        }
+        for tie in &ties {
+            let mut columns =
+                (tie.parent).map_or(Vec::new(), |parent| carriers[parent].coordinates.clone());
+            columns.extend(tie.coordinates.clone());
+            carriers[tie.child].coordinates = columns;
+            carriers[tie.child].reference = tie.child_node;
+        }
         let closings = own.iter().filter(|e| !used.contains(*e));
-        let closings = closings.map(|&e| JointId(edges[e].joint)).collect();
         components.push(Component {
             root,
             ties,
-            closings,
+            closings: closings.map(|&e| JointId(edges[e].joint)).collect(),
+            network: Vec::new(),
             coordinates: start..*coordinates,
         });
     }
-    Ok((components, output_start))
+    (components, output_start)
 }
 
 /// Groups of carriers connected by edges, ground apart, in order of their first carrier.

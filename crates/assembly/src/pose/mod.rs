@@ -15,6 +15,7 @@ use nalgebra::Vector6;
 
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, multiply, read, shift, write};
+use crate::plan::closing::Conditions;
 use crate::plan::elements::Source;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::{LOADS, Workspace};
@@ -99,46 +100,41 @@ fn close_loops(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> Resu
         let component = &plan.topology.components[closed.component];
         let first = component.coordinates.start;
         let topology = &plan.topology;
-        let solved = workspace.tree.close(component, topology, at, closed.spared);
-        workspace.doubtful = workspace.doubtful.or(solved.doubtful);
-        let spared = solved
-            .independent
+        let conditions = Conditions::new(component, &workspace.tree, topology, at);
+        let solved = conditions.solved(&closed.order)?;
+        workspace.doubtful = workspace.doubtful.or(solved.doubtful());
+        let independent = solved.independent();
+        let spared = independent
             .iter()
-            .take_while(|c| **c < closed.spared)
+            .take_while(|c| **c < closed.order.spared)
             .count();
-        let full = closed.spared > 0 && spared == closed.spared;
-        let expected = closed.spared > 0 && plan.output_is_independent();
-        if solved.independent.len() != closed.idcs.len() || full != expected {
+        let full = closed.order.spared > 0 && spared == closed.order.spared;
+        let expected = closed.order.spared > 0 && plan.output_is_independent();
+        let others = (closed.independent.as_ref()).is_some_and(|own| own != independent);
+        if independent.len() != closed.idcs.len() || full != expected || others {
             return Err(Fault::Changed);
         }
-        // The spared coordinates, first in the component, come last among the IDCs.
-        let offset = if full { spared } else { 0 };
-        let count = solved.independent.len();
-        let order = |position: usize| (position + offset) % count.max(1);
-        for (position, &idc) in closed.idcs.iter().enumerate() {
-            let coordinate = first + solved.independent[order(position)];
-            workspace.identities[idc] = workspace.tree.identities[coordinate];
+        for (place, coordinate) in independent.iter().enumerate() {
+            workspace.identities[closed.idc(place)] = workspace.tree.identities[first + coordinate];
         }
-        let members = component
-            .root
-            .into_iter()
-            .chain(component.ties.iter().map(|t| t.child));
-        for carrier in members {
+        for carrier in component.members() {
             let Some(start) = plan.reduced_starts[carrier] else {
                 continue;
             };
-            for position in 0..count {
-                let mut column = Vector6::zeros();
-                for (k, &coordinate) in plan.topology.carriers[carrier]
-                    .coordinates
-                    .iter()
-                    .enumerate()
-                {
-                    let weight = solved.map[(coordinate - first, order(position))];
-                    let block = workspace.tree.starts[carrier] + 6 * k;
-                    column += read(&workspace.tree.values, block) * weight;
+            let columns = &plan.columns[carrier];
+            workspace.reduced[start..start + 6 * columns.len()].fill(0.0);
+            let coordinates = topology.carriers[carrier].coordinates.iter();
+            for (k, &coordinate) in coordinates.enumerate() {
+                let own = workspace.tree.starts[carrier] + 6 * k;
+                let own = read(&workspace.tree.values, own);
+                for (place, weight) in solved.weights(coordinate - first) {
+                    let Ok(column) = columns.binary_search(&closed.idc(place)) else {
+                        return Err(Fault::Changed);
+                    };
+                    let block = start + 6 * column;
+                    let column = read(&workspace.reduced, block) + own * weight;
+                    write(&mut workspace.reduced, block, &column);
                 }
-                write(&mut workspace.reduced, start + 6 * position, &column);
             }
         }
     }

@@ -1,9 +1,11 @@
 //! Recovery of everything else: displacements of all nodes, end forces, joint wrenches.
 
+use std::collections::HashMap;
+
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
 use hyperstat_model::{JointId, Model, NodeId, rotation6, to_directions};
-use nalgebra::{DMatrix, DVector, Matrix6, Rotation3, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Point3, Rotation3, Vector6};
 
 use super::joining::join;
 use super::subassembly::{absorbed_joint, misfit_inside, subassembly_frame};
@@ -16,12 +18,18 @@ use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::{node_displacement, node_motion};
 use crate::posture::Posture;
 use crate::rank::dense::{Elimination, RANK_TOLERANCE};
-use crate::room;
-use crate::room::MOST_ELIMINATED;
+use crate::rank::dissection::{Graph, levels};
+use crate::rank::sparse::{SparseElimination, SparseVector};
 use crate::sets::Sets;
 use crate::state::acting::Acting;
 use crate::state::floor::Floor;
 use crate::state::preload::loose_preload;
+
+/// Most carriers whose equilibrium is found with complete pivoting.
+const MOST_DENSE: usize = 40;
+
+/// Most joints after one at a carrier that are taken for its neighbours.
+const MOST_NEIGHBOURS: usize = 16;
 
 /// What is recovered from the IDCs.
 pub(crate) struct Recovered {
@@ -231,10 +239,7 @@ fn joint_wrenches(
     demand: &[Vector6<f64>],
 ) -> (Vec<Option<Vector6<f64>>>, Option<f64>) {
     let Posture {
-        model,
-        geometry,
-        size,
-        ..
+        model, geometry, ..
     } = *at;
     let count = model.joints().len();
     let mut springs = vec![Vector6::zeros(); count];
@@ -295,7 +300,7 @@ fn joint_wrenches(
         .collect();
     let end_carriers = |joint: usize| between(plan, model, joint);
     for group in groups(carriers.len(), &unknown, end_carriers) {
-        let found = equilibrium(&group, &joints, &ends, &needed, size, &mut forces);
+        let found = equilibrium(&group, &joints, &ends, &needed, at, &mut forces);
         doubtful = doubtful.or(found);
     }
     let wrenches = (0..count)
@@ -311,22 +316,6 @@ fn joint_wrenches(
 struct Group {
     carriers: Vec<usize>,
     joints: Vec<usize>,
-}
-
-/// Refuses groups whose equilibrium would not be found, or not fit into memory.
-pub(crate) fn check_recovery(plan: &Plan, model: &Model) -> Result<(), SolveError> {
-    const EQUILIBRIUM: &str =
-        "the forces in its rigid joints, which rigid bodies tie together to one dense matrix,";
-    let held = |joint: usize| plan.topology.joints[joint].moving.complement().len();
-    let unknown = (0..model.joints().len()).filter(|k| held(*k) > 0);
-    let unknown: Vec<usize> = unknown.collect();
-    let ends = |joint: usize| between(plan, model, joint);
-    for group in groups(plan.topology.carriers.len(), &unknown, ends) {
-        let columns = room::sum(group.joints.iter().map(|joint| held(*joint)));
-        let longer = columns.max(6 * group.carriers.len());
-        room::check(EQUILIBRIUM, room::matrix(longer, columns), MOST_ELIMINATED)?;
-    }
-    Ok(())
 }
 
 /// The carriers that a joint lies between, the ground apart.
@@ -372,14 +361,14 @@ fn groups(
     groups
 }
 
-/// Solves a group's equilibrium for the unknown joint forces, moments over `size`; returns a
+/// Solves a group's equilibrium for the unknown joint forces, moments over a length; returns a
 /// doubtful pivot.
 fn equilibrium(
     group: &Group,
     joints: &[JointForces],
     ends: &[Vec<(usize, f64, Matrix6<f64>)>],
     needed: &[Vector6<f64>],
-    size: f64,
+    at: &Posture<'_>,
     forces: &mut [Option<Vector6<f64>>],
 ) -> Option<f64> {
     let unknowns: Vec<(usize, Dof)> = group
@@ -390,44 +379,127 @@ fn equilibrium(
     if unknowns.is_empty() {
         return None;
     }
-    let rows = 6 * group.carriers.len();
-    let mut matrix = DMatrix::zeros(rows, unknowns.len());
-    let mut right_side = DVector::zeros(rows);
-    let over_size = |mut w: Vector6<f64>| {
+    let is_large = group.carriers.len() > MOST_DENSE;
+    let length = if is_large { at.arm_length() } else { at.size };
+    let mut matrix = Vec::with_capacity(unknowns.len());
+    let over_length = |mut w: Vector6<f64>| {
         for k in 3..6 {
-            w[k] /= size;
+            w[k] /= length;
         }
         w
     };
     let mut scales = Vec::with_capacity(unknowns.len());
-    for (column, (joint, dof)) in unknowns.iter().enumerate() {
+    for (joint, dof) in &unknowns {
         let unit = joints[*joint].basis.column(dof.index()).into_owned();
-        let scale = over_size(unit).norm();
+        let scale = over_length(unit).norm();
         scales.push(scale);
+        let mut column = Vec::with_capacity(2);
         for (carrier, sign, arm) in &ends[*joint] {
             if let Ok(row) = group.carriers.binary_search(carrier) {
-                let share = over_size(arm * unit) * (sign / scale);
-                let mut view = matrix.fixed_view_mut::<6, 1>(6 * row, column);
-                view += share;
+                column.push((row, over_length(arm * unit) * (sign / scale)));
             }
         }
+        matrix.push(column);
     }
+    let mut right_side = DVector::zeros(6 * group.carriers.len());
     for (row, carrier) in group.carriers.iter().enumerate() {
         right_side
             .fixed_rows_mut::<6>(6 * row)
-            .copy_from(&over_size(needed[*carrier]));
+            .copy_from(&over_length(needed[*carrier]));
     }
-    let first = Elimination::with_right_side(matrix.clone(), right_side.clone(), 0);
-    let rest = right_side - &matrix * &first.particular;
-    let correction = Elimination::with_right_side(matrix, rest, 0).particular;
-    let solution = first.particular + correction;
-    let undetermined = |k: usize| first.map.row(k).amax() > RANK_TOLERANCE;
+    let (solution, open, doubtful) = if is_large {
+        let of_joints = joint_levels(group, ends, at);
+        let levels = unknowns.iter().map(|(joint, _)| of_joints[joint]).collect();
+        sparsely_balanced(&matrix, &right_side, levels)
+    } else {
+        densely_balanced(&matrix, &right_side)
+    };
     for (k, (joint, dof)) in unknowns.iter().enumerate() {
-        if undetermined(k) {
+        if open[k] {
             forces[*joint] = None;
         } else if let Some(force) = &mut forces[*joint] {
             force[dof.index()] = solution[k] / scales[k];
         }
     }
-    first.doubtful
+    doubtful
+}
+
+/// Of some forces, the shares that each gives to carriers, by the carriers' places in their group.
+type Shares = [Vec<(usize, Vector6<f64>)>];
+
+/// Forces that balance a right side, which of them are undetermined, and a doubtful pivot.
+type Balanced = (DVector<f64>, Vec<bool>, Option<f64>);
+
+fn densely_balanced(shares: &Shares, right_side: &DVector<f64>) -> Balanced {
+    let mut matrix = DMatrix::zeros(right_side.len(), shares.len());
+    for (column, shares) in shares.iter().enumerate() {
+        for (carrier, share) in shares {
+            let mut view = matrix.fixed_view_mut::<6, 1>(6 * carrier, column);
+            view += share;
+        }
+    }
+    let first = Elimination::with_right_side(matrix.clone(), right_side.clone(), 0);
+    let rest = right_side - &matrix * &first.particular;
+    let correction = Elimination::with_right_side(matrix, rest, 0).particular;
+    let undetermined = |k: usize| first.map.row(k).amax() > RANK_TOLERANCE;
+    let open = (0..shares.len()).map(undetermined).collect();
+    (first.particular + correction, open, first.doubtful)
+}
+
+/// Levels of a group's joints in a dissection; those at one carrier are neighbours.
+fn joint_levels(
+    group: &Group,
+    ends: &[Vec<(usize, f64, Matrix6<f64>)>],
+    at: &Posture<'_>,
+) -> HashMap<usize, usize> {
+    let mut joints_at: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut places = Vec::with_capacity(group.joints.len());
+    for (k, joint) in group.joints.iter().enumerate() {
+        for (carrier, ..) in &ends[*joint] {
+            joints_at.entry(*carrier).or_default().push(k);
+        }
+        let nodes = at.model.joints()[*joint].between;
+        let node = nodes.into_iter().flatten().next();
+        places.push(node.map_or(Point3::origin(), |node| at.geometry.positions[node.0]));
+    }
+    let mut graph: Graph = vec![Vec::new(); places.len()];
+    for joints in joints_at.values() {
+        // Where very many meet, those next to one another in the file.
+        for (k, &a) in joints.iter().enumerate() {
+            for &b in joints[k + 1..].iter().take(MOST_NEIGHBOURS) {
+                if a != b && !graph[a].contains(&b) {
+                    graph[a].push(b);
+                    graph[b].push(a);
+                }
+            }
+        }
+    }
+    let levels = levels(&graph, &places);
+    group.joints.iter().copied().zip(levels).collect()
+}
+
+fn sparsely_balanced(shares: &Shares, right_side: &DVector<f64>, levels: Vec<usize>) -> Balanced {
+    let mut rows: Vec<SparseVector> = vec![Vec::new(); right_side.len()];
+    for (column, shares) in shares.iter().enumerate() {
+        for (carrier, share) in shares {
+            for (k, value) in share.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+                let row = &mut rows[6 * carrier + k];
+                match row.last_mut() {
+                    Some((last, sum)) if *last == column => *sum += value,
+                    _ => row.push((column, *value)),
+                }
+            }
+        }
+    }
+    let solved = SparseElimination::by_levels(rows.clone(), levels);
+    let mut solution = solved.particular(right_side.as_slice());
+    let rest = rows.iter().zip(right_side.iter()).map(|(row, asked)| {
+        let met: f64 = row.iter().map(|(c, v)| v * solution[*c]).sum();
+        asked - met
+    });
+    let correction = solved.particular(&rest.collect::<Vec<f64>>());
+    for (value, correction) in solution.iter_mut().zip(correction) {
+        *value += correction;
+    }
+    (DVector::from_vec(solution), solved.open(), solved.doubtful)
 }

@@ -43,11 +43,18 @@ impl Restraint {
     /// Motions too many and too long for memory.
     pub fn of(at: &Posture<'_>, output: NodeId) -> Result<Self, SolveError> {
         let diagnosis = Diagnosis::default();
-        Ok(Self::new(at, diagnosis.kinematics(at)?, output))
+        Self::new(at, diagnosis.kinematics(at)?, output)
     }
 
     /// That of a configuration whose motions are known.
-    pub fn new(at: &Posture<'_>, kinematics: &Kinematics, output: NodeId) -> Self {
+    ///
+    /// # Errors
+    /// Motions too many for memory.
+    pub fn new(
+        at: &Posture<'_>,
+        kinematics: &Kinematics,
+        output: NodeId,
+    ) -> Result<Self, SolveError> {
         let Posture {
             model,
             geometry,
@@ -56,17 +63,17 @@ impl Restraint {
         } = *at;
         let (idle, moving) = split(&kinematics.motions, size, |motion| {
             scaled(&node_twist(motion, model, geometry, output.0), size)
-        });
+        })?;
         let twists = moving
             .iter()
             .map(|m| scaled(&node_twist(m, model, geometry, output.0), size));
         let free_twists = orthonormal(twists.collect());
-        Self {
+        Ok(Self {
             idle,
             moving,
             free_twists,
             size,
-        }
+        })
     }
 
     /// Refuses loads that work on a motion that nothing resists.
@@ -235,22 +242,25 @@ fn split(
     motions: &[Motion],
     size: f64,
     twist: impl Fn(&Motion) -> Vector6<f64>,
-) -> (Vec<Motion>, Vec<Motion>) {
+) -> Result<(Vec<Motion>, Vec<Motion>), SolveError> {
     let twists: Vec<Vector6<f64>> = motions.iter().map(&twist).collect();
     let still = |t: &Vector6<f64>| t.amax() <= RANK_TOLERANCE;
     if twists.iter().all(still) {
-        return (motions.to_vec(), Vec::new());
+        return Ok((motions.to_vec(), Vec::new()));
     }
     if motions.len() > MANY && twists.iter().any(still) {
         // Those that leave the output where it is need not be combined.
         let (at_rest, others): (Vec<_>, Vec<_>) =
             (motions.iter().cloned().zip(&twists)).partition(|(_, t)| still(t));
         let others: Vec<Motion> = others.into_iter().map(|(motion, _)| motion).collect();
-        let (mut idle, moving) = split(&others, size, twist);
+        let (mut idle, moving) = split(&others, size, twist)?;
         idle.extend(at_rest.into_iter().map(|(motion, _)| motion));
-        return (idle, moving);
+        return Ok((idle, moving));
     }
     let count = motions.len();
+    if count > MANY {
+        return sparsely_split(motions, &twists, size);
+    }
     let matrix = DMatrix::from_fn(6, count, |r, c| twists[c][r]);
     let idle = echelon(Elimination::new(matrix, 0).null_space());
     // The motions that are no pivot of an idle combination move the output independently.
@@ -260,16 +270,40 @@ fn split(
         let pivot = free.max_by(|a, b| combination[*a].abs().total_cmp(&combination[*b].abs()));
         pivots.extend(pivot);
     }
-    let combined = idle.iter().map(|c| combine(motions, c, size)).collect();
+    let combined = idle.iter().map(|weights| {
+        let parts = motions.iter().zip(weights.iter().copied());
+        combine(parts, size)
+    });
+    let combined = combined.collect();
     let rest = (0..count).filter(|k| !pivots.contains(k));
-    (combined, rest.map(|k| motions[k].clone()).collect())
+    Ok((combined, rest.map(|k| motions[k].clone()).collect()))
 }
 
-fn combine(motions: &[Motion], weights: &DVector<f64>, size: f64) -> Motion {
+/// [`split`] of many motions, all of which move the output: six at the most stay as they are, and
+/// each of the others has those taken off that it takes to leave the output at rest.
+fn sparsely_split(
+    motions: &[Motion],
+    twists: &[Vector6<f64>],
+    size: f64,
+) -> Result<(Vec<Motion>, Vec<Motion>), SolveError> {
+    let rows = (0..6).map(|r| {
+        let entries = twists.iter().enumerate().map(|(c, twist)| (c, twist[r]));
+        entries.filter(|(_, value)| *value != 0.0).collect()
+    });
+    let solved = SparseElimination::new(rows.collect(), motions.len());
+    let combined = solved.null_space()?.into_iter().map(|weights| {
+        let parts = weights.into_iter().map(|(k, weight)| (&motions[k], weight));
+        combine(parts, size)
+    });
+    let rest = solved.pivot_columns().map(|k| motions[k].clone());
+    Ok((combined.collect(), rest.collect()))
+}
+
+fn combine<'m>(parts: impl Iterator<Item = (&'m Motion, f64)>, size: f64) -> Motion {
     let mut twists: BTreeMap<BodyId, Vector6<f64>> = BTreeMap::new();
-    for (motion, weight) in motions.iter().zip(weights.iter()) {
+    for (motion, weight) in parts {
         for (body, twist) in &motion.twists {
-            *twists.entry(*body).or_default() += twist * *weight;
+            *twists.entry(*body).or_default() += twist * weight;
         }
     }
     let moves = |twist: &Vector6<f64>| scaled(twist, size).amax() > 1e-9;

@@ -12,7 +12,7 @@ pub(crate) const RANK_TOLERANCE: f64 = 1e-6;
 /// Pivots in this range leave a doubt about the rank that the user should know of.
 pub(crate) const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-4;
 /// While a pivot this large is left outside the spared coordinates, those are spared.
-const SPARING: f64 = 1e-3;
+pub(super) const SPARING: f64 = 1e-3;
 
 /// The solutions of `conditions · x = right side`.
 #[derive(Debug, Clone, PartialEq)]

@@ -11,7 +11,7 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-use super::dense::{DOUBTFUL, RANK_TOLERANCE};
+use super::dense::{DOUBTFUL, RANK_TOLERANCE, SPARING};
 use crate::error::SolveError;
 use crate::room;
 use crate::room::MOST_NUMBERS;
@@ -19,9 +19,11 @@ use crate::room::MOST_NUMBERS;
 /// A pivot is at least this share of the largest entry of its row and of its column.
 const THRESHOLD: f64 = 0.25;
 /// Entries up to this have cancelled: rounding of entries of about 1.
-const CANCELLED: f64 = 1e-13;
-/// Rows whose largest entry is below one level wait for the next.
-const LEVEL_STEP: f64 = 0.1;
+pub(super) const CANCELLED: f64 = 1e-13;
+/// Rows whose largest entry is below one step wait for the next.
+const STEP: f64 = 0.1;
+/// Columns wait for those of lower levels while these have a pivot this large.
+const LOCAL: f64 = 0.1;
 
 /// A vector by its entries that are not zero, ascending.
 pub(crate) type SparseVector = Vec<(usize, f64)>;
@@ -29,13 +31,15 @@ pub(crate) type SparseVector = Vec<(usize, f64)>;
 /// Conditions eliminated: `rows · x = 0`.
 #[derive(Debug)]
 pub(crate) struct SparseElimination {
-    columns: usize,
+    pub(super) columns: usize,
     /// Row and column of every pivot, in their order.
-    pivots: Vec<(usize, usize)>,
+    pub(super) pivots: Vec<(usize, usize)>,
+    /// The pivots.
+    pub(super) values: Vec<f64>,
     /// Rest of every pivot's row, over the pivot: in columns without a pivot or of later pivots.
-    upper: Vec<SparseVector>,
+    pub(super) upper: Vec<SparseVector>,
     /// What was taken from every row: multiples of the rows of pivots.
-    lower: Vec<SparseVector>,
+    pub(super) lower: Vec<SparseVector>,
     /// Rows that are combinations of those with pivots.
     pub redundant: Vec<usize>,
     /// The largest pivot, taken or left, between zero and not zero.
@@ -45,25 +49,32 @@ pub(crate) struct SparseElimination {
 impl SparseElimination {
     /// Eliminates `rows` over `columns` columns.
     pub fn new(rows: Vec<SparseVector>, columns: usize) -> Self {
-        Self::solve(rows, columns, RANK_TOLERANCE)
+        Self::solve(rows, vec![0; columns], RANK_TOLERANCE)
     }
 
     /// The same, doubtful pivots taken as zero.
     pub fn without_doubtful(rows: Vec<SparseVector>, columns: usize) -> Self {
-        Self::solve(rows, columns, DOUBTFUL.end)
+        Self::solve(rows, vec![0; columns], DOUBTFUL.end)
     }
 
-    fn solve(rows: Vec<SparseVector>, columns: usize, tolerance: f64) -> Self {
-        let mut front = Front::new(rows, columns);
-        let mut level = 1.0;
-        while level > tolerance {
-            level = f64::max(level * LEVEL_STEP, tolerance);
-            front.refill();
-            while let Some(row) = front.shortest(level) {
-                let (row, column) = front.rook(row);
-                front.eliminate(row, column);
-            }
+    /// Eliminates `rows` by the levels of their columns: one takes a pivot only where no column of a
+    /// lower level has one that is large enough. So what depends on one another stays near, where
+    /// levels are those of a dissection. Columns of the last level are spared where that is possible
+    /// at all.
+    pub fn by_levels(rows: Vec<SparseVector>, level_of: Vec<usize>) -> Self {
+        Self::solve(rows, level_of, RANK_TOLERANCE)
+    }
+
+    fn solve(rows: Vec<SparseVector>, level_of: Vec<usize>, tolerance: f64) -> Self {
+        let columns = level_of.len();
+        let mut front = Front::new(rows, level_of);
+        let last = front.level_of.iter().copied().max().unwrap_or(0);
+        for level in 0..last {
+            front.level = level;
+            front.reduce(if level + 1 == last { SPARING } else { LOCAL });
         }
+        front.level = last;
+        front.reduce(tolerance);
         let left = front.left();
         let largest = left.iter().map(|row| largest(&front.rows[*row]));
         let left_largest = largest.fold(0.0, f64::max);
@@ -72,6 +83,7 @@ impl SparseElimination {
         Self {
             columns,
             pivots: front.pivots,
+            values: front.values,
             upper: front.upper,
             lower: front.lower,
             redundant: left,
@@ -184,7 +196,11 @@ struct Front {
     active: Vec<bool>,
     /// Active rows by length; entries of another length are out of date.
     queue: BinaryHeap<Reverse<(usize, usize)>>,
+    /// Levels of the columns, and the last one that takes pivots.
+    level_of: Vec<usize>,
+    level: usize,
     pivots: Vec<(usize, usize)>,
+    values: Vec<f64>,
     upper: Vec<SparseVector>,
     lower: Vec<SparseVector>,
     doubtful: Option<f64>,
@@ -193,8 +209,8 @@ struct Front {
 }
 
 impl Front {
-    fn new(rows: Vec<SparseVector>, columns: usize) -> Self {
-        let mut users = vec![Vec::new(); columns];
+    fn new(rows: Vec<SparseVector>, level_of: Vec<usize>) -> Self {
+        let mut users = vec![Vec::new(); level_of.len()];
         for (r, row) in rows.iter().enumerate() {
             for (c, _) in row {
                 users[*c].push(r);
@@ -204,12 +220,28 @@ impl Front {
             users,
             active: vec![true; rows.len()],
             queue: BinaryHeap::new(),
+            level_of,
+            level: 0,
             pivots: Vec::new(),
+            values: Vec::new(),
             upper: Vec::new(),
             lower: vec![Vec::new(); rows.len()],
             doubtful: None,
             formed: Vec::new(),
             rows,
+        }
+    }
+
+    /// Takes all pivots above a size that the level allows, larger ones first.
+    fn reduce(&mut self, least: f64) {
+        let mut step = 1.0;
+        while step > least {
+            step = f64::max(step * STEP, least);
+            self.refill();
+            while let Some(row) = self.shortest(step) {
+                let (row, column) = self.rook(row);
+                self.eliminate(row, column);
+            }
         }
     }
 
@@ -224,12 +256,12 @@ impl Front {
         self.queue = rows.map(|r| Reverse((self.rows[r].len(), r))).collect();
     }
 
-    /// Takes the shortest active row with an entry above `level` from the queue; rows with
+    /// Takes the shortest active row with an entry above `least` from the queue; rows with
     /// smaller entries only leave it until they change, or it is filled again.
-    fn shortest(&mut self, level: f64) -> Option<usize> {
+    fn shortest(&mut self, least: f64) -> Option<usize> {
         while let Some(Reverse((length, row))) = self.queue.pop() {
             let current = self.active[row] && self.rows[row].len() == length;
-            if current && largest(&self.rows[row]) > level {
+            if current && self.largest(row) > least {
                 return Some(row);
             }
         }
@@ -240,10 +272,10 @@ impl Front {
     /// entry in one of its columns.
     fn rook(&mut self, mut row: usize) -> (usize, usize) {
         loop {
-            let least = THRESHOLD * largest(&self.rows[row]);
-            let large = self.rows[row].iter().filter(|(_, v)| v.abs() >= least);
+            let least = THRESHOLD * self.largest(row);
+            let large = self.open(row).filter(|(_, v)| v.abs() >= least);
             let mut candidates: Vec<(usize, usize, f64)> = large
-                .map(|&(column, value)| (self.users[column].len(), column, value.abs()))
+                .map(|(column, value)| (self.users[column].len(), column, value.abs()))
                 .collect();
             candidates.sort_unstable_by_key(|&(count, column, _)| (count, column));
             let mut other = (row, 0.0);
@@ -261,6 +293,17 @@ impl Front {
             self.queue.push(Reverse((self.rows[row].len(), row)));
             row = other.0;
         }
+    }
+
+    /// The entries of a row that may be pivots.
+    fn open(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let entries = self.rows[row].iter().copied();
+        entries.filter(|(column, _)| self.level_of[*column] <= self.level)
+    }
+
+    /// Size of the largest entry of a row that may be a pivot.
+    fn largest(&self, row: usize) -> f64 {
+        self.open(row).fold(0.0, |most, (_, v)| v.abs().max(most))
     }
 
     /// Drops the rows that have no entry in a column any more.
@@ -310,6 +353,7 @@ impl Front {
             *value /= pivot;
         }
         self.pivots.push((row, column));
+        self.values.push(pivot);
         self.upper.push(own);
     }
 

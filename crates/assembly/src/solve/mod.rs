@@ -13,7 +13,7 @@ use crate::kinematics::motion::describe;
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::{LOADS, Workspace};
-use crate::pose::recover::{check_recovery, recover};
+use crate::pose::recover::recover;
 use crate::pose::restraint::Restraint;
 use crate::pose::{act, form};
 use crate::posture::Posture;
@@ -76,7 +76,6 @@ impl Factored {
             Err(Fault::Error(error)) => return Err(error),
             Err(Fault::Changed) => {
                 let own = Plan::absorbing(at, true, diagnosis)?;
-                check_recovery(&own, at.model)?;
                 workspace = own.workspace();
                 settled(form(&own, at, &mut workspace))?;
                 Some(own)

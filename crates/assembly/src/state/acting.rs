@@ -5,11 +5,11 @@
 //! deformation that the segment starts from, less the free end's displacement δ: the wrench on its
 //! second node is k (u₂ − M u₁ − δ), that on its first follows from equilibrium.
 
-use hyperstat_elements::{BeamLoad, LineMass, Taper, TemperatureChange, rotate_vector6};
+use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_model::{JointId, LoadSet, NodeId, SegmentId};
-use nalgebra::{Vector3, Vector6};
+use nalgebra::Vector6;
 
-use super::preload::preloads;
+use super::sources::{Along, Sources, WrenchAxes};
 use crate::error::SolveError;
 use crate::posture::Posture;
 
@@ -51,72 +51,49 @@ impl Acting {
 
     /// A set of loads alone.
     pub fn new(at: &Posture<'_>, set: &LoadSet) -> Result<Self, SolveError> {
-        let mut acting = Self {
-            nodes: Vec::with_capacity(set.nodes.len()),
-            preloaded: (0, Vec::new()),
-            segments: Vec::new(),
-            misfits: false,
-        };
-        for load in &set.nodes {
-            let rotation = load.axes.rotation(at.model, at.geometry)?;
-            let wrench = rotate_vector6(&load.wrench, &rotation);
-            acting.nodes.push((load.node, wrench));
-        }
-        let mut along = Vec::with_capacity(set.lines.len());
-        for load in &set.lines {
-            let frame = at.segment_frame(load.segment)?;
-            let turn = frame.inverse() * load.axes.rotation(at.model, at.geometry)?;
-            let [first, second] = load.ends.map(|end| rotate_vector6(&end, &turn));
-            along.push((load.segment, BeamLoad::linear(first, second)));
-        }
-        acting.add_along(at, along)?;
-        Ok(acting)
+        Self::brought(at, &Sources::of_set(set))
     }
 
     /// What acts in every state: misfits and preloads, weight and temperatures.
     fn always(at: &Posture<'_>) -> Result<Self, SolveError> {
-        let Posture { model, .. } = *at;
-        let (joints, nodes) = preloads(at).into_iter().unzip();
+        Self::brought(at, &Sources::always(at.model)?)
+    }
+
+    /// Sources, brought to a configuration.
+    fn brought(at: &Posture<'_>, sources: &Sources<'_>) -> Result<Self, SolveError> {
         let mut acting = Self {
-            nodes,
-            preloaded: (0, joints),
-            segments: Vec::new(),
-            misfits: !model.misfits().is_empty(),
+            nodes: Vec::with_capacity(sources.wrenches.len()),
+            misfits: sources.misfits,
+            ..Self::nothing()
         };
-        let gravity = model.gravity();
-        let heavy = *gravity != Vector3::zeros();
-        if heavy {
-            for mass in model.masses() {
-                let force = gravity * mass.mass.mass();
-                let wrench = Vector6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0);
-                acting.nodes.push((mass.node, wrench));
-            }
+        for source in &sources.wrenches {
+            let wrench = match source.axes {
+                WrenchAxes::Load(axes) => {
+                    rotate_vector6(&source.wrench, &axes.rotation(at.model, at.geometry)?)
+                }
+                WrenchAxes::Preload(joint) => {
+                    acting.preloaded.1.push(joint);
+                    at.direction_map(joint).transpose() * source.wrench
+                }
+            };
+            acting.nodes.push((source.node, wrench));
         }
-        let mut along = Vec::new();
-        for (k, segment) in model.segments().iter().enumerate() {
-            let id = SegmentId(k);
-            let temperature = model.bodies()[segment.body.0].temperature;
-            if temperature != 0.0 {
-                let expansion = segment.material.expansion().unwrap_or(0.0);
-                let change = TemperatureChange {
-                    uniform: temperature,
-                    ..TemperatureChange::default()
-                };
-                along.push((id, BeamLoad::temperature(expansion, &change)));
-            }
-            if heavy {
-                let frame = at.segment_frame(id)?;
-                let density = segment.material.density();
-                let density = density.ok_or_else(|| SolveError::NoDensity {
-                    body: model.bodies()[segment.body.0].name.clone(),
-                })?;
-                let taper = match segment.change_of_section()? {
-                    Some(taper) => taper,
-                    None => Taper::constant(segment.section.clone()),
-                };
-                let mass = LineMass::new(density, taper)?;
-                along.push((id, mass.weight(&(frame.inverse() * gravity))));
-            }
+        let mut along = Vec::with_capacity(sources.along.len());
+        for (id, source) in &sources.along {
+            let load = match source {
+                Along::Heat(load) => *load,
+                Along::Weight(mass) => {
+                    let frame = at.segment_frame(*id)?;
+                    mass.weight(&(frame.inverse() * at.model.gravity()))
+                }
+                Along::Line(load) => {
+                    let frame = at.segment_frame(*id)?;
+                    let turn = frame.inverse() * load.axes.rotation(at.model, at.geometry)?;
+                    let [first, second] = load.ends.map(|end| rotate_vector6(&end, &turn));
+                    BeamLoad::linear(first, second)
+                }
+            };
+            along.push((*id, load));
         }
         acting.add_along(at, along)?;
         Ok(acting)

@@ -4,3 +4,4 @@ pub(crate) mod acting;
 pub(crate) mod floor;
 pub(crate) mod offsets;
 pub(crate) mod preload;
+pub(crate) mod sources;

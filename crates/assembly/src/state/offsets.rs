@@ -8,17 +8,18 @@
 
 use hyperstat_joints::JointError;
 use hyperstat_model::{Geometry, JointId, NodeId, condition_rows};
-use nalgebra::{DVector, Vector6};
+use nalgebra::Vector6;
 
 use super::preload::{along, displacement_by_misfit};
 use crate::error::SolveError;
 use crate::plan::blocks::{read, shift};
+use crate::plan::closing::{Conditions, over};
 use crate::plan::coordinates::TreeBlocks;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
 use crate::plan::{Closed, Plan};
 use crate::posture::Posture;
-use crate::rank::dense::{Elimination, RANK_TOLERANCE};
+use crate::rank::dense::RANK_TOLERANCE;
 
 /// Misfits that leave a larger share of the largest open in a loop do not fit it: the conditions
 /// that count as redundant are so to this much and no better.
@@ -55,8 +56,7 @@ pub(crate) fn offsets(
             .into());
         }
         let component = &plan.topology.components[closed.component];
-        let ties = component.ties.iter().map(|tie| tie.child);
-        for carrier in component.root.into_iter().chain(ties) {
+        for carrier in component.members() {
             let coordinates = &plan.topology.carriers[carrier].coordinates;
             for (k, &coordinate) in coordinates.iter().enumerate() {
                 let weight = particular[coordinate - component.coordinates.start];
@@ -77,9 +77,9 @@ struct Pass<'a> {
 
 /// How a loop's closing joints take misfits.
 struct Gap {
-    /// The component's tree coordinates, the independent ones zero.
-    particular: DVector<f64>,
-    /// Largest condition that is not met, over the largest displacement (lengths over the size).
+    /// The component's coordinates, the independent ones zero.
+    particular: Vec<f64>,
+    /// Largest condition that is not met, over the largest displacement.
     open: f64,
 }
 
@@ -119,49 +119,30 @@ impl Pass<'_> {
     ) -> Gap {
         let topology = &self.plan.topology;
         let component = &topology.components[closed.component];
-        let over_size = |mut u: Vector6<f64>| {
-            for k in 0..3 {
-                u[k] /= self.at.size;
-            }
-            u
-        };
+        let conditions = Conditions::new(component, self.tree, topology, self.at);
+        let length = conditions.length;
         let mut right_side = Vec::new();
         let mut largest = 0.0_f64;
         for joint in &component.closings {
             let connection = &self.at.model.joints()[joint.0];
-            let mut asked = -over_size(self.apart(misfits, *joint));
+            let mut asked = -over(length, self.apart(misfits, *joint));
             largest = largest.max(asked.amax());
             for (node, sign) in connection.between.iter().zip([-1.0, 1.0]) {
                 let Some(node) = node else { continue };
                 let carrier = topology.carrier_of[node.0];
                 let reference = topology.carriers[carrier].reference;
-                let own = over_size(shift(self.at.geometry, reference, *node) * offsets[carrier]);
+                let moved = shift(self.at.geometry, reference, *node) * offsets[carrier];
+                let own = over(length, moved);
                 largest = largest.max(own.amax());
                 asked += own * sign;
             }
             let local = self.at.direction_map(*joint);
             let rigid = topology.joints[joint.0].moving.complement();
-            let rows = condition_rows(&local, rigid, self.at.size);
+            let rows = condition_rows(&local, rigid, length);
             right_side.extend(rows.map(|condition| (condition * asked)[0]));
         }
-        let (tree, size) = (self.tree, self.at.size);
-        let conditions = tree.closing_conditions(component, topology, self.at);
-        let right_side = DVector::from_vec(right_side);
-        let solve = |right_side| {
-            let conditions = conditions.clone();
-            Elimination::with_right_side(conditions, right_side, closed.spared).particular
-        };
-        let mut particular = solve(right_side.clone());
-        particular += solve(&right_side - &conditions * &particular);
-        let left = (&conditions * &particular - right_side).amax();
-        let largest = largest.max(particular.amax());
-        for (k, entry) in particular.iter_mut().enumerate() {
-            *entry *= tree.scale(component.coordinates.start + k, size);
-        }
-        Gap {
-            particular,
-            open: if left > 0.0 { left / largest } else { 0.0 },
-        }
+        let (particular, open) = conditions.met(&right_side, &closed.order, largest);
+        Gap { particular, open }
     }
 
     /// Names of the joints whose misfits alone do not fit a component; all, where each of them fits by

@@ -1,7 +1,7 @@
 //! Preloads of joints, and what misfits do to springs.
 
 use hyperstat_joints::DofSet;
-use hyperstat_model::{Directions, JointId, Misfit, NodeId, rotation6};
+use hyperstat_model::{Directions, JointId, Misfit, rotation6};
 use nalgebra::Vector6;
 
 use crate::posture::Posture;
@@ -32,24 +32,6 @@ pub(crate) fn loose_preload(directions: &Directions, entry: &Misfit) -> Vector6<
         Some(_) => along(&entry.preload, directions.free),
         None => entry.preload,
     }
-}
-
-/// The wrenches on nodes, global axes, that preloads of joints make.
-pub(crate) fn preloads(at: &Posture<'_>) -> Vec<(JointId, (NodeId, Vector6<f64>))> {
-    let model = at.model;
-    let mut wrenches = Vec::new();
-    for entry in model.misfits() {
-        let joint = &model.joints()[entry.joint.0];
-        let preload = loose_preload(&Directions::of(joint), entry);
-        if preload == Vector6::zeros() {
-            continue;
-        }
-        let local = at.direction_map(entry.joint);
-        let on_second = local.transpose() * preload;
-        let sides = joint.between.iter().zip([-on_second, on_second]);
-        wrenches.extend(sides.filter_map(|(node, wrench)| Some((entry.joint, ((*node)?, wrench)))));
-    }
-    wrenches
 }
 
 /// Displacement of a joint's second body from its first, global axes, of a misfit by directions.

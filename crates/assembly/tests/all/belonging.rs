@@ -94,6 +94,10 @@ fn a_pose_that_takes_a_joint_apart_is_refused() {
             (_, found) => assert!(found.is_ok()),
         }
     }
+    let mut single = prepared.single().expect("a plan");
+    assert!(single.is_parallel());
+    single.geometry_mut().clone_from(&parted);
+    is_apart(prepared.sweep_single(&mut single).expect_err("apart"));
     let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
     is_apart(modal.frequencies(&parted).expect_err("apart"));
     is_apart(prepared.at(&parted).expect_err("apart"));
@@ -220,6 +224,9 @@ fn geometries_of_another_model_are_refused() {
                 found => assert!(found.is_ok() && pose < LANES - 1),
             }
         }
+        let mut single = prepared.single().expect("a plan");
+        single.geometry_mut().clone_from(&foreign);
+        is_foreign(prepared.sweep_single(&mut single).expect_err("foreign"));
         is_foreign(prepared.at(&foreign).expect_err("foreign"));
         let modal = ModalPlan::new(&model, &ModalOptions::lowest(1)).expect("a plan");
         is_foreign(modal.frequencies(&foreign).expect_err("foreign"));
@@ -268,9 +275,12 @@ fn buffers_do_not_outlive_a_change_of_the_model() {
     assert!(sag(&prepared).expect("a solution") > 0.0);
     let mut workspace = prepared.workspace().expect("a plan");
     let mut lanes = prepared.lanes().expect("a plan");
+    let mut single = prepared.single().expect("a plan");
     prepared.model_mut().clear_loads();
     assert_eq!(sag(&prepared).expect("a solution"), 0.0);
     let swept = prepared.sweep(prepared.model().geometry(), &mut workspace);
+    assert_eq!(swept.expect_err("of before"), SolveError::ForeignWorkspace);
+    let swept = prepared.sweep_single(&mut single);
     assert_eq!(swept.expect_err("of before"), SolveError::ForeignWorkspace);
     let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
     let found = found.map(|found| found.expect("a result").expect_err("of before"));
@@ -310,6 +320,8 @@ fn buffers_serve_the_mechanism_that_made_them() {
     let model = bar_and_plate(0.5, 0.0);
     let [prepared, other] = [(); 2].map(|()| Prepared::new(model.clone()));
     let swept = prepared.sweep(model.geometry(), &mut other.workspace().expect("a plan"));
+    assert_eq!(swept.expect_err("foreign"), SolveError::ForeignWorkspace);
+    let swept = prepared.sweep_single(&mut other.single().expect("a plan"));
     assert_eq!(swept.expect_err("foreign"), SolveError::ForeignWorkspace);
     let mut lanes = other.lanes().expect("a plan");
     let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);

@@ -1,9 +1,12 @@
 //! One design of a job: its mechanism with one choice of the varied values.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_closure::Target;
+use hyperstat_model::{Geometry, LANES, Model};
 
+use super::mover::Placing;
 use super::poses::Poses;
 use super::subject::{Checked, Recipe, Subject};
 use super::vary::{Variation, Varied};
@@ -21,6 +24,18 @@ pub struct Design {
     pub(crate) values: Vec<Value>,
     pub(crate) subject: Arc<Subject>,
     pub(crate) poses: Arc<Poses>,
+}
+
+impl Mechanism {
+    /// The mechanism as the only design of a job in its own configuration.
+    pub fn design(&self) -> Design {
+        Design {
+            number: 0,
+            values: Vec::new(),
+            subject: Arc::new(Subject::of(Box::new(self.clone()))),
+            poses: Arc::new(Poses::Own),
+        }
+    }
 }
 
 impl Design {
@@ -60,6 +75,37 @@ impl Design {
     /// If `pose` is not below [`Design::len`].
     pub fn place(&self, pose: usize, geometry: &mut Geometry) -> Result<[f64; 6], PoseError> {
         self.subject.place(&self.poses, pose, geometry)
+    }
+
+    /// Brings geometries, each as that of [`Design::place`], to these poses (from 0), the first of
+    /// them to the first pose: at most [`LANES`] together, which is faster than one by one. What is
+    /// found at a pose does not depend on the others; `placing` is kept from call to call.
+    ///
+    /// # Panics
+    /// If a pose is not below [`Design::len`], or if there are more poses than geometries or [`LANES`].
+    pub fn place_lanes(
+        &self,
+        poses: Range<usize>,
+        geometries: &mut [Geometry],
+        placing: &mut Placing,
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        self.subject
+            .place_lanes(&self.poses, poses, geometries, placing)
+    }
+
+    /// Brings `geometry`, as that of [`Design::place`], to a target that need be no pose of the job; returns
+    /// the output's whole pose. A prebuilt mechanism is asked for all coordinates of the output that it
+    /// takes, and for no others but zeros. `placing` is kept from call to call.
+    ///
+    /// # Errors
+    /// The target cannot be reached, or is not one of this mechanism; `geometry` is then as it was.
+    pub fn bring(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+        _placing: &mut Placing,
+    ) -> Result<[f64; 6], PoseError> {
+        self.subject.bring(target, geometry)
     }
 
     /// The mechanism, where it comes from a file; its loads are the job's.

@@ -1,9 +1,13 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use hyperstat_model::{Geometry, Model, NodeId, ValuePlace};
+use std::ops::Range;
+use std::sync::OnceLock;
+
+use hyperstat_closure::Target;
+use hyperstat_model::{Geometry, LANES, Model, NodeId, ValuePlace};
 use nalgebra::{Rotation3, Vector3};
 
-use super::mover::Mover;
+use super::mover::{Mover, Placing};
 use super::poses::Poses;
 use super::targets::{Asked, Targets};
 use crate::error::LoadError;
@@ -17,7 +21,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
 use crate::text::tree::Node;
-use crate::text::{named, names};
+use crate::text::{csv, named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug, Clone)]
@@ -44,8 +48,8 @@ pub(crate) enum Checked {
 pub(crate) enum Subject {
     File {
         mechanism: Box<Mechanism>,
-        /// Where the job has poses.
-        mover: Option<Box<Mover>>,
+        /// Made for the first pose that is asked.
+        mover: OnceLock<Box<Mover>>,
     },
     Prebuilt {
         mechanism: Box<dyn Prebuilt>,
@@ -150,11 +154,7 @@ impl Recipe {
         similar: Option<&Subject>,
     ) -> Result<Subject, LoadError> {
         match checked {
-            Checked::File(mechanism) => {
-                let moves = matches!(poses, Poses::Asked(_));
-                let mover = moves.then(|| Box::new(Mover::new(&mechanism.model)));
-                Ok(Subject::File { mechanism, mover })
-            }
+            Checked::File(mechanism) => Ok(Subject::of(mechanism)),
             Checked::Prebuilt(mechanism) => {
                 let mut template = template(mechanism.as_ref(), poses, similar);
                 if let Ok(template) = &mut template {
@@ -248,6 +248,14 @@ impl Checked {
 }
 
 impl Subject {
+    /// A mechanism of a file.
+    pub(crate) fn of(mechanism: Box<Mechanism>) -> Self {
+        Self::File {
+            mechanism,
+            mover: OnceLock::new(),
+        }
+    }
+
     /// The model in a pose that can be reached.
     pub(crate) fn model(&self) -> Result<Model, PoseError> {
         match self {
@@ -305,8 +313,8 @@ impl Subject {
     ) -> Result<[f64; 6], PoseError> {
         match self {
             Self::File { mechanism, mover } => {
-                if let (Some(mover), Poses::Asked(targets)) = (mover, poses) {
-                    return mover.place(targets, number, geometry);
+                if let Poses::Asked(targets) = poses {
+                    return moved(mechanism, mover).place(targets, number, geometry);
                 }
                 let model = &mechanism.model;
                 let own = model.geometry();
@@ -320,6 +328,54 @@ impl Subject {
                 let (target, count) = given(mechanism.as_ref(), &poses.get(number));
                 mechanism.place(&target[..count], geometry)
             }
+        }
+    }
+
+    /// The same for several geometries, each with a pose of its own.
+    pub(crate) fn place_lanes(
+        &self,
+        poses: &Poses,
+        range: Range<usize>,
+        geometries: &mut [Geometry],
+        placing: &mut Placing,
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        match self {
+            Self::File { mechanism, mover } => {
+                if let Poses::Asked(targets) = poses {
+                    let mover = moved(mechanism, mover);
+                    return mover.place_lanes(targets, range, geometries, placing);
+                }
+                let mut placed = [const { None }; LANES];
+                for (lane, pose) in range.enumerate() {
+                    placed[lane] = Some(self.place(poses, pose, &mut geometries[lane]));
+                }
+                placed
+            }
+            Self::Prebuilt { mechanism, .. } => {
+                let mut targets = [[0.0; 6]; LANES];
+                for (target, pose) in targets.iter_mut().zip(range.clone()) {
+                    *target = given(mechanism.as_ref(), &poses.get(pose)).0;
+                }
+                mechanism.place_lanes(&targets[..range.len()], geometries)
+            }
+        }
+    }
+
+    /// Brings a geometry of its model to a target; returns the whole pose.
+    pub(crate) fn bring(
+        &self,
+        target: &Target<'_>,
+        geometry: &mut Geometry,
+    ) -> Result<[f64; 6], PoseError> {
+        match (self, target) {
+            (Self::File { mechanism, mover }, _) => moved(mechanism, mover).bring(target, geometry),
+            (Self::Prebuilt { mechanism, .. }, Target::Output(asked)) => {
+                let (target, count) = followed(mechanism.as_ref(), asked)?;
+                mechanism.place(&target[..count], geometry)
+            }
+            (Self::Prebuilt { mechanism, .. }, Target::Drives(_)) => Err(PoseError::Drives {
+                kind: mechanism.kind().into(),
+            }),
         }
     }
 
@@ -345,6 +401,38 @@ fn own_pose(model: &Model) -> [f64; 6] {
     let position = |node: NodeId| model.geometry().positions[node.0];
     let [x, y, z] = model.output().map(position).unwrap_or_default().into();
     [x, y, z, 0.0, 0.0, 0.0]
+}
+
+/// What moves a mechanism of a file.
+fn moved<'m>(mechanism: &Mechanism, mover: &'m OnceLock<Box<Mover>>) -> &'m Mover {
+    mover.get_or_init(|| Box::new(Mover::new(&mechanism.model)))
+}
+
+/// Of what is asked of the output the coordinates that `mechanism` is given, first, and their number:
+/// all that it takes, and zeros alone of the others, as in a table of poses.
+fn followed(
+    mechanism: &dyn Prebuilt,
+    asked: &[Option<f64>; 6],
+) -> Result<([f64; 6], usize), PoseError> {
+    let coordinates = mechanism.coordinates();
+    let asks = |coordinate: &&PoseCoordinate| asked[coordinate.index()].is_some();
+    let found = coordinates.iter().filter(asks).count();
+    if found < coordinates.len() {
+        return Err(PoseError::Coordinates {
+            kind: mechanism.kind().into(),
+            expected: coordinates.len(),
+            found,
+        });
+    }
+    let follows = |index| coordinates.iter().any(|own| own.index() == index);
+    for (index, name) in csv::COLUMNS.iter().enumerate() {
+        if asked[index].is_some_and(|value| value != 0.0) && !follows(index) {
+            return Err(PoseError::Unreachable {
+                what: format!("`{}` cannot follow {name}", mechanism.kind()),
+            });
+        }
+    }
+    Ok(given(mechanism, &asked.map(Option::unwrap_or_default)))
 }
 
 /// Of a whole pose the coordinates that `mechanism` is given, first, and their number.

@@ -41,6 +41,12 @@ pub enum PoseError {
         /// Number of coordinates given.
         found: usize,
     },
+    /// Values of drives, asked of a mechanism that is moved by its output.
+    #[error("`{kind}` takes poses of its output, no values of drives")]
+    Drives {
+        /// The mechanism's kind.
+        kind: String,
+    },
     /// A pose coordinate that is not a finite number.
     #[error("pose coordinate {index} is {value}, not a finite number")]
     NotFinite {

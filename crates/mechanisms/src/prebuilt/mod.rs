@@ -95,7 +95,7 @@ use std::fmt::Debug;
 
 use hyperstat_closure::Drive;
 use hyperstat_elements::{Material, Section};
-use hyperstat_model::{Geometry, Model, ValuePlace};
+use hyperstat_model::{Geometry, LANES, Model, ValuePlace};
 
 pub use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
 pub use crate::prebuilt::error::{ParameterError, PoseError};
@@ -152,6 +152,26 @@ pub trait Prebuilt: Debug + Send + Sync {
     /// # Errors
     /// As [`Prebuilt::model`]; a geometry of another model.
     fn place(&self, pose: &[f64], geometry: &mut Geometry) -> Result<[f64; 6], PoseError>;
+
+    /// Brings each of these geometries to a pose of its own, at most [`LANES`] together: the first
+    /// coordinates of `poses[k]` are those that [`Prebuilt::place`] takes for `geometries[k]`. What is
+    /// found at a pose does not depend on the others, and a pose that fails leaves its geometry as it
+    /// was. One by one by default.
+    ///
+    /// # Panics
+    /// If there are more poses than geometries or [`LANES`].
+    fn place_lanes(
+        &self,
+        poses: &[[f64; 6]],
+        geometries: &mut [Geometry],
+    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+        let count = self.coordinates().len();
+        let mut placed = [const { None }; LANES];
+        for (k, pose) in poses.iter().enumerate() {
+            placed[k] = Some(self.place(&pose[..count], &mut geometries[k]));
+        }
+        placed
+    }
 
     /// Where all parts are at `pose`, in a geometry of its own.
     ///

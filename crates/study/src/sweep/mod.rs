@@ -1,6 +1,7 @@
 //! A job's poses, solved on all threads, with their results handed out in order.
 
 mod chunk;
+mod poser;
 mod record;
 mod share;
 mod statistics;
@@ -10,13 +11,16 @@ mod threads;
 use std::ops::Range;
 use std::sync::Arc;
 
-use hyperstat_assembly::{Geometry, LANES, Lanes, ModalPlan, Prepared, SolveError};
-use hyperstat_mechanisms::{Design, Job};
+use hyperstat_assembly::{
+    Geometry, LANES, Lanes, ModalOptions, ModalPlan, PoseResult, Prepared, SolveError,
+};
+use hyperstat_mechanisms::{Design, Job, Placing};
 
 use crate::error::StudyError;
 pub use crate::schema::Columns;
 use crate::source::Written;
 pub use chunk::{Chunk, Row};
+pub use poser::Poser;
 pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
@@ -72,7 +76,7 @@ impl<'a> Sweep<'a> {
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
             let prepared = Prepared::new(model);
-            let planned = match Planned::modal(&prepared, job) {
+            let planned = match Planned::modal(&prepared, job.modes.as_ref()) {
                 Ok(modal) => Ok(Planned { prepared, modal }),
                 Err(error) => {
                     Err(Written::Design(job, &design).unsolvable(&prepared.here(), error))
@@ -182,6 +186,7 @@ impl<'a> Sweep<'a> {
                     number,
                     design: None,
                     ready: Err(Failure::Design(Arc::new(error))),
+                    placing: Placing::default(),
                 };
             }
         };
@@ -201,6 +206,7 @@ impl<'a> Sweep<'a> {
             number,
             design: Some(design),
             ready,
+            placing: Placing::default(),
         }
     }
 }
@@ -218,15 +224,28 @@ impl Planned {
             Ok(first) => first.prepared.for_design(model)?,
             Err(_) => Prepared::new(model),
         };
-        let modal = Self::modal(&prepared, job)?;
+        let modal = Self::modal(&prepared, job.modes.as_ref())?;
         Ok(Self { prepared, modal })
     }
 
     /// What natural frequencies need, where they are asked for; the mechanism has a plan.
-    fn modal(prepared: &Prepared, job: &Job) -> Result<Option<ModalPlan>, SolveError> {
+    fn modal(
+        prepared: &Prepared,
+        modes: Option<&ModalOptions>,
+    ) -> Result<Option<ModalPlan>, SolveError> {
         prepared.unknowns()?;
-        let modal = job.modes.as_ref();
-        modal.map(|options| prepared.modal(options)).transpose()
+        modes.map(|options| prepared.modal(options)).transpose()
+    }
+
+    /// What is found in a configuration that a solution is known of.
+    fn found(
+        &self,
+        solved: Result<PoseResult, SolveError>,
+        geometry: &Geometry,
+    ) -> Result<Found, Failure> {
+        let mut found = Found::try_from(solved?)?;
+        found.further.extend(self.further(geometry)?);
+        Ok(found)
     }
 
     /// Numbers of a table's further columns in a configuration.
@@ -247,6 +266,7 @@ struct Solver {
     design: Option<Design>,
     /// Why no pose of it can be solved, where none can.
     ready: Result<(Arc<Planned>, Lanes), Failure>,
+    placing: Placing,
 }
 
 impl Solver {
@@ -276,22 +296,14 @@ impl Solver {
         };
         let Some(design) = &self.design else { return };
         for first in poses.clone().step_by(LANES) {
-            let mut placed = [const { None }; LANES];
-            for (lane, pose) in (first..poses.end).take(LANES).enumerate() {
-                placed[lane] = Some(design.place(pose, lanes.geometry_mut(lane)));
-            }
+            let poses = first..poses.end.min(first + LANES);
+            let placed = design.place_lanes(poses, lanes.geometries_mut(), &mut self.placing);
             let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
             let mut found = planned.prepared.sweep_lanes(lanes, filled);
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
-                        let mut result = result.map_err(Failure::Solve).and_then(Found::try_from);
-                        if let Ok(found) = &mut result {
-                            match planned.further(lanes.geometry_mut(lane)) {
-                                Ok(further) => found.further.extend(further),
-                                Err(error) => result = Err(error.into()),
-                            }
-                        }
+                        let result = planned.found(result, lanes.geometry_mut(lane));
                         records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),

@@ -7,6 +7,8 @@ use hyperstat_mechanisms::{LoadError, PoseError};
 use nalgebra::{Matrix6, Vector6};
 use thiserror::Error;
 
+use crate::measures::{self, Pose};
+
 /// Why a pose has no result.
 #[derive(Debug, Clone, Error)]
 pub enum Failure {
@@ -131,6 +133,18 @@ impl Found {
             *number = self.stiffness[place];
         }
         numbers
+    }
+
+    /// Its inverse \[m/N, m/(N·m); rad/N, rad/(N·m)\]; `None` of a stiffness that is not positive definite.
+    pub fn compliance(&self) -> Option<Matrix6<f64>> {
+        Pose::new(&self.stiffness).compliance().copied()
+    }
+
+    /// A measure by its name, such as `deflection` or `softest_force` (`hyperstat plot`'s, SI); `None` where
+    /// it has none, or there is no such measure.
+    pub fn measure(&self, name: &str) -> Option<f64> {
+        let rule = measures::named(name)?.rule;
+        Pose::new(&self.stiffness).measure(rule, &self.displacement)
     }
 
     fn is_finite(&self) -> bool {

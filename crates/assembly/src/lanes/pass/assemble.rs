@@ -1,12 +1,13 @@
 //! What elements, springs and loads add to a front.
 
-use nalgebra::Vector6;
 use pulp::Simd;
 
+use super::acts::{carried, read};
 use super::blocks::{arm, place};
-use super::lane::{Lane, Vec3, add, cross, dot, three};
-use crate::lanes::program::element::NodeMotion;
+use super::lane::{Lane, Vec3, add, cross, dot, scaled, three};
+use crate::lanes::program::element::{Element, NodeMotion};
 use crate::lanes::program::fronts::Moves;
+use crate::lanes::program::inputs::Point;
 
 /// A front under assembly, with what belongs to it.
 pub(crate) struct Assembly<'a, S: Simd> {
@@ -16,13 +17,17 @@ pub(crate) struct Assembly<'a, S: Simd> {
     pub size: usize,
     /// By variables: what was added to the diagonal, as a measure of its rounding.
     pub errors: &'a mut [S::f64s],
-    /// Twists of the screws, six entries a coordinate.
+    /// Twists of the screws, six entries each.
     pub screws: &'a [S::f64s],
     pub inputs: &'a [S::f64s],
     /// By coordinates: whether it tells an idle motion.
     pub idle: &'a [bool],
-    /// By variables: the sum of squares that the entry in the loads' row was made of.
+    /// Variables before the rows of what acts.
+    pub columns: usize,
+    /// By rows and variables: the sum of squares that the entry in the row was made of.
     pub load_errors: &'a mut [S::f64s],
+    /// What acts, six numbers each.
+    pub acts: &'a [S::f64s],
 }
 
 /// Places of a node's coordinates among the front's variables.
@@ -58,10 +63,10 @@ impl<S: Simd> Assembly<'_, S> {
         *error = self.simd.add_f64s(*error, value.value);
     }
 
-    /// Adds to the measure of the rounding of a variable's entry in the loads' row.
+    /// Adds to the measure of the rounding of a variable's entry in a row of what acts.
     #[inline(always)]
-    pub fn add_load_error(&mut self, i: usize, squares: Lane<S>) {
-        let error = &mut self.load_errors[i];
+    pub fn add_load_error(&mut self, row: usize, i: usize, squares: Lane<S>) {
+        let error = &mut self.load_errors[(row - self.columns) * self.size + i];
         *error = self.simd.add_f64s(*error, squares.value);
     }
 
@@ -77,8 +82,8 @@ impl<S: Simd> Assembly<'_, S> {
     }
 
     #[inline(always)]
-    pub fn screw(&self, coordinate: usize) -> (Vec3<S>, Vec3<S>) {
-        let at = &self.screws[6 * coordinate..6 * coordinate + 6];
+    pub fn screw(&self, screw: usize) -> (Vec3<S>, Vec3<S>) {
+        let at = &self.screws[6 * screw..6 * screw + 6];
         (
             three!(k => Lane::new(self.simd, at[k])),
             three!(k => Lane::new(self.simd, at[3 + k])),
@@ -159,16 +164,16 @@ impl<S: Simd> Assembly<'_, S> {
     /// A block of one node with itself.
     #[inline(always)]
     fn add_own(&mut self, block: &[S::f64s], node: &NodeMotion, places: &Places<'_>) {
-        for (b, &coordinate) in node.screws.iter().enumerate() {
-            let (linear, angular) = self.times(block, coordinate, [6, 1]);
+        for (b, own) in node.screws.iter().enumerate() {
+            let (linear, angular) = self.times(block, own.screw, [6, 1]);
             if let Some(root) = places.root {
                 for i in 0..3 {
                     self.add(root[i], places.screws[b], linear[i]);
                     self.add(root[3 + i], places.screws[b], angular[i]);
                 }
             }
-            for (a, &other) in node.screws[..=b].iter().enumerate() {
-                let (v, w) = self.screw(other);
+            for (a, other) in node.screws[..=b].iter().enumerate() {
+                let (v, w) = self.screw(other.screw);
                 let energy = dot(&v, &linear) + dot(&w, &angular);
                 if a == b {
                     self.add_diagonal(places.screws[b], energy);
@@ -188,24 +193,24 @@ impl<S: Simd> Assembly<'_, S> {
         places: [&Places<'_>; 2],
     ) {
         if let Some(root) = places[1].root {
-            for (a, &coordinate) in nodes[0].screws.iter().enumerate() {
-                let (linear, angular) = self.times(block, coordinate, [1, 6]);
+            for (a, own) in nodes[0].screws.iter().enumerate() {
+                let (linear, angular) = self.times(block, own.screw, [1, 6]);
                 for j in 0..3 {
                     self.add_pair(places[0].screws[a], root[j], linear[j]);
                     self.add_pair(places[0].screws[a], root[3 + j], angular[j]);
                 }
             }
         }
-        for (b, &coordinate) in nodes[1].screws.iter().enumerate() {
-            let (linear, angular) = self.times(block, coordinate, [6, 1]);
+        for (b, own) in nodes[1].screws.iter().enumerate() {
+            let (linear, angular) = self.times(block, own.screw, [6, 1]);
             if let Some(root) = places[0].root {
                 for i in 0..3 {
                     self.add_pair(root[i], places[1].screws[b], linear[i]);
                     self.add_pair(root[3 + i], places[1].screws[b], angular[i]);
                 }
             }
-            for (a, &other) in nodes[0].screws.iter().enumerate() {
-                let (v, w) = self.screw(other);
+            for (a, other) in nodes[0].screws.iter().enumerate() {
+                let (v, w) = self.screw(other.screw);
                 let energy = dot(&v, &linear) + dot(&w, &angular);
                 self.add_pair(places[0].screws[a], places[1].screws[b], energy);
             }
@@ -217,17 +222,69 @@ impl<S: Simd> Assembly<'_, S> {
     fn times(
         &self,
         block: &[S::f64s],
-        coordinate: usize,
+        screw: usize,
         [rows, columns]: [usize; 2],
     ) -> (Vec3<S>, Vec3<S>) {
-        let (v, w) = self.screw(coordinate);
+        let (v, w) = self.screw(screw);
         (
             three!(i => product_of_row(self.simd, &block[i * rows..], columns, &v, &w)),
             three!(i => product_of_row(self.simd, &block[(3 + i) * rows..], columns, &v, &w)),
         )
     }
 
-    /// Adds a wrench on a node (linear and angular part, at the node) to the loads' row.
+    /// Adds what the shifts of an element do to the rows of what acts: the wrenches that hold it
+    /// there, `blocks` times them. `points` of the nodes; `rows`: places of the rows of its columns.
+    #[inline(always)]
+    pub fn add_shifts(
+        &mut self,
+        element: &Element,
+        places: &[usize],
+        rows: &[usize],
+        blocks: &[S::f64s],
+        points: &[Point],
+    ) {
+        let simd = self.simd;
+        for (column, &row) in element.columns.iter().zip(rows) {
+            for shift in &element.shifts {
+                if shift.column != *column {
+                    continue;
+                }
+                // Points of a joint are one.
+                let to = points[shift.node.min(points.len() - 1)];
+                let own = read(simd, self.acts, shift.act);
+                let (linear, angular) = carried(simd, &own, shift.point, to, self.inputs);
+                let sign = Lane::splat(simd, shift.sign);
+                let (linear, angular) = (scaled(&linear, sign), scaled(&angular, sign));
+                let mut start = 0;
+                for (r, node) in element.nodes.iter().enumerate() {
+                    let (_, end) = split(node, places, start);
+                    let (from, [rows, columns]) = if r <= shift.node {
+                        (place(r, shift.node), [6, 1])
+                    } else {
+                        (place(shift.node, r), [1, 6])
+                    };
+                    let block = &blocks[from..from + 36];
+                    let force: Vec3<S> = three!(i => {
+                        product_of_row(simd, &block[i * rows..], columns, &linear, &angular)
+                    });
+                    let moment: Vec3<S> = three!(i => {
+                        product_of_row(simd, &block[(3 + i) * rows..], columns, &linear, &angular)
+                    });
+                    if r == shift.node {
+                        let energy = dot(&force, &linear) + dot(&moment, &angular);
+                        let error = &mut self.errors[row];
+                        *error = simd.add_f64s(*error, energy.value);
+                    }
+                    if node.moves() {
+                        self.add_load(node, &places[start..end], row, &force, &moment);
+                    }
+                    start = end;
+                }
+            }
+        }
+    }
+
+    /// Adds a wrench on a node (linear and angular part, at the node) to a row of what acts.
     #[inline(always)]
     pub fn add_load(
         &mut self,
@@ -246,17 +303,17 @@ impl<S: Simd> Assembly<'_, S> {
             for k in 0..3 {
                 self.add(row, root[k], force[k]);
                 self.add(row, root[3 + k], moment[k]);
-                self.add_load_error(root[k], force[k] * force[k]);
-                self.add_load_error(root[3 + k], dot(&moment, &moment));
+                self.add_load_error(row, root[k], force[k] * force[k]);
+                self.add_load_error(row, root[3 + k], dot(&moment, &moment));
             }
         }
-        for (a, &coordinate) in node.screws.iter().enumerate() {
-            let (v, w) = self.screw(coordinate);
+        for (a, own) in node.screws.iter().enumerate() {
+            let (v, w) = self.screw(own.screw);
             let place = places.screws[a];
             self.add(row, place, dot(&v, force) + dot(&w, &moment));
             let by_force = dot(&v, &v) * dot(force, force);
             let by_moment = dot(&w, &w) * dot(&moment, &moment);
-            self.add_load_error(place, by_force + by_moment);
+            self.add_load_error(row, place, by_force + by_moment);
         }
     }
 }
@@ -306,13 +363,4 @@ fn product_of_row<S: Simd>(
     let first: Vec3<S> = three!(k => Lane::new(simd, row[k * stride]));
     let last: Vec3<S> = three!(k => Lane::new(simd, row[(3 + k) * stride]));
     dot(&first, linear) + dot(&last, angular)
-}
-
-/// The parts of a constant wrench.
-#[inline(always)]
-pub(crate) fn parts<S: Simd>(simd: S, wrench: &Vector6<f64>) -> (Vec3<S>, Vec3<S>) {
-    (
-        three!(k => Lane::splat(simd, wrench[k])),
-        three!(k => Lane::splat(simd, wrench[3 + k])),
-    )
 }

@@ -2,7 +2,7 @@
 
 use aligned_vec::{AVec, ConstAlign};
 
-use crate::lanes::pass::RESULTS;
+use crate::lanes::pass::{TRIANGLE, results};
 use crate::lanes::program::Program;
 
 /// Numbers aligned as the widest registers are.
@@ -13,11 +13,13 @@ pub(crate) type Numbers = AVec<f64, ConstAlign<64>>;
 pub(crate) struct Buffers {
     pub width: usize,
     pub inputs: Numbers,
+    /// What acts.
+    pub acts: Numbers,
     pub screws: Numbers,
     pub errors: Numbers,
     /// Of one front's variables.
     pub local_errors: Numbers,
-    /// Of the loads' row, of all coordinates and of one front's variables; none without a row.
+    /// Of the rows of what acts, of all coordinates and of one front's variables.
     pub load_errors: Numbers,
     pub local_load_errors: Numbers,
     /// Of one hang.
@@ -26,8 +28,15 @@ pub(crate) struct Buffers {
     pub panel: Numbers,
     pub rests: Numbers,
     pub blocks: Numbers,
-    /// That one chain transmits, and what loads within do.
+    /// That one chain transmits, and what acts within does.
     pub wrenches: Numbers,
+    /// Compliances of one chain's links.
+    pub links: Numbers,
+    /// Conditions of one loop of rigid bodies, and their scales.
+    pub conditions: Numbers,
+    pub scales: Numbers,
+    /// Displacements by columns, with their relative errors and squared sizes.
+    pub columns: Numbers,
     pub results: Numbers,
 }
 
@@ -35,22 +44,28 @@ impl Buffers {
     pub fn new(program: &Program, width: usize) -> Self {
         let zeros = |count: usize| Numbers::from_iter(64, std::iter::repeat_n(0.0, count * width));
         let fronts = &program.fronts;
-        let loaded = fronts.loaded;
+        let rows = fronts.rows;
+        let [entries, conditions] = program.loops.room();
         Self {
             width,
             inputs: zeros(3 * program.inputs.len()),
-            screws: zeros(6 * program.coordinates),
-            errors: zeros(program.coordinates),
+            acts: zeros(6 * program.acts.count),
+            screws: zeros(6 * program.loops.screws),
+            errors: zeros(program.coordinates + rows),
             local_errors: zeros(fronts.largest),
-            load_errors: zeros(if loaded { program.coordinates } else { 0 }),
-            local_load_errors: zeros(if loaded { fronts.largest } else { 0 }),
+            load_errors: zeros(rows * program.coordinates),
+            local_load_errors: zeros(rows * fronts.largest),
             gains: zeros(fronts.largest * fronts.most_targets()),
             front: zeros(fronts.largest * fronts.largest),
             panel: zeros(fronts.largest * fronts.most_pivots),
             rests: zeros(fronts.rest_len),
             blocks: zeros(36 * program.most_blocks),
             wrenches: zeros(7 * program.most_ends),
-            results: zeros(RESULTS),
+            links: zeros(TRIANGLE * program.most_links),
+            conditions: zeros(entries),
+            scales: zeros(conditions),
+            columns: zeros(8 * program.rows.len()),
+            results: zeros(results(program.states.len())),
         }
     }
 

@@ -3,14 +3,14 @@
 
 use pulp::Simd;
 
-use super::assemble::parts;
+use super::TRIANGLE;
 use super::blocks::{element_axes, spectral, vector};
 use super::lane::{
     Lane, Mat3, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub, three,
     transposed,
 };
 use crate::lanes::program::chain::{
-    BeamLink, Chain, ComplianceBlock, Item, JointLink, LinkKind, MOST_IDLE, MOST_RELEASES, Release,
+    BeamLink, Chain, ComplianceBlock, JointLink, LinkKind, Release,
 };
 
 /// Six numbers: rotations about the chain's x, y, z, times its size, then translations along
@@ -18,14 +18,14 @@ use crate::lanes::program::chain::{
 pub(crate) type Six<S> = [Lane<S>; 6];
 
 /// Places of the translations along x, y, z among six numbers.
-const LINEAR: [usize; 3] = [5, 3, 4];
+pub(crate) const LINEAR: [usize; 3] = [5, 3, 4];
 
 /// The axes (as rows) and the point that a chain's compliance is added up in.
 pub(crate) struct Frame<S: Simd> {
     pub axes: Mat3<S>,
     pub origin: Vec3<S>,
     /// Over the chain's size.
-    per_size: Lane<S>,
+    pub per_size: Lane<S>,
     /// Its square, for rotations per moments.
     square: Lane<S>,
 }
@@ -66,7 +66,7 @@ impl<S: Simd> Frame<S> {
 
     /// From the origin to a point, in the chain's axes, over its size.
     #[inline(always)]
-    fn arm_to(&self, point: &Vec3<S>) -> Vec3<S> {
+    pub fn arm_to(&self, point: &Vec3<S>) -> Vec3<S> {
         scaled(&apply(&self.axes, &sub(point, &self.origin)), self.per_size)
     }
 
@@ -95,7 +95,7 @@ impl<S: Simd> Frame<S> {
 
     /// The work of a wrench on a free motion, and the sum of its terms' squares.
     #[inline(always)]
-    fn work(
+    pub fn work(
         &self,
         simd: S,
         release: &Release,
@@ -129,79 +129,30 @@ pub(crate) fn compliance<S: Simd>(
     sum.entries
 }
 
-/// What loads between the ends do with end 1 free and end 0 held.
-pub(crate) struct Loaded<S: Simd> {
-    /// Wrench of all of them.
-    pub total: Six<S>,
-    /// What end 1 moves, free motions apart.
-    pub moved: Six<S>,
-    /// A measure of the energy.
-    pub energy: Lane<S>,
-    /// Work that is missing along free and along idle motions, with the squares of its terms.
-    pub works: [[Lane<S>; 2]; MOST_RELEASES],
-    pub idle_works: [[Lane<S>; 2]; MOST_IDLE],
-}
-
-/// The compliance of all links of a chain, and what the loads between its ends do.
+/// The same, where the compliance of each link is kept too: its lower triangle by rows, one after the
+/// other.
 #[inline(always)]
-pub(crate) fn loaded_compliance<S: Simd>(
+pub(crate) fn compliances<S: Simd>(
     simd: S,
     chain: &Chain,
     frame: &Frame<S>,
     inputs: &[S::f64s],
-) -> ([Six<S>; 6], Loaded<S>) {
-    let zero = Lane::splat(simd, 0.0);
+    links: &mut [S::f64s],
+) -> [Six<S>; 6] {
     let mut sum = Compliance::zero(simd);
-    let mut loaded = Loaded {
-        total: [zero; 6],
-        moved: [zero; 6],
-        energy: zero,
-        works: [[zero; 2]; MOST_RELEASES],
-        idle_works: [[zero; 2]; MOST_IDLE],
-    };
-    for item in chain.order.iter().rev() {
-        match *item {
-            Item::Load(k) => {
-                let load = &chain.loads[k];
-                let (force, moment) = parts(simd, &load.wrench);
-                let force = apply(&frame.axes, &force);
-                let moment = scaled(&apply(&frame.axes, &moment), frame.per_size);
-                let arm = frame.arm_to(&vector(simd, inputs, load.point));
-                let moment = add(&moment, &cross(&arm, &force));
-                for i in 0..3 {
-                    loaded.total[i] += moment[i];
-                    loaded.total[LINEAR[i]] += force[i];
-                }
-            }
-            Item::Link(k) => {
-                let mut own = Compliance::zero(simd);
-                own.add_link(simd, chain, k, frame, inputs);
-                let c = &own.entries;
-                for i in 0..6 {
-                    let mut moved = loaded.moved[i];
-                    for j in 0..6 {
-                        let entry = if i >= j { c[i][j] } else { c[j][i] };
-                        moved = entry.mul_add(loaded.total[j], moved);
-                    }
-                    loaded.moved[i] = moved;
-                    let by = c[i][i] * loaded.total[i];
-                    loaded.energy = by.mul_add(loaded.total[i], loaded.energy);
-                    for j in 0..=i {
-                        sum.entries[i][j] += c[i][j];
-                    }
-                }
-            }
-            Item::Release(k) => {
-                let [work, terms] = frame.work(simd, &chain.releases[k], &loaded.total, inputs);
-                loaded.works[k] = [-work, terms];
-            }
-            Item::Idle(k) => {
-                let [work, terms] = frame.work(simd, &chain.idle[k].along, &loaded.total, inputs);
-                loaded.idle_works[k] = [-work, terms];
+    for (k, kept) in (0..chain.links.len()).zip(links.chunks_exact_mut(TRIANGLE)) {
+        let mut own = Compliance::zero(simd);
+        own.add_link(simd, chain, k, frame, inputs);
+        let mut next = 0;
+        for i in 0..6 {
+            for j in 0..=i {
+                kept[next] = own.entries[i][j].value;
+                sum.entries[i][j] += own.entries[i][j];
+                next += 1;
             }
         }
     }
-    (sum.entries, loaded)
+    sum.entries
 }
 
 /// Unit vectors normal to a unit vector and to each other, as rows, the given one first (Duff et

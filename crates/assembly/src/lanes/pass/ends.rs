@@ -48,7 +48,7 @@ pub(crate) fn works<S: Simd>(
             next += 6 * stride;
         }
         for screw in &node.screws {
-            let (v, w) = assembly.screw(*screw);
+            let (v, w) = assembly.screw(screw.screw);
             out[next] = (dot(&v, &force) + dot(&w, &moment)).value;
             next += stride;
         }
@@ -69,19 +69,22 @@ impl<S: Simd> Terms<S> {
         chain: &Chain,
         frame: &Frame<S>,
         end: usize,
-        root: Option<usize>,
+        node: &NodeMotion,
         coordinate: usize,
     ) -> Self {
         let simd = assembly.simd;
         let (zero, one) = (Lane::splat(simd, 0.0), Lane::splat(simd, 1.0));
-        let (linear, angular) = match root {
+        let (mut linear, mut angular) = match node.root {
             Some(root) if (root..root + 3).contains(&coordinate) => (one, zero),
             Some(root) if (root..root + 6).contains(&coordinate) => (zero, one),
-            _ => {
-                let (v, w) = assembly.screw(coordinate);
-                (dot(&v, &v), dot(&w, &w))
-            }
+            _ => (zero, zero),
         };
+        for own in &node.screws {
+            if own.coordinate == coordinate {
+                let (v, w) = assembly.screw(own.screw);
+                (linear, angular) = (dot(&v, &v), dot(&w, &w));
+            }
+        }
         let arm = sub(
             &frame.origin,
             &vector(simd, assembly.inputs, chain.origins[end]),

@@ -22,8 +22,9 @@ pub(crate) struct Matrix<'a, S: Simd> {
     pub entries: &'a mut [S::f64s],
     pub size: usize,
     pub errors: &'a mut [S::f64s],
-    /// Where the last variable is the loads' row: squares of its entries' errors over
-    /// [`ROUNDING`]'s square; empty otherwise.
+    /// Variables, the last ones, that are rows of what acts; nothing is found between them.
+    pub rows: usize,
+    /// By rows: squares of their entries' errors over [`ROUNDING`]'s square, by variables.
     pub load_errors: &'a mut [S::f64s],
 }
 
@@ -40,6 +41,7 @@ pub(crate) fn eliminate<S: Simd>(
     rest: &mut [S::f64s],
 ) {
     let size = matrix.size;
+    let columns = size - matrix.rows;
     let epsilon = Lane::splat(simd, ROUNDING);
     let nan = Lane::splat(simd, f64::NAN);
     let errors = &mut matrix.errors[..size];
@@ -70,8 +72,8 @@ pub(crate) fn eliminate<S: Simd>(
                 let entry = Lane::new(simd, column[i]);
                 let mut bound =
                     still * Lane::new(simd, errors[i]) * epsilon * Lane::splat(simd, IDLE);
-                if i + 1 == size && !load_errors.is_empty() {
-                    let loads = Lane::new(simd, load_errors[k]);
+                if i >= columns {
+                    let loads = Lane::new(simd, load_errors[(i - columns) * size + k]);
                     let share = (ROUNDING * IDLE) * (ROUNDING * IDLE);
                     bound = loads.mul_add(Lane::splat(simd, share), bound);
                 }
@@ -90,9 +92,10 @@ pub(crate) fn eliminate<S: Simd>(
             *out = l.value;
             *sum = (l * l).mul_add(error, Lane::new(simd, *sum)).value;
         }
-        if !load_errors.is_empty() {
-            let error = Lane::new(simd, load_errors[k]);
-            for (l, sum) in out[k + 1..].iter().zip(&mut load_errors[k + 1..]) {
+        for row in 0..matrix.rows {
+            let own = &mut load_errors[row * size..(row + 1) * size];
+            let error = Lane::new(simd, own[k]);
+            for (l, sum) in out[k + 1..columns].iter().zip(&mut own[k + 1..columns]) {
                 let l = Lane::new(simd, *l);
                 *sum = (l * l).mul_add(error, Lane::new(simd, *sum)).value;
             }
@@ -101,7 +104,7 @@ pub(crate) fn eliminate<S: Simd>(
     let left = size - pivots;
     let (done, entries) = entries.split_at_mut(pivots * size);
     let mut column = pivots;
-    while column + 2 <= size {
+    while column + 2 <= columns {
         let mut row = column;
         while row + 4 <= size {
             rest_tile::<S, 4, 2>(simd, done, panel, entries, rest, [size, left, row, column]);
@@ -117,15 +120,10 @@ pub(crate) fn eliminate<S: Simd>(
         }
         column += 2;
     }
-    if column < size {
-        rest_tile::<S, 1, 1>(
-            simd,
-            done,
-            panel,
-            entries,
-            rest,
-            [size, left, column, column],
-        );
+    if column < columns {
+        for row in column..size {
+            rest_tile::<S, 1, 1>(simd, done, panel, entries, rest, [size, left, row, column]);
+        }
     }
 }
 

@@ -79,16 +79,8 @@ pub(crate) fn make_relative<S: Simd>(
         }
         // The entries' errors, as if the component's were the target's own.
         relative_error(simd, &mut *matrix.errors, column, b, hang, motion, &arm);
-        if !matrix.load_errors.is_empty() {
-            relative_error(
-                simd,
-                &mut *matrix.load_errors,
-                column,
-                b,
-                hang,
-                motion,
-                &arm,
-            );
+        for own in matrix.load_errors.chunks_exact_mut(matrix.size) {
+            relative_error(simd, own, column, b, hang, motion, &arm);
         }
     }
     for &row in &places.others {

@@ -1,6 +1,7 @@
 //! One pass through the lanes: as many poses as a register holds, from points and frames to the
-//! output stiffness and displacement.
+//! output stiffness and displacements.
 
+pub(crate) mod acts;
 pub(crate) mod assemble;
 pub(crate) mod blocks;
 pub(crate) mod buffers;
@@ -9,30 +10,49 @@ pub(crate) mod ends;
 pub(crate) mod factor;
 pub(crate) mod hang;
 pub(crate) mod lane;
+pub(crate) mod loaded;
+pub(crate) mod loops;
 pub(crate) mod reflections;
 pub(crate) mod transmit;
 
 use pulp::{Simd, WithSimd};
 
-use super::pass::assemble::{Assembly, parts};
+use super::pass::acts::{form, read};
+use super::pass::assemble::Assembly;
 use super::pass::blocks::{arm, bushing, flexible, vector};
 use super::pass::buffers::Buffers;
 use super::pass::factor::{Matrix, ROUNDING, eliminate};
 use super::pass::hang::{Motion, make_relative};
 use super::pass::lane::{Lane, Vec3, add, cross, scaled};
+use super::pass::loops::close;
 use super::pass::transmit::add_chain;
 use super::program::Program;
 use super::program::element::{Kind, Screw};
 use super::program::fronts::{Front, FrontPart, Moves};
 
 /// Lower triangle of a 6×6 matrix.
-const TRIANGLE: usize = 21;
-/// Entries of a result for each pose: upper triangle of the stiffness by rows, displacement, and the
-/// relative errors of both.
-pub(crate) const RESULTS: usize = TRIANGLE + 6 + 2;
-pub(crate) const DISPLACEMENT: usize = TRIANGLE;
-pub(crate) const ERROR: usize = TRIANGLE + 6;
-pub(crate) const DISPLACEMENT_ERROR: usize = TRIANGLE + 7;
+pub(crate) const TRIANGLE: usize = 21;
+/// Place of the stiffness's relative error among a pose's results, behind the upper triangle of the
+/// stiffness by rows.
+#[cfg(test)]
+pub(crate) const ERROR: usize = TRIANGLE;
+/// Of a state: its displacement and its relative error.
+const OF_STATE: usize = 7;
+
+/// Place of a state's displacement among a pose's results.
+pub(crate) fn displacement(state: usize) -> usize {
+    TRIANGLE + 1 + OF_STATE * state
+}
+
+/// Place of its relative error.
+pub(crate) fn displacement_error(state: usize) -> usize {
+    displacement(state) + 6
+}
+
+/// Entries of a pose's results.
+pub(crate) fn results(states: usize) -> usize {
+    displacement(states)
+}
 
 /// The whole pass.
 pub(crate) struct Pass<'a> {
@@ -43,6 +63,7 @@ pub(crate) struct Pass<'a> {
 /// The buffers as registers.
 struct Registers<'a, S: Simd> {
     inputs: &'a [S::f64s],
+    acts: &'a mut [S::f64s],
     screws: &'a mut [S::f64s],
     errors: &'a mut [S::f64s],
     local_errors: &'a mut [S::f64s],
@@ -54,6 +75,10 @@ struct Registers<'a, S: Simd> {
     rests: &'a mut [S::f64s],
     blocks: &'a mut [S::f64s],
     wrenches: &'a mut [S::f64s],
+    links: &'a mut [S::f64s],
+    conditions: &'a mut [S::f64s],
+    scales: &'a mut [S::f64s],
+    columns: &'a mut [S::f64s],
     results: &'a mut [S::f64s],
 }
 
@@ -64,6 +89,7 @@ impl WithSimd for Pass<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Buffers {
             inputs,
+            acts,
             screws,
             errors,
             local_errors,
@@ -75,11 +101,16 @@ impl WithSimd for Pass<'_> {
             rests,
             blocks,
             wrenches,
+            links,
+            conditions,
+            scales,
+            columns,
             results,
             ..
         } = self.buffers;
         let mut registers = Registers::<S> {
             inputs: S::as_simd_f64s(inputs).0,
+            acts: S::as_mut_simd_f64s(acts).0,
             screws: S::as_mut_simd_f64s(screws).0,
             errors: S::as_mut_simd_f64s(errors).0,
             local_errors: S::as_mut_simd_f64s(local_errors).0,
@@ -91,10 +122,19 @@ impl WithSimd for Pass<'_> {
             rests: S::as_mut_simd_f64s(rests).0,
             blocks: S::as_mut_simd_f64s(blocks).0,
             wrenches: S::as_mut_simd_f64s(wrenches).0,
+            links: S::as_mut_simd_f64s(links).0,
+            conditions: S::as_mut_simd_f64s(conditions).0,
+            scales: S::as_mut_simd_f64s(scales).0,
+            columns: S::as_mut_simd_f64s(columns).0,
             results: S::as_mut_simd_f64s(results).0,
         };
+        form(simd, &self.program.acts, registers.inputs, registers.acts);
         for screw in &self.program.screws {
             registers.place_screw(simd, screw);
+        }
+        for own in &self.program.loops.list {
+            let room = (&mut *registers.conditions, &mut *registers.scales);
+            close(simd, own, registers.inputs, registers.screws, room);
         }
         registers.errors.fill(simd.splat_f64s(0.0));
         registers.load_errors.fill(simd.splat_f64s(0.0));
@@ -151,8 +191,12 @@ impl<S: Simd> Registers<'_, S> {
         for (local, variable) in self.local_errors.iter_mut().zip(&front.variables) {
             *local = self.errors[*variable];
         }
-        for (local, variable) in self.local_load_errors.iter_mut().zip(&front.variables) {
-            *local = self.load_errors[*variable];
+        let columns = size - front.rows;
+        for (k, row) in front.variables[columns..].iter().enumerate() {
+            let of_row = (row - program.coordinates) * program.coordinates;
+            for (i, variable) in front.variables[..columns].iter().enumerate() {
+                self.local_load_errors[k * size + i] = self.load_errors[of_row + variable];
+            }
         }
         for k in 0..front.parts.len() + front.hangs.len() {
             let (part, places, moves) = if let Some((part, places)) = front.parts.get(k) {
@@ -168,19 +212,21 @@ impl<S: Simd> Registers<'_, S> {
                     entries: self.front,
                     size,
                     errors: self.local_errors,
-                    load_errors: self.local_load_errors,
+                    rows: front.rows,
+                    load_errors: &mut self.local_load_errors[..front.rows * size],
                 };
                 let places = &scatter.hangs[k];
                 make_relative(simd, &mut matrix, hang, places, &motion, self.gains);
                 (hang.part, &hang.part_places, &scatter.hung_parts[k])
             };
-            self.add_part(simd, program, size, part, places, moves);
+            self.add_part(simd, program, [size, columns], part, places, moves);
         }
         let mut matrix = Matrix::<S> {
             entries: self.front,
             size,
             errors: self.local_errors,
-            load_errors: self.local_load_errors,
+            rows: front.rows,
+            load_errors: &mut self.local_load_errors[..front.rows * size],
         };
         let left = size - front.pivots;
         let rest = &mut self.rests[front.rest_start..][..left * left];
@@ -196,10 +242,11 @@ impl<S: Simd> Registers<'_, S> {
         for (local, variable) in boundary.zip(&front.variables[front.pivots..]) {
             self.errors[*variable] = *local;
         }
-        if program.fronts.loaded {
-            let boundary = self.local_load_errors[front.pivots..].iter();
-            for (local, variable) in boundary.zip(&front.variables[front.pivots..]) {
-                self.load_errors[*variable] = *local;
+        for (k, row) in front.variables[columns..].iter().enumerate() {
+            let of_row = (row - program.coordinates) * program.coordinates;
+            for i in front.pivots..columns {
+                self.load_errors[of_row + front.variables[i]] =
+                    self.local_load_errors[k * size + i];
             }
         }
     }
@@ -209,7 +256,7 @@ impl<S: Simd> Registers<'_, S> {
         &mut self,
         simd: S,
         program: &Program,
-        size: usize,
+        [size, columns]: [usize; 2],
         part: FrontPart,
         places: &[usize],
         moves: &Moves,
@@ -222,151 +269,233 @@ impl<S: Simd> Registers<'_, S> {
             screws: self.screws,
             inputs: self.inputs,
             idle: &program.idle,
+            columns,
             load_errors: self.local_load_errors,
+            acts: self.acts,
         };
-        // The loads' row is the last coordinate of those that have it.
-        let row = places[places.len() - 1];
-        match part {
-            FrontPart::Spring(k) => assembly.add_spring(places, program.springs[k].stiffness),
+        let k = match part {
+            FrontPart::Spring(k) => {
+                assembly.add_spring(places, program.springs[k].stiffness);
+                return;
+            }
             FrontPart::Load(k) => {
-                if program.fronts.loaded {
-                    let load = &program.loads[k];
-                    let (force, moment) = parts(simd, &load.wrench);
+                let load = &program.loads[k];
+                if program.rows[load.column].is_some() {
+                    // The row is the last of its coordinates.
+                    let row = places[places.len() - 1];
+                    let (force, moment) = read(simd, self.acts, load.act);
                     assembly.add_load(&load.node, places, row, &force, &moment);
                 }
+                return;
             }
-            FrontPart::Element(k) => {
-                let element = &program.elements[k];
-                let nodes = &element.nodes;
-                match &element.kind {
-                    Kind::Chain(chain) => {
-                        let wrenches = &mut *self.wrenches;
-                        add_chain(&mut assembly, chain, nodes, places, &moves.pairs, wrenches);
-                        return;
-                    }
-                    Kind::Flexible(body) => flexible(simd, body, self.inputs, self.blocks),
-                    Kind::Bushing { columns, stiffness } => {
-                        let count = nodes.len();
-                        bushing(simd, columns, stiffness, count, self.inputs, self.blocks);
-                    }
-                }
-                assembly.add_element(nodes, places, self.blocks, moves);
+            FrontPart::Element(k) => k,
+        };
+        let element = &program.elements[k];
+        let nodes = &element.nodes;
+        let points = match &element.kind {
+            Kind::Chain(chain) => {
+                let room = (&mut *self.wrenches, &mut *self.links);
+                add_chain(
+                    &mut assembly,
+                    (element, chain),
+                    (places, &moves.pairs),
+                    room,
+                );
+                return;
             }
+            Kind::Flexible(body) => {
+                flexible(simd, body, self.inputs, self.blocks);
+                &body.points[..]
+            }
+            Kind::Bushing {
+                point,
+                columns,
+                stiffness,
+            } => {
+                bushing(
+                    simd,
+                    columns,
+                    stiffness,
+                    nodes.len(),
+                    self.inputs,
+                    self.blocks,
+                );
+                std::slice::from_ref(point)
+            }
+        };
+        if !element.columns.is_empty() {
+            let rows = &places[places.len() - element.columns.len()..];
+            assembly.add_shifts(element, places, rows, self.blocks, points);
         }
+        assembly.add_element(nodes, places, self.blocks, moves);
     }
 
-    /// Stiffness and displacement from what the last front left.
+    /// Stiffness and displacements from what the last front left.
     #[inline(always)]
     fn finish(&mut self, simd: S, program: &Program) {
         let Some(last) = program.fronts.list.last() else {
             return;
         };
         let zero = Lane::splat(simd, 0.0);
-        let height = 6 + usize::from(program.fronts.loaded);
+        let rounding = Lane::splat(simd, ROUNDING);
+        let height = 6 + program.fronts.rows;
+        let rest = &self.rests[last.rest_start..];
+        let variables = &last.variables[last.pivots..];
         let mut k = [[zero; 6]; 6];
-        let mut force: [Lane<S>; 6] = [zero; 6];
-        for column in 0..6 {
-            for row in column..height {
-                let entry = Lane::new(simd, self.rests[last.rest_start + column * height + row]);
-                if row < 6 {
-                    k[row][column] = entry;
-                } else {
-                    force[column] = entry;
-                }
-            }
-        }
-        if !program.fronts.loaded {
-            for load in &program.loads {
-                let (linear, mut angular) = parts(simd, &load.wrench);
-                if let Some(points) = load.node.arm {
-                    angular = add(&angular, &cross(&arm(simd, self.inputs, points), &linear));
-                }
-                for c in 0..3 {
-                    force[c] += linear[c];
-                    force[3 + c] += angular[c];
-                }
-            }
-        }
         let mut error = zero;
-        for c in 0..6 {
-            let variable = last.variables[last.pivots + c];
-            error = error.max(Lane::new(simd, self.errors[variable]) / k[c][c]);
-        }
-        let error = error * Lane::splat(simd, ROUNDING);
-        let (displacement, gain) = solve_six(&k, force);
         let mut place = 0;
-        for row in 0..6 {
-            for column in row..6 {
-                self.results[place] = k[column][row].value;
+        for column in 0..6 {
+            for row in column..6 {
+                k[row][column] = Lane::new(simd, rest[column * height + row]);
+                self.results[place] = k[row][column].value;
                 place += 1;
             }
+            let own = Lane::new(simd, self.errors[variables[column]]);
+            error = error.max(own / k[column][column]);
         }
-        for c in 0..6 {
-            self.results[DISPLACEMENT + c] = displacement[c].value;
-        }
-        self.results[ERROR] = error.value;
-        let mut lost = error + Lane::splat(simd, ROUNDING);
-        if program.fronts.loaded {
-            // A pivot's error acts on the forces handed on to the output as on the stiffness: by the
-            // geometric mean of what it does to the two diagonals.
-            let row = Lane::new(simd, self.errors[last.variables[last.pivots + 6]]);
+        let error = error * rounding;
+        self.results[place] = error.value;
+        let solver = Solver::new(&k);
+        for (column, row) in program.rows.iter().enumerate() {
+            let mut force = [zero; 6];
+            match row {
+                Some(row) => {
+                    for c in 0..6 {
+                        force[c] = Lane::new(simd, rest[c * height + 6 + row]);
+                    }
+                }
+                None => {
+                    for load in &program.loads {
+                        if load.column != column {
+                            continue;
+                        }
+                        let (linear, mut angular) = read(simd, self.acts, load.act);
+                        if let Some(points) = load.node.arm {
+                            let arm = arm(simd, self.inputs, points);
+                            angular = add(&angular, &cross(&arm, &linear));
+                        }
+                        for c in 0..3 {
+                            force[c] += linear[c];
+                            force[3 + c] += angular[c];
+                        }
+                    }
+                }
+            }
+            let displacement = solver.solve(force);
+            // Its size: the largest component, measured as its stiffness measures it.
             let mut energy = zero;
             for c in 0..6 {
                 energy = energy.max(displacement[c] * displacement[c] * k[c][c]);
             }
-            let rounding = Lane::splat(simd, ROUNDING);
-            let mut by_loads = row * rounding * error;
-            for c in 0..6 {
-                let own = Lane::new(simd, self.load_errors[last.variables[last.pivots + c]]);
-                by_loads = by_loads.max(own * rounding * rounding / k[c][c]);
+            let mut lost = error + rounding;
+            if let Some(row) = row {
+                // A pivot's error acts on the forces handed on to the output as on the stiffness: by
+                // the geometric mean of what it does to the two diagonals.
+                let own = Lane::new(simd, self.errors[program.coordinates + row]);
+                let mut by_loads = own * rounding * error;
+                for c in 0..6 {
+                    let place = row * program.coordinates + variables[c];
+                    let own = Lane::new(simd, self.load_errors[place]);
+                    by_loads = by_loads.max(own * rounding * rounding / k[c][c]);
+                }
+                let by_loads = by_loads / energy;
+                lost += by_loads.if_above(zero, by_loads, zero).sqrt();
+                // What is not a number stays so.
+                lost += own * zero;
             }
-            let by_loads = by_loads / energy;
-            lost += by_loads.if_above(zero, by_loads, zero).sqrt();
+            let out = &mut self.columns[8 * column..8 * column + 8];
+            for c in 0..6 {
+                out[c] = displacement[c].value;
+            }
+            out[6] = (lost * solver.gain).value;
+            out[7] = energy.value;
         }
-        self.results[DISPLACEMENT_ERROR] = (lost * gain).value;
+        for (state, columns) in program.states.iter().enumerate() {
+            let out = &mut self.results[displacement(state)..][..OF_STATE];
+            if let [column] = columns[..] {
+                out.copy_from_slice(&self.columns[8 * column..8 * column + OF_STATE]);
+                continue;
+            }
+            let mut sum = [zero; 6];
+            let mut lost = zero;
+            for column in columns {
+                let own = &self.columns[8 * column..8 * column + 8];
+                for c in 0..6 {
+                    sum[c] += Lane::new(simd, own[c]);
+                }
+                lost = Lane::new(simd, own[6]).mul_add(Lane::new(simd, own[7]).sqrt(), lost);
+            }
+            let mut energy = zero;
+            for c in 0..6 {
+                out[c] = sum[c].value;
+                energy = energy.max(sum[c] * sum[c] * k[c][c]);
+            }
+            let relative = lost / energy.sqrt();
+            // Nothing acts: nothing is lost.
+            out[6] = if columns.is_empty() { zero } else { relative }.value;
+        }
     }
 }
 
-/// Solves `K u = f` by L D Lᵀ (lower triangle); also the largest `K_ii (K⁻¹)_ii`: what an error of K
-/// is multiplied by.
-#[inline(always)]
-fn solve_six<S: Simd>(k: &[[Lane<S>; 6]; 6], f: [Lane<S>; 6]) -> ([Lane<S>; 6], Lane<S>) {
-    let (zero, one) = (k[0][0].constant(0.0), k[0][0].constant(1.0));
-    let mut l = *k;
-    let mut u = f;
-    let mut inverses = [zero; 6];
-    // Rows of L⁻¹.
-    let mut rows = [[zero; 6]; 6];
-    for c in 0..6 {
-        rows[c][c] = one;
-    }
-    for c in 0..6 {
-        inverses[c] = l[c][c].recip();
-        for r in c + 1..6 {
-            let minus = -(l[r][c] * inverses[c]);
-            for i in r..6 {
-                l[i][r] = l[i][c].mul_add(minus, l[i][r]);
+/// `L D Lᵀ` of the output's stiffness.
+struct Solver<S: Simd> {
+    /// Lower triangle.
+    l: [[Lane<S>; 6]; 6],
+    inverses: [Lane<S>; 6],
+    /// The largest `K_ii (K⁻¹)_ii`: what an error of K is multiplied by.
+    gain: Lane<S>,
+}
+
+impl<S: Simd> Solver<S> {
+    #[inline(always)]
+    fn new(k: &[[Lane<S>; 6]; 6]) -> Self {
+        let (zero, one) = (k[0][0].constant(0.0), k[0][0].constant(1.0));
+        let mut l = *k;
+        let mut inverses = [zero; 6];
+        // Rows of L⁻¹.
+        let mut rows = [[zero; 6]; 6];
+        for c in 0..6 {
+            rows[c][c] = one;
+        }
+        for c in 0..6 {
+            inverses[c] = l[c][c].recip();
+            for r in c + 1..6 {
+                let minus = -(l[r][c] * inverses[c]);
+                for i in r..6 {
+                    l[i][r] = l[i][c].mul_add(minus, l[i][r]);
+                }
+                for i in 0..=c {
+                    rows[r][i] = rows[c][i].mul_add(minus, rows[r][i]);
+                }
             }
-            u[r] = u[c].mul_add(minus, u[r]);
-            for i in 0..=c {
-                rows[r][i] = rows[c][i].mul_add(minus, rows[r][i]);
+        }
+        let mut gain = one;
+        for i in 0..6 {
+            let mut own = zero;
+            for r in i..6 {
+                own = (rows[r][i] * rows[r][i]).mul_add(inverses[r], own);
+            }
+            gain = gain.max((k[i][i] * own).abs());
+        }
+        Self { l, inverses, gain }
+    }
+
+    /// `K u = f`.
+    #[inline(always)]
+    fn solve(&self, mut u: [Lane<S>; 6]) -> [Lane<S>; 6] {
+        for c in 0..6 {
+            for r in c + 1..6 {
+                let minus = -(self.l[r][c] * self.inverses[c]);
+                u[r] = u[c].mul_add(minus, u[r]);
             }
         }
-    }
-    let mut gain = one;
-    for i in 0..6 {
-        let mut own = zero;
-        for r in i..6 {
-            own = (rows[r][i] * rows[r][i]).mul_add(inverses[r], own);
+        for c in (0..6).rev() {
+            let mut sum = u[c];
+            for r in c + 1..6 {
+                sum = (-self.l[r][c]).mul_add(u[r], sum);
+            }
+            u[c] = sum * self.inverses[c];
         }
-        gain = gain.max((k[i][i] * own).abs());
+        u
     }
-    for c in (0..6).rev() {
-        let mut sum = u[c];
-        for r in c + 1..6 {
-            sum = (-l[r][c]).mul_add(u[r], sum);
-        }
-        u[c] = sum * inverses[c];
-    }
-    (u, gain)
 }

@@ -10,6 +10,7 @@ use hyperstat_elements::PlaneFlexibility;
 use hyperstat_model::{Geometry, Model, NodeId, SegmentBeam, SegmentId, unit_beam};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
+use super::acts::Act;
 use super::inputs::{Inputs, Point};
 
 /// Most free motions within a chain: with six it would transmit nothing.
@@ -59,11 +60,12 @@ pub(crate) struct Idle {
     pub along: Release,
 }
 
-/// A constant wrench on a point.
+/// A wrench on a point.
 #[derive(Debug, Clone)]
 pub(crate) struct InnerLoad {
     pub point: Point,
-    pub wrench: Vector6<f64>,
+    pub act: Act,
+    pub column: usize,
 }
 
 /// A part that gives way.
@@ -260,7 +262,7 @@ impl Chain {
 
 impl Release {
     /// The twist at a point, its translations over `size`.
-    fn twist(
+    pub fn twist(
         &self,
         at: impl Fn(usize) -> Vector3<f64>,
         about: &Vector3<f64>,

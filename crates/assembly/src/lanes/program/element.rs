@@ -1,7 +1,8 @@
 //! Elements as the lanes take them.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Matrix6;
 
+use super::acts::Act;
 use super::chain::{Chain, InnerLoad, Release};
 use super::inputs::Point;
 
@@ -9,10 +10,20 @@ use super::inputs::Point;
 /// component's reference point.
 #[derive(Debug, Clone)]
 pub(crate) struct Screw {
+    /// Its coordinate, and its place among the screws.
     pub coordinate: usize,
+    /// Whether its joint is in a loop of rigid bodies.
+    pub in_loop: bool,
     pub motion: Release,
     /// From the joint to the reference point, where they differ.
     pub arm: Option<[Point; 2]>,
+}
+
+/// A coordinate that moves something, with the place of the screw that it moves it along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Moving {
+    pub coordinate: usize,
+    pub screw: usize,
 }
 
 /// How a node of an element moves.
@@ -21,7 +32,7 @@ pub(crate) struct NodeMotion {
     /// First of the six coordinates of its component's root.
     pub root: Option<usize>,
     /// Coordinates of the joints between root and node.
-    pub screws: Vec<usize>,
+    pub screws: Vec<Moving>,
     /// From the component's reference point to the node, where they differ.
     pub arm: Option<[Point; 2]>,
 }
@@ -34,7 +45,12 @@ impl NodeMotion {
 
     pub fn coordinates(&self) -> impl Iterator<Item = usize> {
         let root = self.root.into_iter().flat_map(|start| start..start + 6);
-        root.chain(self.screws.iter().copied())
+        root.chain(self.screws.iter().map(|moving| moving.coordinate))
+    }
+
+    /// Whether a joint's coordinate moves it.
+    pub fn is_moved_by(&self, coordinate: usize) -> bool {
+        self.screws.iter().any(|s| s.coordinate == coordinate)
     }
 }
 
@@ -43,6 +59,26 @@ impl NodeMotion {
 pub(crate) struct Element {
     pub kind: Kind,
     pub nodes: Vec<NodeMotion>,
+    /// Where its nodes stand when no force is on it.
+    pub shifts: Vec<Shift>,
+    /// Columns of what acts on it; filled in once all elements are joined.
+    pub columns: Vec<usize>,
+    /// Of a chain whose ends one coordinate moves: its places among the ends' coordinates, two by two.
+    pub shared: Vec<[usize; 2]>,
+}
+
+/// What a node of an element stands off by when no force is on the element, in one of the columns of
+/// what acts.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shift {
+    /// Of the element's nodes.
+    pub node: usize,
+    /// Displacement, at a point that the node moves as one with.
+    pub act: Act,
+    pub point: Point,
+    /// 1, or −1 for the opposite.
+    pub sign: f64,
+    pub column: usize,
 }
 
 /// Where an element's stiffness comes from.
@@ -54,6 +90,7 @@ pub(crate) enum Kind {
     Flexible(FlexibleElement),
     /// A stiffness between two nodes at one point, in a joint's frame (its columns' places).
     Bushing {
+        point: Point,
         columns: [usize; 3],
         stiffness: Box<Matrix6<f64>>,
     },
@@ -81,7 +118,9 @@ pub(crate) struct Spring {
 pub(crate) struct NodeLoad {
     pub node: NodeMotion,
     pub point: Point,
-    pub wrench: Vector6<f64>,
+    /// Wrench, about the point.
+    pub act: Act,
+    pub column: usize,
 }
 
 impl NodeLoad {
@@ -89,7 +128,8 @@ impl NodeLoad {
     pub fn inner(self) -> InnerLoad {
         InnerLoad {
             point: self.point,
-            wrench: self.wrench,
+            act: self.act,
+            column: self.column,
         }
     }
 }
@@ -125,8 +165,8 @@ impl Element {
 
     /// Whether anything moves it, or loads within could work on an idle motion of its own.
     pub fn counts(&self) -> bool {
-        let has_idle = matches!(&self.kind, Kind::Chain(chain) if !chain.idle.is_empty());
-        self.moves() || (has_idle && self.is_loaded())
+        let works = |chain: &Chain| !chain.idle.is_empty() && !chain.loads.is_empty();
+        self.moves() || matches!(&self.kind, Kind::Chain(chain) if works(chain))
     }
 
     /// Whether anything moves it.
@@ -134,9 +174,38 @@ impl Element {
         self.nodes.iter().any(NodeMotion::moves)
     }
 
-    /// Whether loads act on what lies within it.
+    /// Whether anything acts on what lies within it.
     pub fn is_loaded(&self) -> bool {
-        matches!(&self.kind, Kind::Chain(chain) if !chain.loads.is_empty())
+        !self.shifts.is_empty()
+            || matches!(&self.kind, Kind::Chain(chain) if !chain.loads.is_empty())
+    }
+
+    /// Links of a chain that something acts on.
+    pub fn loaded_links(&self) -> usize {
+        match &self.kind {
+            Kind::Chain(chain) if self.is_loaded() => chain.links.len(),
+            _ => 0,
+        }
+    }
+
+    /// Finds the columns of what acts on it, and coordinates that move two of its nodes.
+    pub fn settle(&mut self) {
+        let all: Vec<usize> = self
+            .nodes
+            .iter()
+            .flat_map(NodeMotion::coordinates)
+            .collect();
+        let first = |k: usize| all.iter().position(|c| *c == all[k]);
+        let shared = (0..all.len()).filter_map(|k| Some([k, first(k).filter(|f| *f < k)?]));
+        self.shared = shared.collect();
+        let own = self.shifts.iter().map(|shift| shift.column);
+        self.columns = own.collect();
+        if let Kind::Chain(chain) = &self.kind {
+            self.columns
+                .extend(chain.loads.iter().map(|load| load.column));
+        }
+        self.columns.sort_unstable();
+        self.columns.dedup();
     }
 
     /// Coordinates of a chain.

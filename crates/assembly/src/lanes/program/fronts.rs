@@ -58,6 +58,8 @@ pub(crate) struct Front {
     pub pivots: usize,
     /// Pivots, the last ones, that idle motions leave without stiffness.
     pub idle: usize,
+    /// Variables, the last ones, that are rows of what acts.
+    pub rows: usize,
     /// Parts with the places of their coordinates among the variables.
     pub parts: Vec<(FrontPart, Vec<usize>)>,
     pub children: Vec<Child>,
@@ -84,8 +86,8 @@ pub(crate) struct Fronts {
     pub largest: usize,
     pub most_pivots: usize,
     pub rest_len: usize,
-    /// Whether the last front has the loads' row.
-    pub loaded: bool,
+    /// Rows of what acts, all of which the last front has.
+    pub rows: usize,
 }
 
 /// A front while the tree is made.
@@ -112,26 +114,26 @@ enum Origin {
 
 impl Fronts {
     /// Orders the elimination of these `coordinates` by least boundary, `late` ones a little later.
-    /// `idle` ones come after all others but the output's. `None` where nothing
-    /// acts on some coordinate.
+    /// `idle` ones come after all others but the output's, and the `rows` of what acts last. `None`
+    /// where nothing acts on some coordinate.
     pub fn new(
         coordinates: Vec<usize>,
         groups: Vec<Group>,
         idle: &[usize],
         output: Range<usize>,
-        loads_row: Option<usize>,
+        rows: Range<usize>,
         late: impl Fn(usize) -> bool,
     ) -> Option<Self> {
         let last: Vec<usize> = idle
             .iter()
             .copied()
             .chain(output.clone())
-            .chain(loads_row)
+            .chain(rows.clone())
             .collect();
         let (mut nodes, cliques) = eliminate(coordinates, &groups, &last, late)?;
         let mut root = Node {
             pivots: idle.to_vec(),
-            boundary: output.chain(loads_row).collect(),
+            boundary: output.chain(rows.clone()).collect(),
             ..Node::default()
         };
         for clique in &cliques {
@@ -140,13 +142,7 @@ impl Fronts {
         nodes.push(root);
         amalgamate(&mut nodes, idle.len());
         let order = postorder(&nodes);
-        Some(Self::laid_out(
-            &nodes,
-            &order,
-            &groups,
-            idle.len(),
-            loads_row,
-        ))
+        Some(Self::laid_out(&nodes, &order, &groups, idle.len(), rows))
     }
 
     /// The fronts in order, with the places of everything.
@@ -155,7 +151,7 @@ impl Fronts {
         order: &[usize],
         groups: &[Group],
         idle: usize,
-        loads_row: Option<usize>,
+        rows: Range<usize>,
     ) -> Self {
         let mut rest_starts = vec![0; nodes.len()];
         let mut fronts = Self {
@@ -163,7 +159,7 @@ impl Fronts {
             largest: 0,
             most_pivots: 0,
             rest_len: 0,
-            loaded: loads_row.is_some(),
+            rows: rows.len(),
         };
         let mut top = 0;
         for &number in order {
@@ -198,6 +194,7 @@ impl Fronts {
                 parts: parts.collect(),
                 pivots: node.pivots.len(),
                 idle: if is_last { idle } else { 0 },
+                rows: variables.iter().filter(|v| rows.contains(v)).count(),
                 variables,
                 children,
                 hangs: Vec::new(),
@@ -216,7 +213,8 @@ impl Fronts {
 
     /// Multiplications (each with an addition) that factoring all fronts takes.
     pub fn operations(&self) -> usize {
-        let of = |f: &Front| work(f.variables.len(), f.pivots);
+        let between_rows = |f: &Front| f.pivots * f.rows * (f.rows + 1) / 2;
+        let of = |f: &Front| work(f.variables.len(), f.pivots) - between_rows(f);
         self.list.iter().map(of).sum()
     }
 }
@@ -453,12 +451,17 @@ impl Scatter {
     /// Of a front whose hangs are settled.
     pub fn new(front: &Front, elements: &[Element]) -> Self {
         let size = front.variables.len();
+        let columns = size - front.rows;
         let mut stored = vec![false; size * size];
         let mut scatter = Self::default();
         for child in &front.children {
             let count = child.places.len();
             let mut moves = Moves::default();
             for (c, &column) in child.places.iter().enumerate() {
+                // Nothing is needed between rows of what acts.
+                if column >= columns {
+                    continue;
+                }
                 for (r, &row) in child.places.iter().enumerate().skip(c) {
                     let from = child.rest_start + c * count + r;
                     moves.push(from, entry(size, row, column), &mut stored);
@@ -497,7 +500,7 @@ impl Scatter {
                 .hung_parts
                 .push(of(hang.part, &hang.part_places, &mut all));
         }
-        let lower = (0..size).flat_map(|c| (c..size).map(move |r| c * size + r));
+        let lower = (0..columns).flat_map(|c| (c..size).map(move |r| c * size + r));
         zeros.extend(lower.filter(|p| !stored[*p]).map(|p| p as u32));
         scatter.zeros = zeros;
         scatter

@@ -81,7 +81,10 @@ pub(crate) fn hang(
             else {
                 continue;
             };
-            let screws = other.screws.iter().map(|s| Some((*s, place(*s)?)));
+            let screws = other
+                .screws
+                .iter()
+                .map(|s| Some((s.screw, place(s.coordinate)?)));
             let Some(screws) = screws.collect::<Option<Vec<_>>>() else {
                 continue;
             };

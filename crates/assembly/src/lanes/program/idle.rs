@@ -21,14 +21,14 @@ const GOES: f64 = 0.25;
 
 /// One coordinate an idle motion: those with the largest minor, where coordinates count more that
 /// stay, since several chains meet at them, and roots' less that could go. `None` where the output
-/// moves without energy.
+/// moves without energy. `dependent`: coordinates that depend on others.
 pub(crate) fn idle_coordinates(
     plan: &Plan,
     topology: &Topology,
     model: &Model,
     geometry: &Geometry,
     placed: &[Option<Placed>],
-    elements: &[Element],
+    (elements, dependent): (&[Element], &[usize]),
 ) -> Option<Vec<usize>> {
     let restraint = Restraint::of(&Posture::new(model, geometry), plan.output).ok()?;
     let numbers = room::matrix(restraint.idle.len(), topology.coordinates);
@@ -57,10 +57,13 @@ pub(crate) fn idle_coordinates(
             let moving = topology.joints[tie.joint.0].moving;
             for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
                 let unit = if dof.index() < 3 { restraint.size } else { 1.0 };
-                let meeting = nodes().filter(|n| n.screws.contains(&coordinate)).count();
+                let meeting = nodes().filter(|n| n.is_moved_by(coordinate)).count();
                 let rank = if meeting > 1 { STAYS } else { 1.0 };
                 column[coordinate] = along[dof.index()] / unit * rank;
             }
+        }
+        for coordinate in dependent {
+            column[*coordinate] = 0.0;
         }
         columns.push(column);
     }

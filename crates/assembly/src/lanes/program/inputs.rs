@@ -2,7 +2,7 @@
 
 use hyperstat_elements::element_frame;
 use hyperstat_model::{
-    FlexibleId, Geometry, JointId, Model, NodeId, SegmentId, characteristic_length,
+    Axes, FlexibleId, Geometry, JointId, Model, NodeId, SegmentId, characteristic_length,
 };
 use nalgebra::{Rotation3, Vector3};
 
@@ -18,12 +18,32 @@ enum Wanted {
     FrameColumn(JointId, usize),
     YAxis(SegmentId, [NodeId; 2]),
     RotationColumn(FlexibleId, usize),
+    /// By its number among those that turn.
+    Turned(usize),
+}
+
+/// What turns a constant vector from pose to pose.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Turned {
+    /// A joint's frame.
+    Joint(JointId),
+    /// Axes of loads.
+    Axes(Axes),
+}
+
+impl Turned {
+    /// Axes of loads; `None` for the global ones.
+    pub fn by_axes(axes: &Axes) -> Option<Self> {
+        (*axes != Axes::Global).then(|| Self::Axes(axes.clone()))
+    }
 }
 
 /// The vectors that a program reads, each by its place.
 #[derive(Debug)]
 pub(crate) struct Inputs {
     sources: Vec<Wanted>,
+    /// Vectors in axes that turn.
+    turned: Vec<(Turned, Vector3<f64>)>,
     /// One node for all nodes at the same point.
     same: Vec<NodeId>,
 }
@@ -47,6 +67,7 @@ impl Inputs {
         let same = (0..count).map(|k| NodeId(same.root(k))).collect();
         Some(Self {
             sources: Vec::new(),
+            turned: Vec::new(),
             same,
         })
     }
@@ -92,18 +113,49 @@ impl Inputs {
         self.place(Wanted::RotationColumn(body, column))
     }
 
+    /// Place of a constant vector in axes that turn.
+    pub fn turned(&mut self, by: Turned, vector: Vector3<f64>) -> usize {
+        let entry = (by, vector);
+        let known = self.turned.iter().position(|own| *own == entry);
+        let number = known.unwrap_or_else(|| {
+            self.turned.push(entry);
+            self.turned.len() - 1
+        });
+        self.place(Wanted::Turned(number))
+    }
+
     /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
     /// `(3 v + k) · width + lane`.
-    pub fn read(&self, geometry: &Geometry, out: &mut [f64], width: usize, lane: usize) {
+    /// What has no axes there is no number.
+    pub fn read(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        (out, width, lane): (&mut [f64], usize, usize),
+    ) {
         for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
-            let vector = source.at(geometry);
+            let vector = match source {
+                Wanted::Turned(number) => self.turn(*number, model, geometry),
+                _ => source.at(geometry),
+            };
             out[lane] = vector.x;
             out[width + lane] = vector.y;
             out[2 * width + lane] = vector.z;
         }
     }
 
-    /// The vector at a place.
+    fn turn(&self, number: usize, model: &Model, geometry: &Geometry) -> Vector3<f64> {
+        let (by, vector) = &self.turned[number];
+        match by {
+            Turned::Joint(joint) => geometry.frames[joint.0] * vector,
+            Turned::Axes(axes) => match axes.rotation(model, geometry) {
+                Ok(rotation) => rotation * vector,
+                Err(_) => Vector3::repeat(f64::NAN),
+            },
+        }
+    }
+
+    /// The vector at a place, but for those in axes of loads.
     pub fn at(&self, geometry: &Geometry, place: usize) -> Vector3<f64> {
         self.sources[place].at(geometry)
     }
@@ -122,6 +174,8 @@ impl Wanted {
                 None => upright(geometry, ends),
             },
             Self::RotationColumn(body, c) => column(&geometry.rotations[body.0], c),
+            // Nothing that moves is told by what acts.
+            Self::Turned(_) => Vector3::repeat(f64::NAN),
         }
     }
 }

@@ -10,28 +10,34 @@
 //! taken at one reference point a component. Beams and elastic joints in series are one element
 //! ([`series`](super::series)); what lies between them has no coordinates.
 
+pub(crate) mod acts;
 pub(crate) mod chain;
+pub(crate) mod columns;
 pub(crate) mod element;
 pub(crate) mod fronts;
 pub(crate) mod hang;
 pub(crate) mod idle;
 pub(crate) mod inputs;
+pub(crate) mod loops;
 pub(crate) mod parts;
 pub(crate) mod scatter;
 pub(crate) mod series;
 
 use hyperstat_model::{Geometry, JointId, Model, characteristic_length};
-use nalgebra::Vector6;
 
+use super::program::acts::Acts;
+use super::program::columns::{Brought, Columns};
 use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
 use super::program::fronts::{Fronts, Group, Scatter};
 use super::program::hang::{hang, last_roots};
 use super::program::idle::idle_coordinates;
 use super::program::inputs::Inputs;
+use super::program::loops::Loops;
 use super::program::parts::{Parts, Placed, screws};
 use super::program::series::Series;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
+use crate::plan::trees::Component;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;
@@ -43,13 +49,21 @@ const APART: f64 = 1e-9;
 pub(crate) struct Program {
     pub inputs: Inputs,
     pub screws: Vec<Screw>,
+    /// Loops of rigid bodies.
+    pub loops: Loops,
     pub elements: Vec<Element>,
     /// Constant stiffnesses between two coordinates.
     pub springs: Vec<Spring>,
+    /// What acts, as it is formed at every pose.
+    pub acts: Acts,
     /// Loads on nodes.
     pub loads: Vec<NodeLoad>,
+    /// Columns of what acts: each one's row in the fronts; `None` where it acts on the output alone.
+    pub rows: Vec<Option<usize>>,
+    /// Columns that make up a state.
+    pub states: Vec<Vec<usize>>,
     pub fronts: Fronts,
-    /// All coordinates, the loads' row included.
+    /// All coordinates, without the rows.
     pub coordinates: usize,
     /// By coordinates: whether it tells an idle motion.
     pub idle: Vec<bool>,
@@ -57,51 +71,62 @@ pub(crate) struct Program {
     pub most_blocks: usize,
     /// Coordinates of the chain that has most.
     pub most_ends: usize,
+    /// Links of the loaded chain that has most.
+    pub most_links: usize,
 }
 
 impl Program {
-    /// The program of a plan; `None` where the lanes do not take it: closed loops of rigid bodies
-    /// whose elimination depends on the pose, motions of the output without energy, too many
+    /// The program of a plan; `None` where the lanes do not take it: loops of rigid bodies whose
+    /// elimination is not clear, or with misfits; motions of the output without energy; too many
     /// coordinates.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
-        let topology = Topology::new(model, geometry, plan.output, false).ok()?;
-        let closed = |component: &crate::plan::trees::Component| !component.closings.is_empty();
-        if topology.components.iter().any(closed) || topology.coordinates > MOST_COORDINATES {
+        let topology = Topology::new(model, geometry, plan.output, false);
+        let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
+        let closed = topology
+            .components
+            .iter()
+            .filter(|c| !c.closings.is_empty());
+        // Misfits in loops of rigid bodies may not fit.
+        let misfit = closed.into_iter().any(|c| {
+            let ties = c.ties.iter().map(|t| t.joint);
+            ties.chain(c.closings.iter().copied())
+                .any(|joint| is_misfit(&joint))
+        });
+        let network = topology.components.iter().any(Component::is_network);
+        if misfit || network || topology.coordinates > MOST_COORDINATES {
             return None;
         }
         let mut inputs = Inputs::new(model, geometry, APART)?;
         let placed = Placed::all(&topology);
+        let size = characteristic_length(geometry);
         let screws = screws(model, &topology, &placed, &mut inputs)?;
+        let seen = (&placed[..], &screws[..]);
+        let loops = Loops::new(model, geometry, &topology, seen, size, &mut inputs)?;
         let mut parts = Parts {
             model,
             geometry,
             topology: &topology,
             placed: &placed,
-            size: characteristic_length(geometry),
+            loops: &loops,
+            size,
+            standing: Vec::new(),
+            brought: Brought::default(),
             elements: Vec::new(),
             springs: Vec::new(),
         };
+        let columns = Columns::of(model)?;
+        let mut acts = Acts::default();
+        let (loads, brought) = columns.bring(&parts, &mut acts, &mut inputs)?;
+        parts.take(brought, &mut inputs);
         for subassembly in &topology.subassemblies {
             parts.add_subassembly(subassembly, &mut inputs)?;
         }
         for joint in 0..model.joints().len() {
             parts.add_joint(JointId(joint), &mut inputs)?;
         }
-        let mut loads = Vec::new();
-        for load in model.loads() {
-            let wrench = load.wrench;
-            let node = parts.motion(load.node, &mut inputs)?;
-            if node.moves() && wrench != Vector6::zeros() {
-                let point = inputs.point(load.node);
-                loads.push(NodeLoad {
-                    node,
-                    point,
-                    wrench,
-                });
-            }
-        }
         let idle = if plan.has_idle {
-            idle_coordinates(plan, &topology, model, geometry, &placed, &parts.elements)?
+            let seen = (&parts.elements[..], &loops.dependent[..]);
+            idle_coordinates(plan, &topology, model, geometry, &placed, seen)?
         } else {
             Vec::new()
         };
@@ -117,7 +142,9 @@ impl Program {
             loads,
             private: idle.clone(),
             idle,
-            gone: vec![false; topology.coordinates],
+            gone: (0..topology.coordinates)
+                .map(|c| loops.dependent.contains(&c))
+                .collect(),
         };
         let Series {
             mut elements,
@@ -133,26 +160,36 @@ impl Program {
         }
         let screws: Vec<Screw> = screws
             .into_iter()
-            .filter(|screw| !gone[screw.coordinate])
+            .filter(|screw| screw.in_loop || !gone[screw.coordinate])
             .collect();
+        for element in &mut elements {
+            element.settle();
+        }
         let of_output =
             |l: &NodeLoad| l.node.root == Some(output.start) && l.node.screws.is_empty();
-        let at_output = loads.iter().all(of_output) && elements.iter().all(|e| !e.is_loaded());
-
         let unknowns = topology.coordinates;
-        let loads_row = (!at_output).then_some(unknowns);
+        let (mut rows, mut count) = (Vec::new(), 0);
+        for column in 0..columns.len() {
+            let mut own = loads.iter().filter(|l| l.column == column);
+            let within = elements.iter().any(|e| e.columns.contains(&column));
+            let has_row = within || !own.all(of_output);
+            rows.push(has_row.then_some(count));
+            count += usize::from(has_row);
+        }
+        let variable = |column: &usize| Some(unknowns + rows[*column]?);
+
         let mut groups: Vec<Group> = Vec::new();
         for (k, element) in elements.iter().enumerate() {
             let own = element.nodes.iter().flat_map(NodeMotion::coordinates);
-            let row = loads_row.filter(|_| element.is_loaded());
-            groups.push(Group::element(k, own.chain(row).collect()));
+            let own_rows = element.columns.iter().filter_map(variable);
+            groups.push(Group::element(k, own.chain(own_rows).collect()));
         }
         for (k, spring) in springs.iter().enumerate() {
             groups.push(Group::spring(k, spring.coordinates.to_vec()));
         }
         for (k, load) in loads.iter().enumerate() {
             let own = load.node.coordinates();
-            groups.push(Group::load(k, own.chain(loads_row).collect()));
+            groups.push(Group::load(k, own.chain(variable(&load.column)).collect()));
         }
         let weights: Vec<f64> = elements.iter().map(Element::weight).collect();
         let references = placed
@@ -163,7 +200,8 @@ impl Program {
         let late = last_roots(&elements, &weights, &references);
         let late = |c: usize| late.iter().any(|root| (*root..*root + 6).contains(&c));
         let eliminated = (0..unknowns).filter(|c| !gone[*c]).collect();
-        let mut fronts = Fronts::new(eliminated, groups, &idle, output, loads_row, late)?;
+        let own_rows = unknowns..unknowns + count;
+        let mut fronts = Fronts::new(eliminated, groups, &idle, output, own_rows, late)?;
         hang(
             &mut fronts,
             &mut elements,
@@ -176,17 +214,23 @@ impl Program {
         }
         let blocks = elements.iter().map(Element::blocks);
         let ends = elements.iter().map(Element::ends);
+        let links = elements.iter().map(Element::loaded_links);
         Some(Self {
             most_blocks: blocks.max().unwrap_or(0),
             most_ends: ends.max().unwrap_or(0),
+            most_links: links.max().unwrap_or(0),
             idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
             inputs,
             screws,
+            loops,
             elements,
             springs,
+            acts,
             loads,
+            rows,
+            states: columns.states,
             fronts,
-            coordinates: unknowns + usize::from(loads_row.is_some()),
+            coordinates: unknowns,
         })
     }
 }

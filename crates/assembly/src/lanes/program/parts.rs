@@ -4,8 +4,10 @@ use hyperstat_joints::Dof;
 use hyperstat_model::{Directions, Geometry, JointId, Model, NodeId};
 
 use super::chain::{Chain, Link, Release};
-use super::element::{Element, FlexibleElement, Kind, NodeMotion, Screw, Spring};
+use super::columns::Brought;
+use super::element::{Element, FlexibleElement, Kind, Moving, NodeMotion, Screw, Shift, Spring};
 use super::inputs::{Inputs, Point};
+use super::loops::Loops;
 use crate::plan::subassemblies::Subassembly;
 use crate::plan::topology::Topology;
 
@@ -45,12 +47,21 @@ pub(crate) fn screws(
     inputs: &mut Inputs,
 ) -> Option<Vec<Screw>> {
     let mut screws = Vec::new();
+    let closed = topology
+        .components
+        .iter()
+        .filter(|c| !c.closings.is_empty());
+    let closed: Vec<usize> = closed
+        .flat_map(|c| c.ties.iter().map(|t| t.child))
+        .collect();
+    let looped = |carrier: usize| closed.contains(&carrier);
     for tie in topology.components.iter().flat_map(|c| &c.ties) {
         let reference = placed[tie.child].as_ref()?.reference;
         let moving = topology.joints[tie.joint.0].moving;
         for (coordinate, dof) in tie.coordinates.clone().zip(moving.iter()) {
             screws.push(Screw {
                 coordinate,
+                in_loop: looped(tie.child),
                 motion: release(model, tie.joint, dof, tie.child_node, inputs),
                 arm: inputs.arm(tie.child_node, reference),
             });
@@ -80,8 +91,14 @@ pub(crate) struct Parts<'a> {
     pub geometry: &'a Geometry,
     pub topology: &'a Topology,
     pub placed: &'a [Option<Placed>],
+    /// Loops of rigid bodies.
+    pub loops: &'a Loops,
     /// Of the mechanism.
     pub size: f64,
+    /// By carriers: what joints' misfits displace them by.
+    pub standing: Vec<Vec<Shift>>,
+    /// What acts on segments and joints.
+    pub brought: Brought,
     pub elements: Vec<Element>,
     pub springs: Vec<Spring>,
 }
@@ -95,7 +112,17 @@ impl Parts<'_> {
         let moves = !own.is_empty();
         Some(NodeMotion {
             root: placed.root,
-            screws: own[skipped..].to_vec(),
+            screws: match self.loops.of_carrier(carrier) {
+                Some(screws) => screws.to_vec(),
+                None => {
+                    let own = own[skipped..].iter();
+                    own.map(|c| Moving {
+                        coordinate: *c,
+                        screw: *c,
+                    })
+                    .collect()
+                }
+            },
             arm: inputs.arm(placed.reference, node).filter(|_| moves),
         })
     }
@@ -105,11 +132,52 @@ impl Parts<'_> {
         Some(inputs.point(placed.reference))
     }
 
+    /// Takes in what acts on segments and joints, before any element is added.
+    pub fn take(&mut self, brought: Brought, inputs: &mut Inputs) {
+        self.standing = vec![Vec::new(); self.topology.carriers.len()];
+        for tie in self.topology.components.iter().flat_map(|c| &c.ties) {
+            let mut standing = match tie.parent {
+                Some(parent) => self.standing[parent].clone(),
+                None => Vec::new(),
+            };
+            let between = &self.model.joints()[tie.joint.0].between;
+            let is_second = between[1] == Some(tie.child_node);
+            let sign = if is_second { 1.0 } else { -1.0 };
+            let point = inputs.point(tie.child_node);
+            standing.extend(brought.by_joint(tie.joint, 0, point, sign));
+            self.standing[tie.child] = standing;
+        }
+        self.brought = brought;
+    }
+
+    /// What the misfits between a component's root and these nodes ask of an element.
+    fn standing(&self, nodes: &[NodeId]) -> Vec<Shift> {
+        let carrier = |node: &NodeId| self.topology.carrier_of[node.0];
+        let all: Vec<&Vec<Shift>> = nodes.iter().map(|n| &self.standing[carrier(n)]).collect();
+        let mut shifts = Vec::new();
+        for (node, own) in all.iter().enumerate() {
+            let moves_alone = |s: &&Shift| !all.iter().all(|other| other.contains(s));
+            // The element stands where its nodes would be the other way.
+            shifts.extend(own.iter().filter(moves_alone).map(|shift| Shift {
+                node,
+                sign: -shift.sign,
+                ..shift.clone()
+            }));
+        }
+        shifts
+    }
+
     /// Adds an element whose nodes move as the model's nodes say, unless it is rigidly held.
-    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>) {
+    fn add(&mut self, kind: Kind, mut nodes: Vec<NodeMotion>, shifts: Vec<Shift>) {
         drop_shared(&mut nodes);
         if nodes.iter().any(NodeMotion::moves) {
-            self.elements.push(Element { kind, nodes });
+            self.elements.push(Element {
+                kind,
+                nodes,
+                shifts,
+                columns: Vec::new(),
+                shared: Vec::new(),
+            });
         }
     }
 
@@ -122,6 +190,7 @@ impl Parts<'_> {
         for node in &subassembly.nodes {
             nodes.push(self.motion(*node, inputs)?);
         }
+        let mut shifts = self.standing(&subassembly.nodes);
         let kind = match subassembly.flexible {
             Some(id) => {
                 let stiffness = self.model.flexibles()[id.0].element.held_stiffness();
@@ -143,10 +212,13 @@ impl Parts<'_> {
                 }
                 let link = Link::beam(self.model, self.geometry, *id, inputs)?;
                 let [a, b] = ends.map(|n| self.origin(n, inputs));
+                shifts = self.standing(&ends);
+                let second = inputs.point(ends[1]);
+                shifts.extend(self.brought.by_segment(*id, 1, second));
                 Kind::Chain(Chain::new(link, Vec::new(), [a?, b?]))
             }
         };
-        self.add(kind, nodes);
+        self.add(kind, nodes, shifts);
         Some(())
     }
 
@@ -190,9 +262,18 @@ impl Parts<'_> {
         for node in entry.between.iter().flatten() {
             nodes.push(self.motion(*node, inputs)?);
         }
+        let between: Vec<NodeId> = entry.between.iter().flatten().copied().collect();
+        let at = between.first()?;
+        let mut shifts = self.standing(&between);
+        let (own, sign) = match entry.between {
+            [None, Some(_)] => (0, 1.0),
+            [Some(_), None] => (0, -1.0),
+            _ => (1, 1.0),
+        };
+        let point = inputs.point(*at);
+        shifts.extend(self.brought.by_joint(joint, own, point, sign));
         let kind = match compliance {
             Some(compliance) => {
-                let at = entry.between.iter().flatten().next()?;
                 let own = basis * compliance * basis.transpose();
                 let link = Link::joint(&own, *at, columns, self.size, inputs);
                 let free = role.directions.free.iter();
@@ -207,14 +288,18 @@ impl Parts<'_> {
             None if *has_stiffness => {
                 let inverse = basis.try_inverse()?;
                 let stiffness = Box::new(inverse.transpose() * stiffness * inverse);
-                Kind::Bushing { columns, stiffness }
+                Kind::Bushing {
+                    point,
+                    columns,
+                    stiffness,
+                }
             }
             None => return None,
         };
         if matches!(kind, Kind::Chain(_)) && nodes.len() == 1 {
             nodes.push(NodeMotion::default());
         }
-        self.add(kind, nodes);
+        self.add(kind, nodes, shifts);
         Some(())
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::chain::{Idle, MOST_IDLE, MOST_RELEASES, Release};
-use super::element::{Element, Kind, NodeLoad, NodeMotion, Screw, Spring};
+use super::element::{Element, Kind, NodeLoad, NodeMotion, Screw, Shift, Spring};
 use super::parts::drop_shared;
 
 /// What a mechanism is made of, while elements are joined.
@@ -52,7 +52,8 @@ impl Series {
 
     fn join(&mut self, screws: &[Screw], components: &[Range<usize>]) {
         let mut motions: Vec<Option<&Release>> = vec![None; self.gone.len()];
-        for screw in screws {
+        // What moves bodies of a loop moves several of them.
+        for screw in screws.iter().filter(|screw| !screw.in_loop) {
             motions[screw.coordinate] = Some(&screw.motion);
         }
         self.take_in(&motions);
@@ -78,7 +79,8 @@ impl Series {
         for k in 0..self.elements.len() {
             for end in 0..self.elements[k].nodes.len() {
                 // What is nearest to the chain first.
-                for screw in self.elements[k].nodes[end].screws.clone().into_iter().rev() {
+                for own in self.elements[k].nodes[end].screws.clone().into_iter().rev() {
+                    let screw = own.coordinate;
                     if let (Some(motion), 1) = (motions[screw], uses[screw]) {
                         self.take_in_screw([k, end], screw, motion);
                     }
@@ -97,7 +99,7 @@ impl Series {
         let stiffness = self.springs.iter().filter(|s| own(s)).map(|s| s.stiffness);
         let stiffness: f64 = stiffness.sum();
         let is_idle = self.idle.contains(&screw);
-        let Element { kind, nodes } = &mut self.elements[k];
+        let Element { kind, nodes, .. } = &mut self.elements[k];
         let Kind::Chain(chain) = kind else {
             return;
         };
@@ -108,7 +110,7 @@ impl Series {
         };
         // What the coordinate moves beside the chain must move just as the chain's end does.
         let node = &mut nodes[end];
-        let moved = |l: &NodeLoad| l.node.screws.contains(&screw);
+        let moved = |l: &NodeLoad| l.node.is_moved_by(screw);
         let like_node = |l: &NodeLoad| l.node.root == node.root && l.node.screws == node.screws;
         if !has_room || self.loads.iter().any(|l| moved(l) && !like_node(l)) {
             return;
@@ -125,7 +127,7 @@ impl Series {
         } else {
             chain.add_release(end, motion.clone());
         }
-        node.screws.retain(|s| *s != screw);
+        node.screws.retain(|s| s.coordinate != screw);
         self.springs.retain(|s| !own(s));
         self.gone[screw] = true;
     }
@@ -158,7 +160,10 @@ impl Series {
         ];
         let is_ring = outer[0].root.is_some() && outer[0].root == outer[1].root;
         // A motion that the ends share does no work on the chain, but it does on loads within.
-        let shares = outer[0].screws.iter().any(|s| outer[1].screws.contains(s));
+        let shares = outer[0]
+            .screws
+            .iter()
+            .any(|s| outer[1].is_moved_by(s.coordinate));
         let is_loaded = self.loads.iter().any(|l| l.node.root == Some(root));
         let has_room = a[0] + b[0] <= MOST_RELEASES && a[1] + b[1] <= MOST_IDLE;
         let would_lose = shares && (is_loaded || a[2] + b[2] > 0);
@@ -180,12 +185,32 @@ impl Series {
             let mut nodes = vec![own.nodes[own_end].clone(), next.nodes[next_end].clone()];
             drop_shared(&mut nodes);
             let chain = chain.followed_by(following, [own_end, next_end]);
-            let kind = Kind::Chain(chain);
-            self.elements.insert(low, Element { kind, nodes });
+            let mut shifts = as_second(own.shifts, own_end == 0);
+            shifts.extend(as_second(next.shifts, next_end == 1));
+            let joined = Element {
+                kind: Kind::Chain(chain),
+                nodes,
+                shifts,
+                columns: Vec::new(),
+                shared: Vec::new(),
+            };
+            self.elements.insert(low, joined);
         }
         for coordinate in component.clone() {
             self.gone[coordinate] = true;
         }
         true
     }
+}
+
+/// Shifts of a chain's ends, all at its second one; of a chain that is run through backwards, all
+/// the other way.
+fn as_second(mut shifts: Vec<Shift>, forwards: bool) -> Vec<Shift> {
+    for shift in &mut shifts {
+        if (shift.node == 1) != forwards {
+            shift.sign = -shift.sign;
+        }
+        shift.node = 1;
+    }
+    shifts
 }

@@ -16,6 +16,22 @@ pub(crate) type Graph = Vec<Vec<usize>>;
 /// and last the vertices that separate them. A cut is a plane across one of the axes, at the place
 /// where few vertices separate much.
 pub(crate) fn nested_dissection(graph: &Graph, places: &[Point3<f64>]) -> Vec<usize> {
+    dissected(graph, places).0
+}
+
+/// Of every vertex, its level: 0 in parts that are not divided, and the more the fewer cuts come before
+/// the one that it lies along.
+pub(crate) fn levels(graph: &Graph, places: &[Point3<f64>]) -> Vec<usize> {
+    let (_, mut depths) = dissected(graph, places);
+    let deepest = depths.iter().copied().max().unwrap_or(0);
+    for depth in &mut depths {
+        *depth = deepest - *depth;
+    }
+    depths
+}
+
+/// Vertices in the order of elimination, and the depth of each.
+fn dissected(graph: &Graph, places: &[Point3<f64>]) -> (Vec<usize>, Vec<usize>) {
     let count = graph.len();
     let mut dissection = Dissection {
         graph,
@@ -25,14 +41,20 @@ pub(crate) fn nested_dissection(graph: &Graph, places: &[Point3<f64>]) -> Vec<us
         beyond: vec![0; count],
     };
     // Parts to be ordered, the last one first: the order grows from its end.
-    let mut parts = vec![Region::Whole((0..count).collect())];
+    let mut parts = vec![(0, Region::Whole((0..count).collect()))];
     let mut reversed = Vec::with_capacity(count);
-    while let Some(part) = parts.pop() {
+    let mut depths = vec![usize::MAX; count];
+    let mut deepest = 0;
+    while let Some((depth, part)) = parts.pop() {
         match part {
             Region::Whole(vertices) if vertices.len() > LEAF => {
                 let [first, second, separator] = dissection.divide(vertices);
-                parts.extend([first, second].map(Region::Whole));
-                parts.push(Region::Ordered(separator));
+                deepest = deepest.max(depth + 1);
+                for &vertex in &separator {
+                    depths[vertex] = depth;
+                }
+                parts.extend([first, second].map(|part| (depth + 1, Region::Whole(part))));
+                parts.push((depth, Region::Ordered(separator)));
             }
             Region::Whole(vertices) | Region::Ordered(vertices) => {
                 reversed.extend(vertices.into_iter().rev());
@@ -40,7 +62,10 @@ pub(crate) fn nested_dissection(graph: &Graph, places: &[Point3<f64>]) -> Vec<us
         }
     }
     reversed.reverse();
-    reversed
+    for depth in &mut depths {
+        *depth = deepest.min(*depth);
+    }
+    (reversed, depths)
 }
 
 /// Vertices of one part, to be divided or to be taken as they are.
