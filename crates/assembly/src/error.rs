@@ -101,6 +101,12 @@ pub enum SolveError {
         /// Number of those that have converged.
         found: usize,
     },
+    /// Natural frequencies of exact masses of which a count does not say that none is missing.
+    #[error("the natural frequencies cannot be counted: one of the lowest {found} may be missing")]
+    ModesUncounted {
+        /// Number of those that were found.
+        found: usize,
+    },
     /// A load in axes that turn with a body of which nothing says how it lies.
     #[error(transparent)]
     NoBodyFrame(#[from] NoBodyFrame),

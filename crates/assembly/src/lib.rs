@@ -46,7 +46,7 @@ pub use kinematics::motion::{Motion, describe_motions};
 pub use kinematics::redundancy::Redundancy;
 pub use lanes::Lanes;
 pub use lanes::single::Single;
-pub use modal::{FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
+pub use modal::{Counted, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
 pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};
 pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};

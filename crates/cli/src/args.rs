@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use hyperstat_assembly::BeamMass;
 use hyperstat_mechanisms::Along;
 use hyperstat_study::Selection;
 use hyperstat_study::table;
@@ -202,9 +203,14 @@ pub(crate) struct Solve {
     /// stresses, and modes where there are some
     #[arg(long, value_name = "FILE.vtu")]
     pub(crate) vtu: Option<PathBuf>,
-    /// With lumped masses: half of every element's at each of its ends, in translation only
-    #[arg(long)]
-    pub(crate) lumped: bool,
+    /// Masses of beams for natural frequencies: Exact, of the beams themselves at any number of
+    /// elements; Consistent, moved by the elements' static shapes; Lumped, half of every element's at
+    /// each of its ends, in translation only [default: a job's, or Exact]
+    #[arg(long, value_name = "MASS", value_enum, ignore_case = true)]
+    mass: Option<Mass>,
+    /// Short for --mass Lumped
+    #[arg(long, conflicts_with = "mass")]
+    lumped: bool,
     /// Say what is soft and why: the share of every part in the deflection, what more of every
     /// dimension would change (of natural frequencies too, where there are some), stiffness measures
     #[arg(long)]
@@ -233,6 +239,25 @@ impl Solve {
     pub(crate) fn modes(&self) -> Option<usize> {
         self.modes.map(usize::from)
     }
+
+    /// Masses of beams that are asked for.
+    pub(crate) fn mass(&self) -> Option<BeamMass> {
+        match self.mass {
+            Some(Mass::Exact) => Some(BeamMass::Exact),
+            Some(Mass::Consistent) => Some(BeamMass::Consistent),
+            Some(Mass::Lumped) => Some(BeamMass::Lumped),
+            None => self.lumped.then_some(BeamMass::Lumped),
+        }
+    }
+}
+
+/// Masses of beams, named as in files.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+#[value(rename_all = "PascalCase")]
+enum Mass {
+    Exact,
+    Consistent,
+    Lumped,
 }
 
 /// Reads the direction that the output gives along.

@@ -113,7 +113,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
         verify: args.verify,
         all_nodes: args.all_nodes,
         modes: args.modes(),
-        lumped: args.lumped,
+        mass: args.mass(),
         why: args.why.then(|| Asked {
             case: args.case.clone(),
             along: args.along,

@@ -178,7 +178,7 @@ impl LineMass {
 
     /// Calls `visit` with the places along the beam that integrals are taken at, their weights
     /// \[m\], and the displacement there per displacement of the nodes.
-    fn each_place(
+    pub(crate) fn each_place(
         &self,
         beam: &(impl StraightBeam + ?Sized),
         shape: MassShape,
@@ -201,6 +201,16 @@ impl LineMass {
                 visit(xi, weight * length, &over_nodes(&first, &second));
             });
         });
+    }
+
+    /// The section at `xi` along the beam.
+    pub(crate) fn section_at(&self, xi: f64) -> Section {
+        self.taper.at(xi)
+    }
+
+    /// Mass and moments of inertia per length at `xi` along the beam.
+    pub(crate) fn per_length_at(&self, xi: f64, rotary: RotaryInertia) -> Vector6<f64> {
+        self.per_length(&self.taper.at(xi), rotary)
     }
 
     /// Mass and moments of inertia per length of a section.

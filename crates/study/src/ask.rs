@@ -20,8 +20,8 @@ pub struct Question {
     pub all_nodes: bool,
     /// So many natural frequencies, the lowest; without a number those that the job asks for.
     pub modes: Option<usize>,
-    /// With lumped masses: half of every element's at each of its ends, in translation only.
-    pub lumped: bool,
+    /// Masses of beams, in place of those that the job asks for, or of exact ones.
+    pub mass: Option<BeamMass>,
     /// What is soft, and why.
     pub why: Option<Asked>,
 }
@@ -63,14 +63,14 @@ impl Study {
                 .add_inner_displacements(self.model(), &solution)
                 .map_err(|error| self.unsolvable(error))?;
         }
-        let options = self.modal_options(question.modes, question.lumped);
+        let options = self.modal_options(question.modes, question.mass);
         let modal = options.as_ref().map(|options| self.modal(options));
         let modal = modal.transpose()?;
         let modes = modal.as_ref().map(|modal| self.modes_of(modal));
         let modes = modes.transpose()?;
         if let (Some(options), Some(found)) = (&options, &modes) {
-            let (model, wanted) = (self.model(), options.count);
-            report.add_modes(ModesReport::new(model, found, wanted, question.all_nodes));
+            let all = question.all_nodes;
+            report.add_modes(ModesReport::new(self.model(), found, options, all));
         }
         if let Some(asked) = &question.why {
             report.add_why(self.why(&loaded, asked)?);
@@ -102,18 +102,20 @@ impl Study {
         (report, error)
     }
 
-    /// The natural frequencies that are asked for, here or by the job: how many, and whether masses
-    /// are lumped; `None` where nobody asks.
-    pub fn modal_options(&self, count: Option<usize>, lumped: bool) -> Option<ModalOptions> {
+    /// The natural frequencies that are asked for, here or by the job: how many, and with which masses
+    /// of beams; `None` where nobody asks.
+    pub fn modal_options(
+        &self,
+        count: Option<usize>,
+        mass: Option<BeamMass>,
+    ) -> Option<ModalOptions> {
         let of_job = self.modes_of_job().cloned();
         let mut options = match (count, of_job) {
             (Some(count), Some(of_job)) => ModalOptions { count, ..of_job },
             (Some(count), None) => ModalOptions::lowest(count),
             (None, of_job) => of_job?,
         };
-        if lumped {
-            options.mass = BeamMass::Lumped;
-        }
+        options.mass = mass.unwrap_or(options.mass);
         Some(options)
     }
 

@@ -25,7 +25,7 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, FrameReport,
+    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, CountReport, FrameReport,
     FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
     ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
     SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,

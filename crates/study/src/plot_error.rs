@@ -226,7 +226,8 @@ impl PlotError {
                 Some("nothing that moves has mass: give the materials a `density`".into())
             }
             Self::NoMode { count, .. } => Some(format!(
-                "choose a mode from 1 to {count}, or give segments more `elements`"
+                "choose a mode from 1 to {count}: no more coordinates have mass (of consistent and \
+                 lumped masses, more `elements` a segment make more)"
             )),
             Self::Cells { .. } | Self::NoNumber { .. } => {
                 Some("the table is not as `hyperstat run` wrote it; run the batch again".into())

@@ -8,6 +8,7 @@ mod closure;
 mod definitions;
 mod designs;
 mod equilibrium;
+mod exact_frequencies;
 mod floors;
 mod frame3dd_example_b;
 mod frame3dd_self_weight;

@@ -7,6 +7,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::mode::Counted;
 use super::system::{Mode, System};
 use crate::error::SolveError;
 use crate::plan::blocks::{dot, subtract};
@@ -22,6 +23,8 @@ const DEPENDENT: f64 = 1e-12;
 const ROUNDING: f64 = 1e-14;
 /// Eigenvalues that differ by no more than this part leave no room to count between them.
 const NO_ROOM: f64 = 1e-5;
+/// It is counted no farther than this factor above the last of them, which is room enough.
+const ROOM: f64 = 1.1;
 /// Vectors of a basis at the most, beside ten for every mode.
 const MOST_VECTORS: usize = 500;
 /// Times that modes are looked for again.
@@ -32,6 +35,8 @@ pub(super) struct Lowest {
     pub modes: Vec<Mode>,
     /// Whether the number of eigenvalues below says that none is missing.
     pub complete: bool,
+    /// How many there are below which eigenvalue.
+    pub counted: Option<Counted>,
 }
 
 /// Finds the `count` lowest modes; fewer where there are no more.
@@ -41,12 +46,13 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
         return Ok(Lowest {
             modes: Vec::new(),
             complete: true,
+            counted: None,
         });
     }
     // No more than there are.
     let count = count.min(system.size());
     let mut wanted = count + 2;
-    let mut complete = false;
+    let (mut complete, mut of_count) = (false, None);
     for _ in 0..MOST_ROUNDS {
         let all = basis.grow(system, wanted)?;
         if all {
@@ -54,15 +60,16 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
             break;
         }
         let values = basis.eigenvalues(wanted);
-        // Counted is where the most room lies between those found, after the last that is wanted.
-        let room = |k: usize| values[k] / values[k - 1] - 1.0;
-        let places = count..values.len();
+        // Counted is after the last that is wanted, where there is room enough; else where the most is.
+        let room = |k: usize| (values[k] / values[k - 1]).min(ROOM * ROOM) - 1.0;
+        let places = (count..values.len()).rev();
         let best = places.max_by(|a, b| room(*a).total_cmp(&room(*b)));
         let Some(below) = best.filter(|k| room(*k) > NO_ROOM) else {
             wanted += count + BLOCK;
             continue;
         };
-        match system.count_below((values[below - 1] * values[below]).sqrt()) {
+        let limit = values[below - 1] * (1.0 + room(below)).sqrt();
+        match system.count_below(limit) {
             // One of several equal modes that no vector so far had a part in.
             Some(counted) if counted > below => {
                 wanted += counted - below;
@@ -70,12 +77,21 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
             }
             counted => {
                 complete = counted == Some(below);
+                of_count = counted.map(|modes| Counted {
+                    below: limit,
+                    modes,
+                    found: below,
+                });
                 break;
             }
         }
     }
     let modes = basis.modes(system, count);
-    Ok(Lowest { modes, complete })
+    Ok(Lowest {
+        modes,
+        complete,
+        counted: of_count,
+    })
 }
 
 /// A basis, orthonormal in the mass, and the inverse of the stiffness times mass in it.

@@ -1,19 +1,18 @@
 //! Mass over the independent displacement coordinates: M = Σ Hᵀ m H over beams and masses of
-//! nodes, with the same mappings H as the stiffness.
+//! nodes, with the same mappings H as the stiffness, and what couples beams' inner shapes to them.
 
-use hyperstat_elements::rotate_matrix12;
-use hyperstat_model::{
-    BeamMass, BodyId, Geometry, ModalOptions, Model, NodeId, SegmentId, segment_beam,
-};
+use hyperstat_elements::{Matrix12, rotate_matrix12, rotate_vector6};
+use hyperstat_model::{BodyId, Geometry, Model, NodeId, SegmentId};
 use nalgebra::{Vector3, Vector6};
 
 use crate::error::SolveError;
+use crate::modal::member::Members;
 use crate::plan::Plan;
 use crate::plan::blocks::{dot, multiply, read, shift};
 use crate::plan::elements::Source;
 use crate::plan::sparse::Pattern;
 use crate::plan::workspace::Workspace;
-use crate::response::parameters::line_mass;
+use crate::posture::Posture;
 use crate::room;
 use crate::room::MOST_NUMBERS;
 
@@ -44,13 +43,47 @@ pub(super) struct Masses {
     elements: Vec<MassElement>,
     /// Their sum \[kg\].
     pub total: f64,
+    /// Number of coordinates with those of the inner shapes, which follow the others.
+    pub size: usize,
 }
 
-/// A mass in one configuration: its nodes' displacements H U, and the mass matrix over them.
+/// A mass in one configuration: its nodes' displacements H U, the mass matrix over them, and what it
+/// has between them.
 struct MassElement {
     rows: usize,
     operator: Vec<f64>,
     mass: Vec<f64>,
+    inner: Inner,
+}
+
+impl Masses {
+    /// Amounts of a segment's inner shapes in a vector.
+    pub fn amounts<'a>(&self, segment: usize, x: &'a [f64]) -> &'a [f64] {
+        let inner = &self.elements[segment].inner;
+        &x[inner.start..][..inner.squares.len()]
+    }
+}
+
+/// The inner shapes of a segment in one configuration, of unit mass.
+#[derive(Default)]
+pub(super) struct Inner {
+    /// Coordinate of the first.
+    pub start: usize,
+    /// ω² of each, the segment's ends held.
+    pub squares: Vec<f64>,
+    /// Mass between each and the segment's coordinates, shape by shape.
+    pub couplings: Vec<f64>,
+    /// The same as forces at both nodes, global axes.
+    forces: Vec<f64>,
+}
+
+impl Inner {
+    /// ω² of every shape, and the mass between it and the segment's coordinates, so many.
+    pub fn each(&self, coordinates: usize) -> impl Iterator<Item = (f64, &[f64])> {
+        let couplings = move |k: usize| &self.couplings[k * coordinates..(k + 1) * coordinates];
+        let shapes = self.squares.iter().enumerate();
+        shapes.map(move |(k, square)| (*square, couplings(k)))
+    }
 }
 
 /// What asks for too much room where masses depend on many coordinates.
@@ -140,48 +173,71 @@ impl MassPlan {
         values
     }
 
-    /// The masses in a configuration of the divided model, whose segments stand in groups of
-    /// `parts`.
+    /// The masses in a configuration of the divided model, whose segments are these members.
     pub fn elements(
         &self,
         plan: &Plan,
-        model: &Model,
-        geometry: &Geometry,
+        at: &Posture<'_>,
         workspace: &Workspace,
-        parts: impl Iterator<Item = usize>,
-        options: &ModalOptions,
+        members: &Members,
     ) -> Result<Masses, SolveError> {
-        let mut masses: Vec<Vec<f64>> = Vec::with_capacity(self.holders.len());
-        for count in parts {
-            let first = masses.len();
-            for k in first..first + count {
-                // Equal parts of a segment that does not change have equal masses.
-                let mass = match model.segments()[k].taper {
-                    None if k > first => masses[first].clone(),
-                    _ => segment_mass(model, geometry, SegmentId(k), options)?,
-                };
-                masses.push(mass);
+        let (mut total, mut inner) = (0.0, plan.unknowns);
+        let mut elements = Vec::with_capacity(self.holders.len());
+        let mut holders = self.holders.iter();
+        for (k, (member, holder)) in members.all.iter().zip(&mut holders).enumerate() {
+            let frame = at.segment_frame(SegmentId(k))?;
+            let operator = operator(plan, at.geometry, workspace, holder);
+            let mut forces = Vec::with_capacity(12 * member.inner.squares().len());
+            for coupling in member.inner.couplings() {
+                for node in [0, 6] {
+                    let own = coupling.fixed_rows::<6>(node).into_owned();
+                    forces.extend(rotate_vector6(&own, &frame).iter());
+                }
             }
+            let couplings = forces.chunks_exact(12).flat_map(|force| {
+                let columns = operator.chunks_exact(12);
+                columns.map(|column| dot(column, force)).collect::<Vec<_>>()
+            });
+            total += total_of(&member.mass);
+            elements.push(MassElement {
+                rows: 12,
+                mass: rotate_matrix12(&member.mass, &frame).as_slice().to_vec(),
+                inner: Inner {
+                    start: inner,
+                    squares: member.inner.squares().to_vec(),
+                    couplings: couplings.collect(),
+                    forces,
+                },
+                operator,
+            });
+            inner += member.inner.squares().len();
         }
-        let mut total: f64 = masses.iter().map(|mass| total_of(mass)).sum();
-        for mass in model.masses_at(geometry) {
+        for (mass, holder) in at.model.masses_at(at.geometry).iter().zip(holders) {
             total += mass.mass.mass();
             let about = mass.mass.about(&Vector3::zeros());
-            masses.push(about.as_slice().to_vec());
-        }
-        let elements = self
-            .holders
-            .iter()
-            .zip(masses)
-            .map(|(holder, mass)| MassElement {
+            elements.push(MassElement {
                 rows: 6 * holder.nodes.len(),
-                operator: operator(plan, geometry, workspace, holder),
-                mass,
+                operator: operator(plan, at.geometry, workspace, holder),
+                mass: about.as_slice().to_vec(),
+                inner: Inner::default(),
             });
+        }
         Ok(Masses {
-            elements: elements.collect(),
+            elements,
             total,
+            size: inner,
         })
+    }
+
+    /// What is between the nodes: each element's inner shapes, with its coordinates and the places of
+    /// their products in the matrices.
+    pub fn inner<'a>(
+        &'a self,
+        masses: &'a Masses,
+    ) -> impl Iterator<Item = (&'a Inner, &'a [usize], &'a [usize])> {
+        let holders = self.holders.iter().zip(&masses.elements);
+        let all = holders.map(|(holder, e)| (&e.inner, &holder.columns[..], &holder.places[..]));
+        all.filter(|(inner, ..)| !inner.squares.is_empty())
     }
 
     /// Displacement of a node under a vector.
@@ -214,6 +270,12 @@ impl MassPlan {
             let mut force = vec![0.0; element.rows];
             multiply(&element.mass, &moved, element.rows, &mut force);
             energies[holder.body.0] += dot(&moved, &force);
+            let inner = &element.inner;
+            let amounts = &x[inner.start..][..inner.squares.len()];
+            for (amount, coupled) in amounts.iter().zip(inner.forces.chunks_exact(element.rows)) {
+                energies[holder.body.0] += amount * (2.0 * dot(coupled, &moved) + amount);
+                crate::plan::blocks::subtract(&mut force, -amount, coupled);
+            }
             for at_node in force.chunks_exact(6) {
                 participation += Vector3::from_column_slice(&at_node[..3]);
             }
@@ -268,30 +330,7 @@ fn operator(plan: &Plan, geometry: &Geometry, workspace: &Workspace, holder: &Ho
     values
 }
 
-/// Mass matrix of a segment over its two nodes, global axes.
-fn segment_mass(
-    model: &Model,
-    geometry: &Geometry,
-    id: SegmentId,
-    options: &ModalOptions,
-) -> Result<Vec<f64>, SolveError> {
-    let segment = &model.segments()[id.0];
-    let (beam, frame, span) = segment_beam(model, geometry, id)?;
-    let density = segment.material.density();
-    let density = density.ok_or_else(|| SolveError::NoDensity {
-        body: model.bodies()[segment.body.0].name.clone(),
-    })?;
-    let line = line_mass(segment, density)?;
-    let (shape, rotary) = (options.shape, options.rotary_inertia);
-    let mass = match options.mass {
-        BeamMass::Lumped => line.lumped(span.norm()),
-        BeamMass::Consistent => line.consistent(beam.straight(), shape, rotary),
-    };
-    Ok(rotate_matrix12(&mass, &frame).as_slice().to_vec())
-}
-
 /// Mass of a segment by its matrix: that of a translation.
-fn total_of(mass: &[f64]) -> f64 {
-    let entry = |r: usize, c: usize| mass[12 * c + r];
-    entry(0, 0) + entry(0, 6) + entry(6, 0) + entry(6, 6)
+fn total_of(mass: &Matrix12) -> f64 {
+    mass[(0, 0)] + mass[(0, 6)] + mass[(6, 0)] + mass[(6, 6)]
 }

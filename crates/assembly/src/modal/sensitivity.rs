@@ -2,7 +2,9 @@
 //!
 //! With φᵀ M φ = 1, ∂ω²/∂p = φᵀ (∂K/∂p − ω² ∂M/∂p) φ (Fox and Kapoor 1968). The first part is work:
 //! of the section wrenches on the change of the rigidities r, `∫ Wᵀ (c ∂ ln r/∂p) W dx` with the
-//! compliances c = 1/r, and `qᵀ (∂k/∂p) q` of a joint; the second is taken mass by mass.
+//! compliances c = 1/r, and `qᵀ (∂k/∂p) q` of a joint; the second is taken mass by mass. Where masses
+//! are exact both are taken along the beams in the motion as it is ([`Vibration`]): how the shapes
+//! change has no part in it.
 //!
 //! Equal frequencies have no vectors of their own: theirs are those along which the parameter
 //! splits them. Their derivatives are the eigenvalues of the same expression over all of their
@@ -11,15 +13,16 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use hyperstat_elements::{
-    BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, rotate_vector6,
-};
-use hyperstat_model::{BeamMass, Geometry, NodeId, NodeMass, SegmentId, segment_beam};
+use hyperstat_elements::{BeamLoad, MassShape, Matrix12, RotaryInertia, StraightBeam, Vibration};
+use hyperstat_model::{BeamMass, Geometry, NodeId, NodeMass};
 use nalgebra::{DMatrix, SVector, SymmetricEigen, Vector6};
 
 use super::system::each_deformation;
 use crate::error::SolveError;
-use crate::modal::{Found, ModalPlan, Outcome, hertz};
+use crate::modal::member::Member;
+use crate::modal::plan::{ModalPlan, hertz};
+use crate::modal::ready::Outcome;
+use crate::modal::system::Mode as Found;
 use crate::plan::elements::Source;
 use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 
@@ -112,16 +115,17 @@ impl ModalPlan {
     ) -> Result<ModalSensitivities, SolveError> {
         let count = groups.last().map_or(0, |group| group.end);
         let modes = &outcome.modes[..count];
-        let shapes: Vec<Shape> = modes.iter().map(|m| self.shape(outcome, m)).collect();
+        let shapes = modes.iter().map(|m| self.shape(outcome, m));
+        let shapes: Vec<Shape> = shapes.collect::<Result<_, _>>()?;
         let frequencies: Vec<f64> = modes.iter().map(|mode| hertz(mode.eigenvalue)).collect();
-        let sizes = self.model.segments().iter().map(|s| s.elements);
+        let sizes = outcome.ready.members.parts.iter();
         let firsts = sizes.scan(0, |next, elements| {
             *next += elements;
             Some(*next - elements)
         });
         let divided = Divided {
             firsts: firsts.collect(),
-            masses: self.divided.masses_at(outcome.geometry),
+            masses: outcome.ready.divided.masses_at(&outcome.geometry),
         };
         let mut found = Vec::new();
         for varied in parameters(&self.model)? {
@@ -159,14 +163,16 @@ impl ModalPlan {
     }
 
     /// What the modes do to segments, joints and masses.
-    fn shape(&self, outcome: &Outcome<'_>, found: &Found) -> Shape {
-        let (ready, workspace, geometry) = (outcome.ready, outcome.workspace, outcome.geometry);
+    fn shape(&self, outcome: &Outcome<'_>, found: &Found) -> Result<Shape, SolveError> {
+        let (ready, workspace) = (outcome.ready, &outcome.workspace);
         let plan = &ready.plan;
-        let segments = self.divided.segments();
+        let segments = ready.divided.segments();
         let mut shape = Shape {
             eigenvalue: found.eigenvalue,
-            ends: vec![Vector6::zeros(); segments.len()],
-            nodes: Vec::with_capacity(self.divided.nodes().len()),
+            wrenches: vec![Vector6::zeros(); segments.len()],
+            ends: Vec::with_capacity(segments.len()),
+            vibrations: Vec::new(),
+            nodes: Vec::new(),
             joints: vec![[Vector6::zeros(); 2]; self.model.joints().len()],
         };
         each_deformation(
@@ -178,7 +184,7 @@ impl ModalPlan {
                     Source::Subassembly(k) => {
                         // No joint is absorbed: a segment is a subassembly.
                         if let [(segment, _)] = plan.topology.subassemblies[k].segments[..] {
-                            shape.ends[segment.0].copy_from_slice(force);
+                            shape.wrenches[segment.0].copy_from_slice(force);
                         }
                     }
                     Source::Spring(joint) => {
@@ -192,12 +198,22 @@ impl ModalPlan {
                 }
             },
         );
-        let nodes = (0..self.divided.nodes().len()).map(NodeId);
-        shape.nodes.extend(nodes.map(|node| {
-            let vector = &found.vector;
-            (ready.masses).displacement(plan, workspace, geometry, node, vector)
-        }));
-        shape
+        let nodes = (0..ready.divided.nodes().len()).map(NodeId);
+        shape.nodes = nodes
+            .map(|node| outcome.displacement(node, found))
+            .collect();
+        let curves = outcome.curves(found);
+        for (part, segment) in curves.iter().flat_map(|curve| &curve.0).zip(segments) {
+            if self.options.mass == BeamMass::Exact {
+                let (line, rotary) = (line_mass(segment, 1.0)?, self.options.rotary_inertia);
+                let (beam, inner) = (part.member.beam.straight(), &part.member.inner);
+                let (ends, amounts) = (&part.ends, &part.amounts);
+                let vibration = Vibration::new(&line, beam, rotary, inner, ends, amounts);
+                shape.vibrations.push(vibration);
+            }
+            shape.ends.push(part.ends);
+        }
+        Ok(shape)
     }
 
     /// Adds what a parameter does to stiffness and mass.
@@ -209,22 +225,30 @@ impl ModalPlan {
         sums: &mut Sums<'_>,
     ) -> Result<(), SolveError> {
         for (id, change) in &varied.segments {
-            let count = self.model.segments()[id.0].elements;
+            let members = &outcome.ready.members;
+            let count = members.parts[id.0];
             let mut whole = None;
             for k in 0..count {
+                let own = divided.firsts[id.0] + k;
                 let part = ElementShape {
-                    id: SegmentId(divided.firsts[id.0] + k),
+                    own,
+                    member: &members.all[own],
                     change,
                     place: k,
                     count,
                 };
+                if self.options.mass == BeamMass::Exact {
+                    let density = self.model.segments()[id.0].material.density();
+                    part.add_vibration(density.unwrap_or(0.0), sums);
+                    continue;
+                }
                 // Equal parts of a segment that does not change have equal masses.
                 let mass = match (&whole, change) {
                     (Some(mass), SegmentChange::Section(_) | SegmentChange::Density) => *mass,
                     _ => self.mass_change(outcome, &part)?,
                 };
                 whole = (self.model.segments()[id.0].taper.is_none()).then_some(mass);
-                self.add_part(outcome, &part, mass.as_ref(), sums)?;
+                self.add_part(&part, mass.as_ref(), sums);
             }
         }
         match &varied.parameter {
@@ -256,19 +280,11 @@ impl ModalPlan {
         Ok(())
     }
 
-    fn add_part(
-        &self,
-        outcome: &Outcome<'_>,
-        part: &ElementShape<'_>,
-        mass: Option<&Matrix12>,
-        sums: &mut Sums<'_>,
-    ) -> Result<(), SolveError> {
-        let (beam, frame, _) = segment_beam(&self.divided, outcome.geometry, part.id)?;
-        let (ends, place) = (self.divided.segments()[part.id.0].ends, part.id.0);
+    fn add_part(&self, part: &ElementShape<'_>, mass: Option<&Matrix12>, sums: &mut Sums<'_>) {
+        let place = part.own;
         let elastic = !matches!(part.change, SegmentChange::Density);
-        let own = frame.inverse();
         let local = |shape: &Shape| {
-            let [first, second] = ends.map(|node| rotate_vector6(&shape.nodes[node.0], &own));
+            let [first, second] = &shape.ends[place];
             SVector::<f64, 12>::from_fn(|row, _| if row < 6 { first[row] } else { second[row - 6] })
         };
         let weight = |xi| part.change.rigidities(part.along(xi));
@@ -276,17 +292,15 @@ impl ModalPlan {
             let mut sum = 0.0;
             if elastic {
                 let none = BeamLoad::none();
-                let work =
-                    beam.straight()
-                        .elastic_work(&a.ends[place], &none, &b.ends[place], &weight);
-                sum += work.sum();
+                let beam = part.member.beam.straight();
+                let (own, other) = (&a.wrenches[place], &b.wrenches[place]);
+                sum += beam.elastic_work(own, &none, other, &weight).sum();
             }
             if let Some(mass) = mass {
                 sum -= mean(a, b) * local(a).dot(&(mass * local(b)));
             }
             sum
         });
-        Ok(())
     }
 
     /// Derivative of the mass matrix of a part of a segment, element frame; `None`: there is none.
@@ -296,9 +310,8 @@ impl ModalPlan {
         part: &ElementShape<'_>,
     ) -> Result<Option<Matrix12>, SolveError> {
         let options = &self.options;
-        let segment = &self.divided.segments()[part.id.0];
-        let (beam, ..) = segment_beam(&self.divided, outcome.geometry, part.id)?;
-        let beam: &dyn StraightBeam = beam.straight();
+        let segment = &outcome.ready.divided.segments()[part.own];
+        let beam: &dyn StraightBeam = part.member.beam.straight();
         let density = segment.material.density().unwrap_or(0.0);
         let lumped = options.mass == BeamMass::Lumped;
         let (shape, rotary) = (options.shape, options.rotary_inertia);
@@ -339,7 +352,9 @@ struct Divided {
 
 /// A part of a segment of the model, one of the divided model.
 struct ElementShape<'a> {
-    id: SegmentId,
+    /// Its number among all.
+    own: usize,
+    member: &'a Member,
     change: &'a SegmentChange,
     /// Number of the part, from 0, of how many.
     place: usize,
@@ -351,13 +366,36 @@ impl ElementShape<'_> {
     fn along(&self, xi: f64) -> f64 {
         (self.place as f64 + xi) / self.count as f64
     }
+
+    /// Adds what the change does to the part in its motion.
+    fn add_vibration(&self, density: f64, sums: &mut Sums<'_>) {
+        let rigidities = |xi| self.change.rigidities(self.along(xi));
+        let sections = |xi| self.change.sections(self.along(xi));
+        sums.add(|a, b| {
+            let [own, other] = [a, b].map(|shape| &shape.vibrations[self.own]);
+            let mass = match self.change {
+                SegmentChange::Density => own.mass_work(other, &|_| Vector6::repeat(1.0)),
+                SegmentChange::Elastic(_) | SegmentChange::Expansion => 0.0,
+                _ => density * own.mass_work(other, &sections),
+            };
+            let elastic = match self.change {
+                SegmentChange::Density | SegmentChange::Expansion => 0.0,
+                _ => own.elastic_work(other, &rigidities),
+            };
+            elastic - mean(a, b) * mass
+        });
+    }
 }
 
 /// What a mode of unit modal mass does.
 struct Shape {
     eigenvalue: f64,
-    /// Wrench on every segment at its second node, element frame.
-    ends: Vec<Vector6<f64>>,
+    /// Wrench on every part of a segment at its second node, element frame.
+    wrenches: Vec<Vector6<f64>>,
+    /// Displacements of its nodes, element frame.
+    ends: Vec<[Vector6<f64>; 2]>,
+    /// Its motion along it, where masses are exact.
+    vibrations: Vec<Vibration>,
     /// Displacement of every node, global axes.
     nodes: Vec<Vector6<f64>>,
     /// Force and deflection along every joint's elastic directions.

@@ -1,59 +1,43 @@
-//! A mode between the nodes.
+//! What segments do in a mode, between their nodes.
 
-use hyperstat_elements::{element_frame, rotate_vector6};
-use hyperstat_model::{Model, SegmentBeam, SegmentId};
+use std::sync::Arc;
+
 use nalgebra::Vector6;
 
-use crate::error::SolveError;
-use crate::modal::Mode;
+use crate::modal::member::Member;
 
-impl Mode {
-    /// Displacement of the axis of a segment at `xi` (0 to 1) along it, global axes
-    /// \[m/√kg, rad/√kg\]: between the nodes of its elements the beam's own static curve, which are
-    /// the shapes that the masses are made with (cubic for a prismatic beam without shear).
-    ///
-    /// `model` is the one whose mode it is, in its own configuration.
-    ///
-    /// # Errors
-    /// A segment or model that is not the mode's.
-    pub fn segment_displacement(
-        &self,
-        model: &Model,
-        id: SegmentId,
-        xi: f64,
-    ) -> Result<Vector6<f64>, SolveError> {
-        model.check_segment(id)?;
-        if self.displacements.len() != model.nodes().len()
-            || self.inner.len() != model.segments().len()
-        {
-            return Err(SolveError::ForeignModel);
+/// What a segment does in a mode, part by part.
+#[derive(Debug, Clone)]
+pub(super) struct Curve(pub Vec<Part>);
+
+/// What a part of a segment does in a mode.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub member: Arc<Member>,
+    /// Displacements of its ends, element frame.
+    pub ends: [Vector6<f64>; 2],
+    /// Amounts of its inner shapes.
+    pub amounts: Vec<f64>,
+}
+
+impl Part {
+    /// Displacement at `xi` (0 to 1) along it, element frame.
+    fn at(&self, xi: f64) -> Vector6<f64> {
+        let (member, [first, second]) = (&self.member, &self.ends);
+        let moved = member.beam.displacement(xi, first, second, None);
+        if self.amounts.is_empty() || xi == 0.0 || xi == 1.0 {
+            return moved;
         }
-        let (segment, geometry) = (&model.segments()[id.0], model.geometry());
-        let [start, end] = segment.ends.map(|node| geometry.positions[node.0]);
-        let span = end - start;
-        let frame = element_frame(&span, geometry.y_axes[id.0].as_ref())?;
-        let inner = &self.inner[id.0];
-        let count = inner.len() + 1;
-        let along = xi * count as f64;
-        let element = (along.floor().max(0.0) as usize).min(count - 1);
-        let place = |k: usize| k as f64 / count as f64;
-        let taper = segment.change_of_section()?;
-        let beam = SegmentBeam::new(
-            &segment.material,
-            &segment.section,
-            taper
-                .map(|taper| taper.part(place(element), place(element + 1)))
-                .as_ref(),
-            span.norm() / count as f64,
-        )?;
-        let at = |k: usize| match k {
-            0 => &self.displacements[segment.ends[0].0],
-            k if k == count => &self.displacements[segment.ends[1].0],
-            k => &inner[k - 1],
-        };
-        let to_local = frame.inverse();
-        let [first, second] = [element, element + 1].map(|k| rotate_vector6(at(k), &to_local));
-        let moved = beam.displacement(along - element as f64, &first, &second, None);
-        Ok(rotate_vector6(&moved, &frame))
+        let inner = &member.inner;
+        moved + inner.displacement(member.beam.straight(), xi, &self.amounts)
+    }
+}
+
+impl Curve {
+    /// Displacement at `xi` (0 to 1) along the segment, element frame.
+    pub fn at(&self, xi: f64) -> Vector6<f64> {
+        let along = xi * self.0.len() as f64;
+        let part = (along.floor().max(0.0) as usize).min(self.0.len() - 1);
+        self.0[part].at(along - part as f64)
     }
 }

@@ -50,7 +50,7 @@ pub(super) struct System<'a> {
     plan: &'a Plan,
     workspace: &'a Workspace,
     masses: &'a MassPlan,
-    total_mass: f64,
+    elements: &'a Masses,
     stiffness: Vec<f64>,
     mass: Vec<f64>,
     factor: Factor,
@@ -71,14 +71,14 @@ impl<'a> System<'a> {
         plan: &'a Plan,
         workspace: &'a Workspace,
         masses: &'a MassPlan,
-        elements: &Masses,
+        elements: &'a Masses,
         restraint: Option<(&Restraint, &Posture<'_>)>,
     ) -> Result<Self, SolveError> {
         let mut system = Self {
             plan,
             workspace,
             masses,
-            total_mass: elements.total,
+            elements,
             stiffness: masses.stiffness(plan, workspace),
             mass: masses.mass(elements),
             factor: masses.pattern.factor_buffers(BLOCK),
@@ -89,7 +89,7 @@ impl<'a> System<'a> {
         };
         if let Some((restraint, at)) = restraint {
             let motions = restraint.idle.len() + restraint.moving.len();
-            let numbers = room::matrix(motions, plan.unknowns);
+            let numbers = room::matrix(motions, elements.size);
             room::check("its motions without energy", numbers, MOST_NUMBERS)?;
             system.release(restraint, at);
         }
@@ -128,6 +128,7 @@ impl<'a> System<'a> {
         let mut idle = 0;
         for (k, motion) in motions().enumerate() {
             let mut vector = coordinates(motion, 1.0);
+            vector.resize(self.size(), 0.0);
             for _ in 0..2 {
                 for (own, mass_own) in &free {
                     let share = dot(mass_own, &vector);
@@ -136,11 +137,11 @@ impl<'a> System<'a> {
             }
             let mut mass_vector = self.mass_times(&vector);
             let energy = dot(&vector, &mass_vector);
-            if energy <= MASSLESS * self.total_mass * size * size {
+            if energy <= MASSLESS * self.elements.total * size * size {
                 let identities = self.workspace.identities.iter();
                 let unit = identities.map(|(_, dof)| if dof.is_rotation() { 1.0 } else { size });
                 let column = vector.iter().zip(unit).map(|(value, unit)| value / unit);
-                massless.push(DVector::from_iterator(vector.len(), column));
+                massless.push(DVector::from_iterator(self.plan.unknowns, column));
                 continue;
             }
             let length = energy.sqrt();
@@ -158,7 +159,17 @@ impl<'a> System<'a> {
 
     /// Number of coordinates.
     pub fn size(&self) -> usize {
-        self.plan.unknowns
+        self.elements.size
+    }
+
+    /// Calls `take` with every inner shape's coordinate, its ω², the coordinates that its mass couples
+    /// it to, and that mass.
+    fn each_inner(&self, mut take: impl FnMut(usize, f64, &[usize], &[f64])) {
+        for (inner, columns, _) in self.masses.inner(self.elements) {
+            for (k, (square, coupling)) in inner.each(columns.len()).enumerate() {
+                take(inner.start + k, square, columns, coupling);
+            }
+        }
     }
 
     /// Motions of the output without energy, of unit modal mass.
@@ -169,7 +180,15 @@ impl<'a> System<'a> {
     /// M x.
     pub fn mass_times(&self, x: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; x.len()];
-        self.masses.pattern.add_product(&self.mass, x, &mut out);
+        let nodes = self.plan.unknowns;
+        (self.masses.pattern).add_product(&self.mass, &x[..nodes], &mut out[..nodes]);
+        self.each_inner(|own, _, columns, coupling| {
+            out[own] += x[own];
+            for (column, mass) in columns.iter().zip(coupling) {
+                out[own] += mass * x[*column];
+                out[*column] += mass * x[own];
+            }
+        });
         out
     }
 
@@ -191,20 +210,30 @@ impl<'a> System<'a> {
     pub fn solve(&mut self, forces: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SolveError> {
         let mut solutions = Vec::with_capacity(forces.len());
         for block in forces.chunks(BLOCK) {
-            let mut right_side = block.concat();
-            for force in right_side.chunks_exact_mut(self.size()) {
+            let mut block = block.to_vec();
+            for force in &mut block {
                 for (own, mass_own) in &self.free {
                     let share = dot(own, force);
                     subtract(force, share, mass_own);
                 }
             }
-            solutions.append(&mut self.solve_block(&right_side)?);
+            let nodes = self.plan.unknowns;
+            let right_side: Vec<&[f64]> = block.iter().map(|force| &force[..nodes]).collect();
+            let mut moved = self.solve_block(block.len(), &right_side.concat())?;
+            for (moved, force) in moved.iter_mut().zip(&block) {
+                moved.extend_from_slice(&force[nodes..]);
+                self.each_inner(|own, square, _, _| moved[own] /= square);
+            }
+            solutions.append(&mut moved);
         }
         Ok(solutions)
     }
 
-    fn solve_block(&mut self, forces: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
-        let n = self.size();
+    fn solve_block(&mut self, columns: usize, forces: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+        let n = self.plan.unknowns;
+        if n == 0 {
+            return Ok(vec![Vec::new(); columns]);
+        }
         let mut whole = vec![0.0; forces.len()];
         let mut rest = forces.to_vec();
         let mut last = f64::INFINITY;
@@ -257,6 +286,7 @@ impl<'a> System<'a> {
         each_deformation(self.plan, self.workspace, x, |_, _, deformation, force| {
             energy += dot(deformation, force);
         });
+        self.each_inner(|own, square, _, _| energy += square * x[own] * x[own]);
         energy
     }
 
@@ -279,17 +309,31 @@ impl<'a> System<'a> {
     }
 
     /// Number of eigenvalues between zero and `limit`, motions without energy apart; `None` where
-    /// it cannot be counted.
+    /// it cannot be counted. Inner shapes are eliminated first, which counts those whose own ω² is
+    /// below (Wittrick and Williams 1971).
     pub fn count_below(&self, limit: f64) -> Option<usize> {
         let mut values = self.stiffness.clone();
         subtract(&mut values, limit, &self.mass);
+        let mut held = 0;
+        for (inner, columns, places) in self.masses.inner(self.elements) {
+            for (square, coupling) in inner.each(columns.len()) {
+                held += usize::from(square < limit);
+                let weight = limit * limit / (square - limit);
+                let mut places = places.iter();
+                for (b, mass) in coupling.iter().enumerate() {
+                    for (other, place) in coupling[..=b].iter().zip(&mut places) {
+                        values[*place] -= weight * mass * other;
+                    }
+                }
+            }
+        }
         for &pin in &self.massless_pins {
             let scale = self.masses.pattern.diagonal(pin, &self.stiffness);
             let scale = if scale > 0.0 { scale } else { 1.0 };
             self.masses.pattern.pin(pin, scale, &mut values);
         }
         let counted = self.masses.pattern.negative_eigenvalues(&values)?;
-        counted.checked_sub(self.free.len())
+        (counted + held).checked_sub(self.free.len())
     }
 }
 

@@ -1,7 +1,9 @@
 //! Natural frequencies.
 
+use std::fmt::Write as _;
+
 use hyperstat_assembly::larger_first;
-use hyperstat_study::{ModeReport, ModesReport};
+use hyperstat_study::{CountReport, ModeReport, ModesReport};
 
 use super::parts::section;
 use super::table::{Table, number};
@@ -32,6 +34,22 @@ pub(crate) fn write(found: &ModesReport, text: &mut String) {
         ),
         table,
     );
+    if let Some(CountReport {
+        below,
+        modes,
+        found,
+    }) = found.counted
+    {
+        let missed = match modes.saturating_sub(found) {
+            0 => "none missed".into(),
+            missed => format!("{missed} missed"),
+        };
+        let below = number(below);
+        let _ = writeln!(
+            text,
+            "  {found} of {modes} modes below {below} Hz, {missed}"
+        );
+    }
 }
 
 /// An effective mass; zero where it is rounding.

@@ -20,9 +20,10 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
     let fields = Fields::read(fragment, "`modes`", &known)?;
     let mut options = ModalOptions::lowest(count(fields.required("count")?)?);
     if let Some(mass) = fields.get("mass") {
-        options.mass = match word(mass, "kinds of mass", ["Consistent", "Lumped"])? {
+        options.mass = match word(mass, "kinds of mass", ["Exact", "Consistent", "Lumped"])? {
             "Lumped" => BeamMass::Lumped,
-            _ => BeamMass::Consistent,
+            "Consistent" => BeamMass::Consistent,
+            _ => BeamMass::Exact,
         };
     }
     if let Some(shape) = fields.get("shape") {
@@ -37,16 +38,18 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
             false => RotaryInertia::Left,
         };
     }
-    let of_shapes = ["shape", "rotary_inertia"].map(|name| (name, fields.get(name)));
-    let given = of_shapes
-        .into_iter()
-        .find_map(|(name, at)| Some((name, at?)));
-    match given {
-        Some((name, at)) if options.mass == BeamMass::Lumped => Err(at
-            .error(format!("lumped masses have no `{name}`"))
-            .with_help(format!("leave `{name}` out, or `mass: Lumped`"))),
-        _ => Ok(options),
+    let (masses, refused, help): (_, &[&str], _) = match options.mass {
+        BeamMass::Exact => ("exact", &["shape"], "give `mass: Consistent`"),
+        BeamMass::Consistent => return Ok(options),
+        BeamMass::Lumped => ("lumped", &["shape", "rotary_inertia"], "`mass: Lumped`"),
+    };
+    for name in refused {
+        if let Some(at) = fields.get(name) {
+            let error = at.error(format!("{masses} masses have no `{name}`"));
+            return Err(error.with_help(format!("leave `{name}` out, or {help}")));
+        }
     }
+    Ok(options)
 }
 
 /// A number of modes.
@@ -58,11 +61,11 @@ fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     }
 }
 
-/// One of two words.
-fn word(
+/// One of these words.
+fn word<const N: usize>(
     fragment: Fragment<'_>,
     kinds: &str,
-    known: [&'static str; 2],
+    known: [&'static str; N],
 ) -> Result<&'static str, LoadError> {
     let found = known.into_iter().find(|word| *word == fragment.text());
     found.ok_or_else(|| {

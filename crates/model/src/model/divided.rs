@@ -9,13 +9,13 @@ use crate::segment_beam::segment_beam;
 use hyperstat_elements::ElementError;
 
 impl Model {
-    /// The same model without loads, every segment of n elements made n segments. Nodes keep
-    /// their ids; the new ones follow them, segment by segment, each from the first end on. The
-    /// parts of a segment stand together, in the order of the segments.
+    /// The same model without loads, every segment made as many segments as `parts` says of it.
+    /// Nodes keep their ids; the new ones follow them, segment by segment, each from the first end
+    /// on. The parts of a segment stand together, in the order of the segments.
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub fn divided(&self) -> Result<Self, ElementError> {
+    pub fn divided(&self, parts: &[usize]) -> Result<Self, ElementError> {
         let mut whole = self.clone();
         whole.revision = fresh_revision();
         whole.clear_loads();
@@ -23,8 +23,7 @@ impl Model {
         for body in &mut whole.bodies {
             body.segments.clear();
         }
-        for segment in &self.segments {
-            let count = segment.elements;
+        for (segment, &count) in self.segments.iter().zip(parts) {
             let place = |k: usize| k as f64 / count as f64;
             let mut first = segment.ends[0];
             for k in 0..count {
@@ -51,7 +50,7 @@ impl Model {
                 first = last;
             }
         }
-        whole.geometry = self.divided_geometry(&self.geometry)?;
+        whole.geometry = self.divided_geometry(&self.geometry, parts)?;
         Ok(whole)
     }
 
@@ -71,15 +70,18 @@ impl Model {
     ///
     /// # Errors
     /// A segment that cannot be formed.
-    pub fn divided_geometry(&self, geometry: &Geometry) -> Result<Geometry, ElementError> {
+    pub fn divided_geometry(
+        &self,
+        geometry: &Geometry,
+        parts: &[usize],
+    ) -> Result<Geometry, ElementError> {
         let mut positions = geometry.positions.clone();
         let mut y_axes = Vec::new();
-        for (k, segment) in self.segments.iter().enumerate() {
+        for (k, (segment, &count)) in self.segments.iter().zip(parts).enumerate() {
             // All parts have the axes of the whole.
             let (_, frame, span) = segment_beam(self, geometry, SegmentId(k))?;
             let y_axis: Vector3<f64> = frame.matrix().column(1).into_owned();
             let first = geometry.positions[segment.ends[0].0];
-            let count = segment.elements;
             positions.extend((1..count).map(|k| first + span * (k as f64 / count as f64)));
             y_axes.resize(y_axes.len() + count, Some(y_axis));
         }

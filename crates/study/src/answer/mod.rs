@@ -22,7 +22,7 @@ use inner::inner_displacements;
 use inner::inner_displacements_of;
 pub use joints::{FrameReport, JointReport};
 pub use misfits::MisfitEffectReport;
-pub use modes::{ModeReport, ModesReport};
+pub use modes::{CountReport, ModeReport, ModesReport};
 pub use sensitivities::{FrequencyReport, FrequencySensitivityReport, SensitivityReport};
 pub use solve::{OutputReport, SegmentReport, SolveReport, StressReport};
 pub(crate) use why::budget;

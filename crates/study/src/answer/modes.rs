@@ -1,6 +1,6 @@
 //! Natural frequencies and modes in the report of `hyperstat solve`.
 
-use hyperstat_assembly::{Mode, Model, Modes};
+use hyperstat_assembly::{BeamMass, ModalOptions, Mode, Model, Modes};
 use serde::Serialize;
 
 use super::inner::segment_names;
@@ -14,9 +14,22 @@ pub struct ModesReport {
     pub modes: Vec<ModeReport>,
     /// Mass of all beams and nodes \[kg\].
     pub mass: f64,
+    /// How many frequencies there are below which, by a count of them.
+    pub counted: Option<CountReport>,
     /// What the user should know about them; told among the warnings.
     #[serde(skip)]
     pub remarks: Vec<String>,
+}
+
+/// A count of frequencies.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct CountReport {
+    /// The frequency \[Hz\] below which they were counted.
+    pub below: f64,
+    /// Their number, idle motions apart.
+    pub modes: usize,
+    /// How many of them were found, be they listed or not: none is missing where it is the same.
+    pub found: usize,
 }
 
 /// A natural mode.
@@ -34,13 +47,17 @@ pub struct ModeReport {
 
 impl ModesReport {
     /// Collects what is to be reported; `all`: the nodes inside segments too.
-    pub fn new(model: &Model, found: &Modes, wanted: usize, all: bool) -> Self {
+    pub fn new(model: &Model, found: &Modes, options: &ModalOptions, all: bool) -> Self {
+        let (wanted, mass) = (options.count, options.mass);
         let mut remarks = Vec::new();
         if found.modes.len() < wanted {
             remarks.push(format!(
-                "there are {} modes only: no more coordinates have mass (more elements a segment \
-                 make more)",
-                found.modes.len()
+                "there are {} modes only: no more coordinates have mass{}",
+                found.modes.len(),
+                match mass {
+                    BeamMass::Exact => "",
+                    _ => " (more elements a segment make more)",
+                }
             ));
         }
         if found.idle > 0 {
@@ -76,6 +93,11 @@ impl ModesReport {
         Self {
             modes: found.modes.iter().map(mode).collect(),
             mass: found.mass,
+            counted: found.counted.map(|counted| CountReport {
+                below: counted.below,
+                modes: counted.modes,
+                found: counted.found,
+            }),
             remarks,
         }
     }

@@ -168,7 +168,8 @@ fn mode(
         .map_err(|error| error.to_string())?;
     let mode = found.modes.get(number - 1).ok_or_else(|| {
         format!(
-            "there are {} modes only (more `elements` a segment make more)",
+            "there are {} modes only: no more coordinates have mass (of consistent and lumped \
+             masses, more `elements` a segment make more)",
             found.modes.len()
         )
     })?;

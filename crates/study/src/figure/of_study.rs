@@ -51,7 +51,7 @@ impl Study {
     /// # Errors
     /// It has no such mode.
     pub fn mode(&self, path: &Path, number: usize, look: Look) -> Result<Drawing, StudyError> {
-        let options = self.modal_options(Some(number), false);
+        let options = self.modal_options(Some(number), None);
         let modes = options.as_ref().map(|options| self.modes(options));
         let modes = modes
             .transpose()?

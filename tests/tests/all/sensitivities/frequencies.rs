@@ -29,6 +29,7 @@ fn frequencies_of_a_round_console() {
         (1, BeamMass::Consistent),
         (4, BeamMass::Consistent),
         (4, BeamMass::Lumped),
+        (1, BeamMass::Exact),
     ] {
         let model = read(&console("Circle(diameter: 0.02)", elements, ""));
         let options = ModalOptions {
@@ -99,16 +100,17 @@ fn samples() -> Vec<Sample> {
     let timoshenko = ModalOptions {
         shape: MassShape::Exact,
         rotary_inertia: RotaryInertia::Included,
+        ..ModalOptions::consistent(6)
+    };
+    let exact = ModalOptions {
+        rotary_inertia: RotaryInertia::Included,
         ..ModalOptions::lowest(6)
     };
     let cubic = ModalOptions {
         shape: MassShape::Cubic,
         ..timoshenko.clone()
     };
-    let lumped = ModalOptions {
-        mass: BeamMass::Lumped,
-        ..ModalOptions::lowest(6)
-    };
+    let lumped = ModalOptions::lumped(6);
     let stubby = console(
         "Tapered(from: Tube(outer: 0.08, inner: 0.02, shear_y: 0.0025, shear_z: 0.002), \
          to: Tube(outer: 0.05, inner: 0.01, shear_y: 0.0012, shear_z: 0.001))",
@@ -148,6 +150,12 @@ fn samples() -> Vec<Sample> {
             options: timoshenko.clone(),
         },
         Sample {
+            name: "stubby console, exact",
+            text: stubby.clone(),
+            parameters: of_stubby.clone(),
+            options: exact.clone(),
+        },
+        Sample {
             name: "stubby console, cubic shapes",
             text: stubby.clone(),
             parameters: of_stubby.clone(),
@@ -182,6 +190,12 @@ fn samples() -> Vec<Sample> {
             options: ModalOptions::lowest(6),
         },
         Sample {
+            name: "delta with elastic joints, consistent",
+            text: with_mass("delta_elastic_joints.ron", "platform", "P"),
+            parameters: of_delta.iter().chain(&elastic).copied().collect(),
+            options: ModalOptions::consistent(6),
+        },
+        Sample {
             name: "delta with elastic joints, lumped",
             text: with_mass("delta_elastic_joints.ron", "platform", "P"),
             parameters: of_delta.iter().chain(&elastic).copied().collect(),
@@ -193,8 +207,17 @@ fn samples() -> Vec<Sample> {
                 "Circle(diameter: 0.014)",
                 "Circle(diameter: 0.014, shear_y: 0.0001, shear_z: 0.0001)",
             ),
-            parameters: of_delta,
+            parameters: of_delta.clone(),
             options: timoshenko,
+        },
+        Sample {
+            name: "delta with elastic joints, thick, exact",
+            text: with_mass("delta_elastic_joints.ron", "platform", "P").replace(
+                "Circle(diameter: 0.014)",
+                "Circle(diameter: 0.014, shear_y: 0.0001, shear_z: 0.0001)",
+            ),
+            parameters: of_delta,
+            options: exact,
         },
         Sample {
             name: "hexapod",
