@@ -34,7 +34,7 @@ pub(crate) enum Turned {
 impl Turned {
     /// Axes of loads; `None` for the global ones.
     pub fn by_axes(axes: &Axes) -> Option<Self> {
-        (*axes != Axes::Global).then(|| Self::Axes(axes.clone()))
+        (*axes != Axes::Global).then_some(Self::Axes(*axes))
     }
 }
 
