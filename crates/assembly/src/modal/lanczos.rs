@@ -17,6 +17,10 @@ pub(super) const BLOCK: usize = 4;
 /// A Ritz pair has converged whose residual is below this part of it; its eigenvalue is then good
 /// to about the square.
 const CONVERGED: f64 = 1e-11;
+/// The same where nothing but eigenvalues is asked for.
+const SETTLED: f64 = 2e-9;
+/// The same for those beyond, which only tell where there is room to count.
+const ROUGH: f64 = 1e-2;
 /// A vector of which no more than this part is left beside the basis lies in it.
 const DEPENDENT: f64 = 1e-12;
 /// Ritz values below this part of the largest are rounding.
@@ -39,9 +43,21 @@ pub(super) struct Lowest {
     pub counted: Option<Counted>,
 }
 
-/// Finds the `count` lowest modes; fewer where there are no more.
-pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, SolveError> {
-    let mut basis = Basis::default();
+/// Finds the `count` lowest modes; fewer where there are no more. `shapes`: vectors to rounding, else
+/// only so closely that eigenvalues are, by solutions that are not refined. `start`: vectors that are near
+/// them, if any are known.
+pub(super) fn lowest(
+    system: &mut System<'_>,
+    count: usize,
+    shapes: bool,
+    start: &[Vec<f64>],
+) -> Result<Lowest, SolveError> {
+    let mut basis = Basis {
+        count,
+        shapes,
+        start,
+        ..Basis::default()
+    };
     if system.size() == 0 {
         return Ok(Lowest {
             modes: Vec::new(),
@@ -96,7 +112,7 @@ pub(super) fn lowest(system: &mut System<'_>, count: usize) -> Result<Lowest, So
 
 /// A basis, orthonormal in the mass, and the inverse of the stiffness times mass in it.
 #[derive(Default)]
-struct Basis {
+struct Basis<'a> {
     vectors: Vec<Vec<f64>>,
     /// Mass times each of them.
     mass_vectors: Vec<Vec<f64>>,
@@ -106,10 +122,17 @@ struct Basis {
     outside: Vec<f64>,
     /// The operator among the vectors that have images, by rows of the lower triangle.
     projected: Vec<Vec<f64>>,
+    /// Ritz values and vectors of the basis as it is, largest first.
+    pairs: Vec<(f64, Vec<f64>)>,
     seed: u64,
+    /// Number of modes that are wanted, and whether their vectors are.
+    count: usize,
+    shapes: bool,
+    /// What is begun with in place of random vectors.
+    start: &'a [Vec<f64>],
 }
 
-impl Basis {
+impl Basis<'_> {
     /// Grows until `wanted` Ritz pairs have converged; returns whether the basis has come to hold
     /// all modes of finite frequency.
     fn grow(&mut self, system: &mut System<'_>, wanted: usize) -> Result<bool, SolveError> {
@@ -132,7 +155,7 @@ impl Basis {
     /// Finds the images of the vectors that have none, and appends what is new in them.
     fn step(&mut self, system: &mut System<'_>) -> Result<(), SolveError> {
         let block = self.images.len()..self.vectors.len();
-        let images = system.solve(&self.mass_vectors[block.clone()])?;
+        let images = system.solve(&self.mass_vectors[block.clone()], self.shapes)?;
         self.outside.clear();
         let mut rests = Vec::with_capacity(images.len());
         for (row, mut image) in block.clone().zip(images) {
@@ -147,26 +170,37 @@ impl Basis {
             let outside = self.append(system, rest);
             self.outside.push(outside);
         }
+        // Those of a small basis do not tell much yet.
+        if self.images.len() >= self.count + 3 * BLOCK || self.images.len() == self.vectors.len() {
+            self.pairs = self.ritz();
+        }
         Ok(())
     }
 
     /// Appends a vector without its part in the basis, unless nothing is left; returns the length
     /// of what is left.
     fn append(&mut self, system: &System<'_>, mut vector: Vec<f64>) -> f64 {
-        let whole = system.length(&vector);
-        for _ in 0..2 {
+        // The length of the whole; where there are no motions without energy, parts add to it as well.
+        let whole = match self.shapes || system.has_free() {
+            true => system.length(&vector),
+            false => 0.0,
+        };
+        let mut inside = 0.0;
+        for _ in 0..if self.shapes { 2 } else { 1 } {
             system.remove_free(&mut vector);
             for (own, mass_own) in self.vectors.iter().zip(&self.mass_vectors) {
                 let share = dot(mass_own, &vector);
+                inside += share * share;
                 subtract(&mut vector, share, own);
             }
         }
-        let length = system.length(&vector);
-        if length > DEPENDENT * whole {
-            for value in &mut vector {
+        let mut mass_vector = system.mass_times(&vector);
+        let length = dot(&vector, &mass_vector).max(0.0).sqrt();
+        if length > DEPENDENT * whole.max(length.hypot(inside.sqrt())) {
+            for value in vector.iter_mut().chain(&mut mass_vector) {
                 *value /= length;
             }
-            self.mass_vectors.push(system.mass_times(&vector));
+            self.mass_vectors.push(mass_vector);
             self.vectors.push(vector);
         }
         length
@@ -175,13 +209,17 @@ impl Basis {
     /// Appends a random block; returns whether there was anything new in it.
     fn add_random(&mut self, system: &mut System<'_>) -> bool {
         let before = self.vectors.len();
-        let random = (0..BLOCK).map(|_| {
-            let free = (0..system.size()).map(|_| random(&mut self.seed));
-            system.mass_times(&free.collect::<Vec<f64>>())
+        let near = std::mem::take(&mut self.start);
+        let random = (0..BLOCK).map(|k| match near.get(k) {
+            Some(near) => system.mass_times(near),
+            None => {
+                let free = (0..system.size()).map(|_| random(&mut self.seed));
+                system.mass_times(&free.collect::<Vec<f64>>())
+            }
         });
         let random: Vec<Vec<f64>> = random.collect();
         // Numbers that overflow end in a basis that grows no more.
-        let Ok(images) = system.solve(&random) else {
+        let Ok(images) = system.solve(&random, self.shapes) else {
             return false;
         };
         for image in images {
@@ -214,25 +252,31 @@ impl Basis {
     /// How many of the first `wanted` Ritz pairs have converged, up to the first that has not.
     fn converged(&self, wanted: usize) -> usize {
         let last = self.images.len() - self.outside.len();
-        let pairs = self.ritz();
-        let converged = pairs.iter().take(wanted).take_while(|(value, weights)| {
+        let pairs = self.pairs.iter().take(wanted).enumerate();
+        let converged = pairs.take_while(|(k, (value, weights))| {
+            if weights.len() != self.images.len() {
+                return false;
+            }
             let parts = weights[last..].iter().zip(&self.outside);
             let residual: f64 = parts.map(|(weight, rest)| weight.abs() * rest).sum();
-            residual <= CONVERGED * value
+            let enough = match self.shapes {
+                true => CONVERGED,
+                false if *k < self.count => SETTLED,
+                false => ROUGH,
+            };
+            residual <= enough * value
         });
         converged.count()
     }
 
     /// The lowest eigenvalues of stiffness and mass.
     fn eigenvalues(&self, wanted: usize) -> Vec<f64> {
-        let pairs = self.ritz();
-        pairs.iter().take(wanted).map(|p| 1.0 / p.0).collect()
+        self.pairs.iter().take(wanted).map(|p| 1.0 / p.0).collect()
     }
 
     /// The lowest modes.
     fn modes(&self, system: &System<'_>, count: usize) -> Vec<Mode> {
-        let pairs = self.ritz();
-        let modes = pairs.iter().take(count).map(|(_, weights)| {
+        let modes = self.pairs.iter().take(count).map(|(_, weights)| {
             let mut vector = vec![0.0; system.size()];
             let mut image = vector.clone();
             for (k, weight) in weights.iter().enumerate() {

@@ -53,6 +53,9 @@ impl ModalPlan {
                 break;
             }
         }
+        if options.mass == BeamMass::Exact {
+            ready.begin_with(model, model.geometry(), options.count);
+        }
         Ok(Self {
             model: model.clone(),
             options: options.clone(),

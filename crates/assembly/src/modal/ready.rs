@@ -15,7 +15,7 @@ use crate::modal::system::{Mode, System};
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
-use crate::pose::evaluate;
+use crate::pose::form;
 use crate::pose::restraint::Restraint;
 use crate::posture::Posture;
 use crate::room;
@@ -34,6 +34,8 @@ pub(super) struct Ready {
     pub members: Members,
     pub plan: Plan,
     pub masses: MassPlan,
+    /// Modes of the configuration that it was made for: near those of others.
+    start: Vec<Vec<f64>>,
 }
 
 /// What was found in a configuration, and from what.
@@ -74,7 +76,15 @@ impl Ready {
             members,
             plan,
             masses,
+            start: Vec::new(),
         })
+    }
+
+    /// Begins with the modes of a configuration wherever frequencies alone are looked for.
+    pub fn begin_with(&mut self, model: &Model, geometry: &Geometry, count: usize) {
+        let found = self.find(model, geometry, count, false).ok();
+        let modes = found.map(|found| found.modes).unwrap_or_default();
+        self.start = modes.into_iter().map(|mode| mode.vector).collect();
     }
 
     /// Up to which ω² it is right.
@@ -82,14 +92,15 @@ impl Ready {
         self.members.limit
     }
 
-    /// Finds the `count` lowest modes of a configuration of `model`, whose topology this is; `diagnose`
-    /// looks for motions without energy even where the plan's own configuration has none.
+    /// Finds the `count` lowest modes of a configuration of `model`, whose topology this is; `shapes` finds
+    /// vectors to rounding, and looks for motions without energy even where the plan's own configuration
+    /// has none. Without, only eigenvalues are right to rounding.
     pub fn find(
         &self,
         model: &Model,
         geometry: &Geometry,
         count: usize,
-        diagnose: bool,
+        shapes: bool,
     ) -> Result<Outcome<'_>, Fault> {
         let (plan, members) = (&self.plan, &self.members);
         model
@@ -101,7 +112,7 @@ impl Ready {
         let geometry = model.divided_geometry(geometry, &members.parts)?;
         let at = Posture::new(&self.divided, &geometry);
         let mut workspace = plan.workspace();
-        evaluate(plan, &at, &[], &mut workspace)?;
+        form(plan, &at, &mut workspace)?;
         let masses = self.masses.elements(plan, &at, &workspace, members)?;
         if masses.total <= 0.0 {
             return Err(SolveError::NoMass.into());
@@ -110,7 +121,7 @@ impl Ready {
             let restraint = restraint.map(|r| (r, &at));
             System::new(plan, &workspace, &self.masses, &masses, restraint)
         };
-        let held = (!diagnose && !plan.has_idle).then(|| system(None));
+        let held = (!shapes && !plan.has_idle).then(|| system(None));
         let mut system = match held {
             Some(Ok(system)) => system,
             _ => system(Some(&Restraint::of(&at, plan.output)?))?,
@@ -118,7 +129,18 @@ impl Ready {
         let mut modes: Vec<Mode> = system.moving().take(count).map(Mode::at_rest).collect();
         let (mut complete, mut counted) = (true, None);
         if modes.len() < count {
-            let elastic = lowest(&mut system, count - modes.len())?;
+            let wanted = count - modes.len();
+            // Exact masses have no such ends that only elements divide, and most often no need of refinement.
+            let exact = members.limit < f64::INFINITY;
+            let quick = match shapes || !exact {
+                true => None,
+                false => lowest(&mut system, wanted, false, &self.start).ok(),
+            };
+            let quick = quick.filter(|found| found.complete && system.settled(&found.modes));
+            let elastic = match quick {
+                Some(found) => found,
+                None => lowest(&mut system, wanted, true, &[])?,
+            };
             complete = elastic.complete;
             let at_rest = modes.len();
             counted = elastic.counted.map(|counted| Counted {

@@ -21,6 +21,9 @@ use crate::room::MOST_NUMBERS;
 const MOST_REFINEMENTS: usize = 4;
 /// A correction below this part of the solution is the last.
 const ROUNDING: f64 = 1e-14;
+/// Vectors of unit mass that a step of refinement changes by no more than this have eigenvalues to its
+/// square over the distance of the next, relative: to rounding where those are a thousandth apart.
+const SETTLED: f64 = 3e-8;
 /// A motion has no mass whose kinetic energy is below this part of what it were with all mass at
 /// its largest displacement.
 const MASSLESS: f64 = 1e-20;
@@ -197,6 +200,11 @@ impl<'a> System<'a> {
         dot(x, &self.mass_times(x)).max(0.0).sqrt()
     }
 
+    /// Whether there are motions without energy.
+    pub fn has_free(&self) -> bool {
+        !self.free.is_empty()
+    }
+
     /// Takes the motions without energy out of a vector.
     pub fn remove_free(&self, vector: &mut [f64]) {
         for (own, mass_own) in &self.free {
@@ -205,9 +213,13 @@ impl<'a> System<'a> {
         }
     }
 
-    /// K⁻¹ times vectors of forces, without what works on motions without energy; refined by
+    /// K⁻¹ times vectors of forces, without what works on motions without energy; `refined` by
     /// residuals formed in the elements' deformations.
-    pub fn solve(&mut self, forces: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, SolveError> {
+    pub fn solve(
+        &mut self,
+        forces: &[Vec<f64>],
+        refined: bool,
+    ) -> Result<Vec<Vec<f64>>, SolveError> {
         let mut solutions = Vec::with_capacity(forces.len());
         for block in forces.chunks(BLOCK) {
             let mut block = block.to_vec();
@@ -219,7 +231,7 @@ impl<'a> System<'a> {
             }
             let nodes = self.plan.unknowns;
             let right_side: Vec<&[f64]> = block.iter().map(|force| &force[..nodes]).collect();
-            let mut moved = self.solve_block(block.len(), &right_side.concat())?;
+            let mut moved = self.solve_block(block.len(), &right_side.concat(), refined)?;
             for (moved, force) in moved.iter_mut().zip(&block) {
                 moved.extend_from_slice(&force[nodes..]);
                 self.each_inner(|own, square, _, _| moved[own] /= square);
@@ -229,7 +241,12 @@ impl<'a> System<'a> {
         Ok(solutions)
     }
 
-    fn solve_block(&mut self, columns: usize, forces: &[f64]) -> Result<Vec<Vec<f64>>, SolveError> {
+    fn solve_block(
+        &mut self,
+        columns: usize,
+        forces: &[f64],
+        refined: bool,
+    ) -> Result<Vec<Vec<f64>>, SolveError> {
         let n = self.plan.unknowns;
         if n == 0 {
             return Ok(vec![Vec::new(); columns]);
@@ -244,6 +261,10 @@ impl<'a> System<'a> {
                 }
             }
             self.masses.pattern.solve(&mut self.factor, &mut rest);
+            if !refined {
+                whole.copy_from_slice(&rest);
+                break;
+            }
             let mut change = 0.0_f64;
             for (column, step) in whole.chunks_exact_mut(n).zip(rest.chunks_exact(n)) {
                 subtract(column, -1.0, step);
@@ -288,6 +309,31 @@ impl<'a> System<'a> {
         });
         self.each_inner(|own, square, _, _| energy += square * x[own] * x[own]);
         energy
+    }
+
+    /// Whether modes are eigenvectors so closely that their ω² are good to rounding, whatever solutions
+    /// without refinement have lost: their residuals, formed in the elements' deformations, are small
+    /// beside the loads that they are of.
+    pub fn settled(&mut self, modes: &[Mode]) -> bool {
+        let nodes = self.plan.unknowns;
+        let rest = modes.iter().map(|mode| {
+            let mut rest = self.mass_times(&mode.vector);
+            for value in &mut rest {
+                *value *= mode.eigenvalue;
+            }
+            let (x, inertia) = (&mode.vector, &mut rest);
+            self.each_inner(|own, square, _, _| inertia[own] -= square * x[own]);
+            let inertia = &mut inertia[..nodes];
+            each_deformation(self.plan, self.workspace, x, |_, operator, _, force| {
+                operator.subtract_forces(force, inertia);
+            });
+            rest
+        });
+        let rest: Vec<Vec<f64>> = rest.collect();
+        let Ok(moved) = self.solve(&rest, false) else {
+            return false;
+        };
+        moved.iter().all(|moved| self.length(moved) < SETTLED)
     }
 
     /// The mode of a vector, whose image under K⁻¹ M is given.
