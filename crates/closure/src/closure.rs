@@ -1,15 +1,18 @@
 //! The loop closure of a model.
 
+use std::sync::OnceLock;
+
 use hyperstat_joints::Dof;
 use hyperstat_model::{Geometry, JointId, Model};
-use nalgebra::{DMatrix, Point3, Vector3};
+use nalgebra::{DMatrix, IsometryMatrix3, Point3, Vector3};
 
 use crate::equations::{Goal, System};
 use crate::error::ClosureError;
 use crate::linkage::{Configuration, Linkage};
 use crate::newton::{RANK_TOLERANCE, null_space};
 use crate::path::{NAMES, shown};
-use crate::place::Parts;
+use crate::place::{Parts, Room};
+use crate::span::Span;
 use crate::target::{Drive, Target};
 
 /// How much more a position counts than a rotation where more is asked of the output than it can
@@ -26,10 +29,16 @@ const SAME: f64 = 1e-6;
 /// where they are at home.
 #[derive(Debug, Clone)]
 pub struct LoopClosure {
-    parts: Parts,
-    system: System,
+    pub(crate) parts: Parts,
+    pub(crate) system: System,
     /// What the output can do at home: six rows, translations over the size.
     freedom: DMatrix<f64>,
+    /// Which coordinates are followed where those of a number's bits are asked.
+    prescribed: Vec<OnceLock<[bool; 6]>>,
+    /// The output's coordinates at home.
+    at_home: [f64; 6],
+    /// What shows at once that a target is out of reach.
+    pub(crate) spans: Vec<Span>,
 }
 
 impl LoopClosure {
@@ -52,10 +61,15 @@ impl LoopClosure {
         let home = system.linkage.home();
         let loops = system.equations(&home, &Goal::default()).jacobian;
         let freedom = system.output_rates(&home) * null_space(&loops);
+        let at_home = system.coordinates(&home);
+        let spans = Span::all(&system, model);
         Ok(Self {
             parts: Parts::new(model, centre, size)?,
             system,
             freedom,
+            prescribed: vec![OnceLock::new(); 64],
+            at_home,
+            spans,
         })
     }
 
@@ -91,16 +105,25 @@ impl LoopClosure {
         target: &Target<'_>,
     ) -> Result<Configuration, ClosureError> {
         self.check(from)?;
+        let reached = self.system.follow(from, &self.goal(target)?)?;
+        if let Target::Output(asked) = target {
+            self.compare(&self.pose_of(&reached), asked)?;
+        }
+        Ok(reached)
+    }
+
+    /// The conditions that a target makes.
+    pub(crate) fn goal(&self, target: &Target<'_>) -> Result<Goal, ClosureError> {
         match target {
             Target::Output(asked) => {
                 finite(asked.iter().flatten())?;
-                let reached = self.system.follow(from, &self.output_goal(asked))?;
-                self.compare(&reached, asked)?;
-                Ok(reached)
+                let goal = self.output_goal(asked);
+                self.spans.iter().try_for_each(|span| span.check(&goal))?;
+                Ok(goal)
             }
             Target::Drives(drives) => {
                 finite(drives.iter().map(|drive| &drive.value))?;
-                self.system.follow(from, &self.drive_goal(drives)?)
+                self.drive_goal(drives)
             }
         }
     }
@@ -214,13 +237,25 @@ impl LoopClosure {
         geometry: &mut Geometry,
     ) -> Result<(), ClosureError> {
         self.check(configuration)?;
+        let linkage = &self.system.linkage;
+        let bodies = linkage.posture(configuration).bodies;
+        let matrix = |body: nalgebra::Isometry3<f64>| {
+            IsometryMatrix3::from_parts(body.translation, body.rotation.to_rotation_matrix())
+        };
+        let bodies: Vec<_> = bodies.into_iter().map(matrix).collect();
+        let mut room = Room::default();
         self.parts
-            .write(&self.system.linkage, configuration, geometry)
+            .write(linkage, &bodies, &configuration.values, &mut room, geometry)
     }
 
     /// Which coordinates are followed where those of `asked` are: of these as many as are
     /// independent, of the others those that the mechanism leaves open.
     fn prescribed(&self, asked: &[bool; 6]) -> [bool; 6] {
+        let bits = (0..6).filter(|k| asked[*k]).map(|k| 1 << k).sum::<usize>();
+        *self.prescribed[bits].get_or_init(|| self.independent(asked))
+    }
+
+    fn independent(&self, asked: &[bool; 6]) -> [bool; 6] {
         let mut left: Vec<_> = (0..6)
             .map(|k| {
                 let weight = if k < 3 { POSITION_FIRST } else { 1.0 };
@@ -251,26 +286,24 @@ impl LoopClosure {
     }
 
     /// What is followed for these coordinates.
-    fn output_goal(&self, asked: &[Option<f64>; 6]) -> Goal {
+    pub(crate) fn output_goal(&self, asked: &[Option<f64>; 6]) -> Goal {
         let prescribed = self.prescribed(&asked.map(|value| value.is_some()));
-        let home = self.system.coordinates(&self.home());
         let mut goal = Goal::default();
         for k in 0..6 {
             if prescribed[k] {
                 let asked = asked[k].map(|value| value - self.system.shift(k));
-                goal.output[k] = Some(asked.unwrap_or(home[k]));
+                goal.output[k] = Some(asked.unwrap_or(self.at_home[k]));
             }
         }
         goal
     }
 
-    /// Refuses a configuration that does not have the asked coordinates.
-    fn compare(
+    /// Refuses a pose of the output that does not have the asked coordinates.
+    pub(crate) fn compare(
         &self,
-        reached: &Configuration,
+        found: &[f64; 6],
         asked: &[Option<f64>; 6],
     ) -> Result<(), ClosureError> {
-        let found = self.pose_of(reached);
         let whole = asked[3..].iter().all(Option::is_some);
         let mut wrong = Vec::new();
         for (k, wanted) in asked.iter().enumerate() {
@@ -293,7 +326,7 @@ impl LoopClosure {
                 };
                 wrong.push(format!(
                     "the orientation is {}, not {}",
-                    vector(&found),
+                    vector(found),
                     vector(&wanted)
                 ));
             }

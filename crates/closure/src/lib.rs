@@ -12,17 +12,21 @@
 mod closure;
 mod equations;
 mod error;
+mod lanes;
 mod linkage;
 mod motion;
 mod newton;
 mod path;
 mod place;
 mod reach;
+mod span;
 mod target;
 mod twist;
 
 pub use closure::LoopClosure;
 pub use error::ClosureError;
+pub use hyperstat_model::LANES;
+pub use lanes::{Lanes, Work};
 pub use linkage::Configuration;
 pub use reach::Reached;
 pub use target::{Drive, Target};

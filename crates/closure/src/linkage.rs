@@ -46,12 +46,12 @@ pub(crate) struct Column {
 
 /// A joint of the tree.
 #[derive(Debug, Clone, Copy)]
-struct Step {
-    joint: usize,
+pub(crate) struct Step {
+    pub joint: usize,
     /// The body that it places.
-    child: usize,
+    pub child: usize,
     /// Whether that is the joint's second.
-    forward: bool,
+    pub forward: bool,
 }
 
 /// The joints of a model as a tree and closings.
@@ -67,7 +67,7 @@ pub(crate) struct Linkage {
     pub closings: Vec<usize>,
     /// Columns that move a body, with the sign of the motion.
     pub chains: Vec<Vec<(usize, f64)>>,
-    steps: Vec<Step>,
+    pub steps: Vec<Step>,
 }
 
 /// Where all bodies are, and what every coordinate moves.

@@ -2,7 +2,9 @@
 
 use hyperstat_joints::{Dof, DofSet};
 use hyperstat_model::{Connection, Geometry, Model, NodeId};
-use nalgebra::{DMatrix, DVector, Isometry3, Matrix6, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{
+    DMatrix, DVector, Isometry3, IsometryMatrix3, Matrix6, Translation3, UnitQuaternion, Vector3,
+};
 
 use crate::error::ClosureError;
 use crate::twist::Twist;
@@ -98,12 +100,21 @@ impl JointMotion {
     }
 
     /// Where the joint stands for its basis to hold, from the frame of its first body.
-    pub fn standing(&self, first: &Isometry3<f64>, values: &[f64]) -> Isometry3<f64> {
-        self.prefixes(first, &values[..self.standing])[self.standing]
+    pub fn standing(&self, first: &IsometryMatrix3<f64>, values: &[f64]) -> IsometryMatrix3<f64> {
+        let factors = self.factors[..self.standing].iter().zip(values);
+        factors.fold(*first, |frame, ((_, twist), value)| {
+            let moved = twist.exp(*value);
+            let turn = moved.rotation.to_rotation_matrix();
+            frame * IsometryMatrix3::from_parts(moved.translation, turn)
+        })
     }
 
     /// Whether the basis holds about another point of the frame where the joint stands.
     pub fn holds_about(&self, offset: &Vector3<f64>) -> bool {
+        // It changes no motion by more than that.
+        if offset.norm() <= 0.5 * SAME {
+            return true;
+        }
         let shift = Isometry3::from_parts(Translation3::from(-offset), UnitQuaternion::identity());
         self.free
             .iter()

@@ -21,12 +21,12 @@ const SHORT_PARTS: usize = 200;
 /// Parts of one length, after one that was halved to it, before a longer one is tried.
 const CAREFUL: usize = 4;
 /// Most that a coordinate may move in one part (rad, or sizes of the mechanism).
-const LONGEST: f64 = 0.5;
+pub(crate) const LONGEST: f64 = 0.5;
 /// Most that the solution of a part may be off its prediction along the tangent, relative to it:
 /// from its start, and from its end on the way back.
-const OFF: f64 = 0.3;
+pub(crate) const OFF: f64 = 0.3;
 /// Least change of orientation in a part: a branch ends where it is zero, and another begins.
-const SAME_SIDE: f64 = 1e-3;
+pub(crate) const SAME_SIDE: f64 = 1e-3;
 /// A misfit up to this is a solution, be it one that Newton's method nears slowly.
 const FOUND: f64 = 1e-9;
 /// Singular values below this are those of a singular configuration.

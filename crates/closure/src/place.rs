@@ -2,10 +2,10 @@
 //! gives way.
 
 use hyperstat_model::{BodyKind, Geometry, Model, NodeId};
-use nalgebra::{Isometry3, Point3, Rotation3, Vector3};
+use nalgebra::{IsometryMatrix3, Point3, Rotation3, Translation3, Vector3};
 
 use crate::error::ClosureError;
-use crate::linkage::{Configuration, Linkage};
+use crate::linkage::Linkage;
 use crate::motion::JointMotion;
 
 /// Two points of a joint that are apart by less than this, over the mechanism's size, are one:
@@ -23,8 +23,28 @@ pub(crate) struct Parts {
     pub size: f64,
     /// Direction of every segment's local y at home, the default one too.
     pub y_axes: Vec<Vector3<f64>>,
-    /// Nodes that hold still in their body: with other joints, loads or the output.
-    uses: Vec<usize>,
+    /// Of every node, how it may be moved in its body.
+    nodes: Vec<Freedom>,
+}
+
+/// How a node may be moved in its body without another meaning.
+#[derive(Debug, Clone)]
+enum Freedom {
+    /// Not at all: it has other joints, loads or the output, or its body is one as a whole.
+    Held,
+    /// In every direction: a point of a rigid body.
+    Any,
+    /// Along the beam, from the other ends of its segments.
+    Along(Vec<NodeId>),
+}
+
+/// Room for what is not yet a geometry.
+#[derive(Debug, Default, Clone)]
+pub(crate) struct Room {
+    /// Nodes where their bodies take them.
+    rigid: Vec<Point3<f64>>,
+    positions: Vec<Point3<f64>>,
+    frames: Vec<Rotation3<f64>>,
 }
 
 impl Parts {
@@ -47,44 +67,62 @@ impl Parts {
             centre,
             size,
             y_axes,
-            uses,
+            nodes: (0..model.nodes().len())
+                .map(|node| Freedom::of(model, NodeId(node), uses[node]))
+                .collect(),
         })
     }
 
-    /// Writes a configuration into a geometry of the model.
+    /// Writes the bodies' motions from home, in metres from the centre, and the values of all columns
+    /// into a geometry of the model, which stays as it was where that fails. Allocates nothing once
+    /// `room` has grown.
     pub fn write(
         &self,
         linkage: &Linkage,
-        configuration: &Configuration,
+        bodies: &[IsometryMatrix3<f64>],
+        values: &[f64],
+        room: &mut Room,
         geometry: &mut Geometry,
     ) -> Result<(), ClosureError> {
         self.model.check_size(geometry)?;
-        let posture = linkage.posture(configuration);
         let home = self.model.geometry();
-        let mut placed = home.clone();
-        for (node, position) in placed.positions.iter_mut().enumerate() {
-            let body = posture.bodies[self.model.nodes()[node].body.0];
-            let moved = body * Point3::from(home.positions[node].coords - self.centre);
-            *position = moved + self.centre;
+        let Room {
+            rigid,
+            positions,
+            frames,
+        } = room;
+        rigid.clear();
+        rigid.extend(home.positions.iter().enumerate().map(|(node, position)| {
+            let body = &bodies[self.model.nodes()[node].body.0];
+            body * Point3::from(position.coords - self.centre) + self.centre
+        }));
+        positions.clone_from(rigid);
+        frames.clear();
+        for (k, joint) in linkage.joints.iter().enumerate() {
+            let body = joint.bodies[0].map(|b| &bodies[b]);
+            let frame = &home.frames[k];
+            let place = joint.home.translation.vector;
+            let first = match body {
+                Some(body) => IsometryMatrix3::from_parts(
+                    Translation3::from((body * Point3::from(place)).coords),
+                    body.rotation * frame,
+                ),
+                None => IsometryMatrix3::from_parts(place.into(), *frame),
+            };
+            let standing = joint.standing(&first, &values[linkage.starts[k]..]);
+            // The frame at home turned with its first body, and then as far as the joint's own motion
+            // takes it to where its basis holds.
+            frames.push(standing.rotation);
+            self.meet(k, joint, &standing, rigid, positions)?;
         }
+        geometry.positions.copy_from_slice(positions);
+        geometry.frames.copy_from_slice(frames);
         for (k, segment) in self.model.segments().iter().enumerate() {
-            let body = posture.bodies[segment.body.0];
-            placed.y_axes[k] = Some(body.rotation * self.y_axes[k]);
+            geometry.y_axes[k] = Some(bodies[segment.body.0].rotation * self.y_axes[k]);
         }
         for (k, flexible) in self.model.flexibles().iter().enumerate() {
-            let turn = posture.bodies[flexible.body.0].rotation;
-            placed.rotations[k] = turn.to_rotation_matrix() * home.rotations[k];
+            geometry.rotations[k] = bodies[flexible.body.0].rotation * home.rotations[k];
         }
-        let rigid = placed.positions.clone();
-        for (k, joint) in linkage.joints.iter().enumerate() {
-            let body = joint.bodies[0].map_or(Isometry3::identity(), |b| posture.bodies[b]);
-            let first = body * joint.home;
-            let values = linkage.values(k, configuration);
-            let standing = joint.standing(&first, values);
-            placed.frames[k] = turned(&body, &first, &standing, &home.frames[k]);
-            self.meet(k, joint, &standing, &rigid, &mut placed.positions)?;
-        }
-        *geometry = placed;
         Ok(())
     }
 
@@ -93,7 +131,7 @@ impl Parts {
         &self,
         index: usize,
         joint: &JointMotion,
-        standing: &Isometry3<f64>,
+        standing: &IsometryMatrix3<f64>,
         rigid: &[Point3<f64>],
         positions: &mut [Point3<f64>],
     ) -> Result<(), ClosureError> {
@@ -107,7 +145,8 @@ impl Parts {
         let rail =
             |node: NodeId, to: &Point3<f64>| self.runs_on(node, &(to - rigid[node.0]), rigid);
         let preferred = if rail(first, &own[1]) { own[1] } else { own[0] };
-        let places = [preferred, own[0], own[1], origin];
+        let other = if preferred == own[0] { own[1] } else { own[0] };
+        let places = [preferred, other, origin];
         let slides = |node: NodeId, place: &Point3<f64>| {
             let travel = place - rigid[node.0];
             travel == Vector3::zeros() || self.gives_way(node, &travel, rigid)
@@ -154,7 +193,7 @@ impl Parts {
     fn meet_ground(
         &self,
         joint: &JointMotion,
-        standing: &Isometry3<f64>,
+        standing: &IsometryMatrix3<f64>,
         rigid: &[Point3<f64>],
         positions: &mut [Point3<f64>],
     ) -> Result<(), ClosureError> {
@@ -175,53 +214,48 @@ impl Parts {
     /// Whether a node can be moved along its body without another meaning: on a rigid body
     /// where nothing else holds it, on a beam along the beam.
     fn gives_way(&self, node: NodeId, travel: &Vector3<f64>, rigid: &[Point3<f64>]) -> bool {
-        let body = self.model.nodes()[node.0].body;
-        self.uses[node.0] <= 1
-            && match self.model.bodies()[body.0].kind {
-                BodyKind::Rigid => true,
-                BodyKind::Elastic => self.spans(node, rigid).all(|span| {
-                    let along = span.cross(travel).norm() <= ALONG * span.norm() * travel.norm();
-                    along && span.dot(&(span + travel)) > 0.0
-                }),
-                BodyKind::Flexible => false,
-            }
+        match &self.nodes[node.0] {
+            Freedom::Held => false,
+            Freedom::Any => true,
+            Freedom::Along(others) => others.iter().all(|other| {
+                let span = rigid[node.0] - rigid[other.0];
+                let across = span.cross(travel).norm_squared();
+                let whole = span.norm_squared() * travel.norm_squared();
+                across <= ALONG * ALONG * whole && span.dot(&(span + travel)) > 0.0
+            }),
+        }
     }
 
     /// Whether a beam runs straight on, on both sides of a node, along `travel`.
     fn runs_on(&self, node: NodeId, travel: &Vector3<f64>, rigid: &[Point3<f64>]) -> bool {
-        let sides = self.spans(node, rigid).map(|span| span.dot(travel) > 0.0);
-        let (ahead, behind): (Vec<bool>, Vec<bool>) = sides.partition(|side| *side);
-        !ahead.is_empty() && !behind.is_empty() && self.gives_way(node, travel, rigid)
-    }
-
-    /// From the other ends of a node's segments to the node.
-    fn spans<'a>(
-        &'a self,
-        node: NodeId,
-        rigid: &'a [Point3<f64>],
-    ) -> impl Iterator<Item = Vector3<f64>> + 'a {
-        let body = self.model.nodes()[node.0].body;
-        let segments = self.model.bodies()[body.0].segments.iter();
-        segments.filter_map(move |s| {
-            let [a, b] = self.model.segments()[s.0].ends;
-            let other = match (a == node, b == node) {
-                (true, false) => b,
-                (false, true) => a,
-                _ => return None,
-            };
-            Some(rigid[node.0] - rigid[other.0])
-        })
+        let Freedom::Along(others) = &self.nodes[node.0] else {
+            return false;
+        };
+        let ahead = |other: &NodeId| (rigid[node.0] - rigid[other.0]).dot(travel) > 0.0;
+        others.iter().any(ahead)
+            && others.iter().any(|other| !ahead(other))
+            && self.gives_way(node, travel, rigid)
     }
 }
 
-/// The joint's frame: that at home turned with its first body, and then as far as the joint's
-/// own motion takes it to where its basis holds.
-fn turned(
-    body: &Isometry3<f64>,
-    first: &Isometry3<f64>,
-    standing: &Isometry3<f64>,
-    home: &Rotation3<f64>,
-) -> Rotation3<f64> {
-    let own = standing.rotation * first.rotation.inverse();
-    (own * body.rotation).to_rotation_matrix() * home
+impl Freedom {
+    fn of(model: &Model, node: NodeId, uses: usize) -> Self {
+        let body = &model.bodies()[model.nodes()[node.0].body.0];
+        if uses > 1 {
+            return Self::Held;
+        }
+        match body.kind {
+            BodyKind::Rigid => Self::Any,
+            BodyKind::Flexible => Self::Held,
+            BodyKind::Elastic => {
+                let segments = body.segments.iter().map(|s| model.segments()[s.0].ends);
+                let others = segments.filter_map(|[a, b]| match (a == node, b == node) {
+                    (true, false) => Some(b),
+                    (false, true) => Some(a),
+                    _ => None,
+                });
+                Self::Along(others.collect())
+            }
+        }
+    }
 }

@@ -23,7 +23,7 @@ mod write;
 pub use error::{LoadError, Location};
 pub use file::mechanism::Mechanism;
 pub use file::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
-pub use hyperstat_closure::{Drive, LoopClosure, Reached, Target};
+pub use hyperstat_closure::{Drive, LoopClosure, Reached, Target, Work};
 pub use job::batch::{Batch, Job};
 pub use job::commanded::Commanded;
 pub use job::design::Design;

@@ -4,7 +4,7 @@
 use hyperstat_elements::{Elasticity, Material, RigidMass, Section, SectionShape};
 use hyperstat_joints::{
     Cylindrical, Dof, DofSet, Fixed, Joint, Planar, Prismatic, Revolute, Screw, Spherical,
-    Universal, frame_from_axes,
+    Universal, frame_from_axes, frame_from_axis,
 };
 use hyperstat_model::{
     Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,
@@ -353,9 +353,60 @@ fn flexible(random: &mut Random, points: &[Point3<f64>]) -> DMatrix<f64> {
     deformation.transpose() * held * deformation
 }
 
+/// A four-bar of rigid bodies on the ground, whose coupler a beam joins to the platform.
+fn add_four_bar(model: &mut Model, random: &mut Random, steel: &Material) -> Option<()> {
+    let axis = random.vector(1.0).try_normalize(0.1)?;
+    let x = axis.cross(&random.vector(1.0)).try_normalize(0.1)?;
+    let y = axis.cross(&x);
+    let a = Point3::new(0.0, 0.0, -0.3) + random.vector(0.2);
+    let b = a + x * random.between(-0.1, 0.2) + y * 0.25;
+    let (c, d) = (a + x * 0.3, b + x * random.between(0.2, 0.4));
+    let e = b + random.vector(0.3);
+    let top = Point3::from(model.geometry().positions[0].coords);
+    model.add_rigid("crank", &[("p30", a), ("p31", b)]).ok()?;
+    model.add_rigid("rocker", &[("p32", c), ("p33", d)]).ok()?;
+    let points = [("p31", b), ("p33", d), ("p34", e)];
+    model.add_rigid("coupler", &points).ok()?;
+    if (top - e).norm() < 0.1 {
+        return None;
+    }
+    let section = random.section(true);
+    let points = [("p34", e), ("p0", top)];
+    model
+        .add_beam("link", &points, steel, &section, None, 1)
+        .ok()?;
+    let frame = frame_from_axis(Some(&axis), None).ok()?;
+    let pairs = [
+        ([None, Some("crank")], "p30"),
+        ([Some("crank"), Some("coupler")], "p31"),
+        ([None, Some("rocker")], "p32"),
+        ([Some("rocker"), Some("coupler")], "p33"),
+    ];
+    for (k, (between, point)) in pairs.into_iter().enumerate() {
+        let mut stiffness = [None; 6];
+        if k == 0 && random.unit() < 0.5 {
+            stiffness[Dof::W.index()] = Some(1e3);
+        }
+        let connection = Connection {
+            name: format!("hinge {k}"),
+            between: between.map(|body| model.node(body?, point)),
+            joint: Box::new(Revolute),
+            locked: DofSet::EMPTY,
+            stiffness: JointStiffness::Directions(stiffness),
+        };
+        model.add_joint(connection, frame).ok()?;
+    }
+    join(model, random, ["coupler", "link"], "p34")?;
+    join(model, random, ["link", "platform"], "p0")
+}
+
 /// A random mechanism with all that can act on it.
 fn acted_on(random: &mut Random) -> Option<Model> {
     let mut model = mechanism(random)?;
+    if random.unit() < 0.3 {
+        let steel = Material::new(2e11, Elasticity::Poisson(0.3), Some(7.8e3)).ok()?;
+        add_four_bar(&mut model, random, &steel.with_expansion(1.2e-5).ok()?)?;
+    }
     if random.unit() < 0.3 {
         // Two feet of a body of finite elements, between the ground and the platform.
         let points = [0.0, 0.4].map(|x| Point3::new(x, 0.0, 0.5) + random.vector(0.2));

@@ -1,6 +1,7 @@
 //! Elements and their places in the matrix.
 
-use hyperstat_model::{JointId, Model, NodeId};
+use hyperstat_model::{JointId, Model, NodeId, to_directions};
+use nalgebra::Rotation3;
 
 use super::sparse::Pattern;
 use super::topology::Topology;
@@ -23,7 +24,8 @@ pub(crate) struct ElementPlan {
     /// IDCs, ascending: `inner` inner ones, then the output's.
     pub columns: Vec<usize>,
     pub inner: usize,
-    /// Nodes it depends on, each with the places in `columns` of its carrier's columns.
+    /// Nodes it depends on, each with the places in `columns` of its carrier's columns; past their
+    /// end for one that the element's deformations do not depend on.
     pub nodes: Vec<(NodeId, Vec<usize>)>,
     pub operator_start: usize,
     pub stiffness_start: usize,
@@ -31,11 +33,19 @@ pub(crate) struct ElementPlan {
     pub places_start: usize,
 }
 
+/// The columns of all carriers' blocks.
+pub(crate) struct BlockColumns<'a> {
+    /// IDCs of the columns.
+    pub all: &'a [Vec<usize>],
+    /// Of carriers whose rotation depends on some of them only, these.
+    pub turning: &'a [Option<Vec<usize>>],
+}
+
 /// One element a subassembly, and one a joint whose elastic directions keep their coordinates.
 pub(crate) fn elements(
     model: &Model,
     topology: &Topology,
-    columns: &[Vec<usize>],
+    columns: &BlockColumns<'_>,
 ) -> Vec<ElementPlan> {
     let subassemblies = topology
         .subassemblies
@@ -60,18 +70,23 @@ pub(crate) fn elements(
     let mut elements: Vec<ElementPlan> = Vec::new();
     let (mut operator_start, mut stiffness_start, mut initial_start) = (0, 0, 0);
     for (source, rows, nodes) in subassemblies.chain(springs) {
-        let mut all: Vec<usize> = nodes
-            .iter()
-            .flat_map(|n| &columns[topology.carrier_of[n.0]])
-            .copied()
-            .collect();
+        let turns = match source {
+            Source::Spring(joint) => only_turns(model, topology, joint),
+            Source::Subassembly(_) => false,
+        };
+        let needed = |node: &NodeId| {
+            let carrier = topology.carrier_of[node.0];
+            let turning = columns.turning[carrier].as_ref().filter(|_| turns);
+            turning.unwrap_or(&columns.all[carrier])
+        };
+        let mut all: Vec<usize> = nodes.iter().flat_map(needed).copied().collect();
         all.sort_unstable();
         all.dedup();
         let nodes = nodes
             .into_iter()
             .map(|n| {
-                let own = &columns[topology.carrier_of[n.0]];
-                let place = |c: &usize| all.partition_point(|other| other < c);
+                let own = &columns.all[topology.carrier_of[n.0]];
+                let place = |c: &usize| all.binary_search(c).unwrap_or(all.len());
                 (n, own.iter().map(place).collect())
             })
             .collect();
@@ -92,6 +107,14 @@ pub(crate) fn elements(
         initial_start += rows;
     }
     elements
+}
+
+/// Whether all springs of a joint that keep coordinates are about its axes.
+fn only_turns(model: &Model, topology: &Topology, joint: JointId) -> bool {
+    let basis = model.joints()[joint.0].joint.basis();
+    let map = to_directions(&basis, &Rotation3::identity());
+    let mut springs = topology.joints[joint.0].springs.iter();
+    springs.all(|dof| (0..3).all(|k| map[(dof.index(), k)] == 0.0))
 }
 
 /// Where every pair (a ≤ b) of an element's inner columns goes in the assembled values.

@@ -22,7 +22,7 @@ use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::closing::{Closing, Conditions, NETWORK, Order};
 use crate::plan::coordinates::TreeBlocks;
-use crate::plan::elements::{ElementPlan, elements, places};
+use crate::plan::elements::{BlockColumns, ElementPlan, elements, places};
 use crate::plan::sparse::Pattern;
 use crate::plan::topology::Topology;
 use crate::posture::Posture;
@@ -206,18 +206,26 @@ impl Plan {
             .iter()
             .map(|c| c.coordinates.iter().filter_map(|t| idc_of[*t]).collect())
             .collect();
+        let mut turning = vec![None; topology.carriers.len()];
         let mut reduced_starts = vec![None; topology.carriers.len()];
         let mut reduced_len = 0;
         for (closed, solved) in closed.iter().zip(&closings) {
             let component = &topology.components[closed.component];
             for carrier in component.members() {
                 columns[carrier] = if component.is_network() {
-                    let own = topology.carriers[carrier].coordinates.iter();
-                    let own = own.flat_map(|c| solved.weights(c - component.coordinates.start));
-                    let mut own: Vec<usize> = own.map(|(place, _)| closed.idc(place)).collect();
-                    own.sort_unstable();
-                    own.dedup();
-                    own
+                    let own = &topology.carriers[carrier].coordinates;
+                    let of = |coordinates: &[usize]| {
+                        let weights = coordinates
+                            .iter()
+                            .flat_map(|c| solved.weights(c - component.coordinates.start));
+                        let idcs = weights.map(|(place, _)| closed.idc(place));
+                        let mut idcs: Vec<usize> = idcs.collect();
+                        idcs.sort_unstable();
+                        idcs.dedup();
+                        idcs
+                    };
+                    turning[carrier] = Some(of(&own[3..]));
+                    of(own)
                 } else {
                     closed.idcs.clone()
                 };
@@ -227,7 +235,11 @@ impl Plan {
             }
         }
 
-        let mut elements = elements(model, &topology, &columns);
+        let block_columns = BlockColumns {
+            all: &columns,
+            turning: &turning,
+        };
+        let mut elements = elements(model, &topology, &block_columns);
         let couplings = elements.iter().map(|e| e.columns.len() * e.columns.len());
         let couplings = room::sum(couplings);
         room::check(COUPLINGS, couplings, MOST_NUMBERS)?;

@@ -198,6 +198,9 @@ impl Plan {
                     let to_node = local * shift(geometry, reference, *node).abs();
                     let springs = self.topology.joints[joint.0].springs;
                     for (k, place) in places.iter().enumerate() {
+                        if *place >= element.columns.len() {
+                            continue;
+                        }
                         let own = to_node * column(k);
                         for (row, dof) in springs.iter().enumerate() {
                             sizes[rows * place + row] += own[dof.index()];

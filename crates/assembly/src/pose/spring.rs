@@ -36,6 +36,9 @@ pub(crate) fn spring_element(
         let carrier = plan.topology.carrier_of[node.0];
         let to_node = local * shift(geometry, plan.topology.carriers[carrier].reference, *node);
         for (k, place) in places.iter().enumerate() {
+            if *place >= element.columns.len() {
+                continue;
+            }
             let relative = to_node * read(plan.block(workspace, carrier), 6 * k);
             for (row, dof) in role.springs.iter().enumerate() {
                 workspace.operators[start + rows * place + row] += sign * relative[dof.index()];

@@ -13,7 +13,7 @@ use support::{Builder, drive, turned};
 const JOINED: f64 = 1e-11;
 
 /// Kinds of joints around a loop of mobility 1, and how many there are of them.
-fn loop_of(kinds: &[u8], places: &[[f64; 3]], axes: &[[f64; 3]]) -> Model {
+pub fn loop_of(kinds: &[u8], places: &[[f64; 3]], axes: &[[f64; 3]]) -> Model {
     let mut b = Builder::new();
     let count = kinds.len();
     let names: Vec<String> = (0..count).map(|k| format!("j{k}")).collect();
@@ -62,7 +62,7 @@ fn loop_of(kinds: &[u8], places: &[[f64; 3]], axes: &[[f64; 3]]) -> Model {
 }
 
 /// Loops of mobility 1 that begin with a driven revolute joint.
-const LOOPS: [&str; 7] = ["RRRRRRR", "RSSR", "RUSR", "RSCR", "RCCC", "RRSRR", "RPSRR"];
+pub const LOOPS: [&str; 7] = ["RRRRRRR", "RSSR", "RUSR", "RSCR", "RCCC", "RRSRR", "RPSRR"];
 
 fn turn_of(model: &Model, geometry: &Geometry, joint: usize, side: usize) -> Matrix3<f64> {
     match model.joints()[joint].between[side] {
@@ -129,11 +129,11 @@ fn check_joints(model: &Model, geometry: &Geometry) -> Result<(), TestCaseError>
     Ok(())
 }
 
-fn vectors(count: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
+pub fn vectors(count: usize) -> impl Strategy<Value = Vec<[f64; 3]>> {
     proptest::collection::vec(proptest::array::uniform3(-1.0..1.0_f64), count)
 }
 
-fn is_fit(places: &[[f64; 3]], axes: &[[f64; 3]]) -> bool {
+pub fn is_fit(places: &[[f64; 3]], axes: &[[f64; 3]]) -> bool {
     let far = |p: &[[f64; 3]]| (Vector3::from(p[0]) - Vector3::from(p[1])).norm() > 0.2;
     places.windows(2).all(far) && axes.iter().all(|a| Vector3::from(*a).norm() > 0.3)
 }

@@ -103,9 +103,9 @@ impl Design {
         &self,
         target: &Target<'_>,
         geometry: &mut Geometry,
-        _placing: &mut Placing,
+        placing: &mut Placing,
     ) -> Result<[f64; 6], PoseError> {
-        self.subject.bring(target, geometry)
+        self.subject.bring(target, geometry, placing)
     }
 
     /// The mechanism, where it comes from a file; its loads are the job's.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use hyperstat_closure::{LoopClosure, Target};
+use hyperstat_closure::{Lanes, LoopClosure, Target, Work};
 use hyperstat_model::{Geometry, LANES, Model};
 
 use super::targets::{Asked, Targets};
@@ -10,7 +10,24 @@ use crate::prebuilt::PoseError;
 
 /// What a thread keeps from pose to pose: room for numbers, no results.
 #[derive(Debug, Default)]
-pub struct Placing {}
+pub struct Placing {
+    lanes: Lanes,
+}
+
+impl Placing {
+    /// Room for poses whose arithmetic `run` runs: [`Work::run`], in a function that is compiled for the
+    /// machine's own instruction set.
+    pub fn new(run: fn(Work<'_>)) -> Self {
+        Self {
+            lanes: Lanes::new(run),
+        }
+    }
+
+    /// Poses of a mechanism of a file so far that loop closure reached one by one.
+    pub fn one_by_one(&self) -> u64 {
+        self.lanes.one_by_one()
+    }
+}
 
 /// A mechanism that is moved from pose to pose.
 ///
@@ -34,11 +51,26 @@ impl Mover {
         targets: &Targets,
         range: Range<usize>,
         geometries: &mut [Geometry],
-        _placing: &mut Placing,
+        placing: &mut Placing,
     ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
         let mut placed = [const { None }; LANES];
-        for (lane, pose) in range.enumerate() {
-            placed[lane] = Some(self.place(targets, pose, &mut geometries[lane]));
+        let closure = match &self.closure {
+            Ok(closure) => closure,
+            Err(error) => {
+                placed[..range.len()].fill_with(|| Some(Err(error.clone())));
+                return placed;
+            }
+        };
+        let count = range.len();
+        let mut asked = [const { Asked::Output([None; 6]) }; LANES];
+        for (asked, pose) in asked.iter_mut().zip(range) {
+            *asked = targets.get(pose);
+        }
+        let goals = asked.each_ref().map(Asked::target);
+        let reached = closure.place_lanes(&goals[..count], geometries, &mut placing.lanes);
+        for ((placed, reached), target) in placed.iter_mut().zip(reached).zip(&goals) {
+            let whole = |pose| whole(target, pose);
+            *placed = reached.map(|reached| reached.map(whole).map_err(PoseError::from));
         }
         placed
     }
@@ -50,29 +82,43 @@ impl Mover {
         k: usize,
         geometry: &mut Geometry,
     ) -> Result<[f64; 6], PoseError> {
+        let closure = self.closure.as_ref().map_err(PoseError::clone)?;
         let asked = targets.get(k);
-        let target = match &asked {
-            Asked::Output(asked) => Target::Output(*asked),
-            Asked::Drives(drives) => Target::Drives(drives),
-        };
-        self.bring(&target, geometry)
+        let target = asked.target();
+        let reached = closure.reach(&closure.home(), &target)?;
+        closure.write(&reached, geometry)?;
+        Ok(whole(&target, closure.pose(&reached)?))
     }
 
-    /// Brings a geometry of the model to a target; returns the output's whole pose.
+    /// Brings a geometry of the model to a target; returns the output's whole pose. The numbers are those
+    /// of [`Mover::place_lanes`], to the bit.
     pub(crate) fn bring(
         &self,
         target: &Target<'_>,
         geometry: &mut Geometry,
+        placing: &mut Placing,
     ) -> Result<[f64; 6], PoseError> {
         let closure = self.closure.as_ref().map_err(PoseError::clone)?;
-        let reached = closure.reach(&closure.home(), target)?;
-        closure.write(&reached, geometry)?;
-        let mut pose = closure.pose(&reached)?;
-        if let Target::Output(asked) = target {
-            for (coordinate, asked) in pose.iter_mut().zip(asked) {
-                *coordinate = asked.unwrap_or(*coordinate);
-            }
-        }
-        Ok(pose)
+        let reached = closure.place(target, geometry, &mut placing.lanes)?;
+        Ok(whole(target, reached))
     }
+}
+
+impl Asked {
+    fn target(&self) -> Target<'_> {
+        match self {
+            Self::Output(asked) => Target::Output(*asked),
+            Self::Drives(drives) => Target::Drives(drives),
+        }
+    }
+}
+
+/// A pose that was reached, the asked coordinates as they were asked.
+fn whole(target: &Target<'_>, mut pose: [f64; 6]) -> [f64; 6] {
+    if let Target::Output(asked) = target {
+        for (coordinate, asked) in pose.iter_mut().zip(asked) {
+            *coordinate = asked.unwrap_or(*coordinate);
+        }
+    }
+    pose
 }

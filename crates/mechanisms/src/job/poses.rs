@@ -56,12 +56,17 @@ impl Poses {
             Self::Own | Self::Asked(_) => [0.0; 6],
             Self::List(poses) => poses[k],
             Self::Grid(axes) => {
-                let mut rest = k;
-                axes.map(|axis| {
-                    let value = axis.get(rest % axis.len());
-                    rest /= axis.len();
-                    value
-                })
+                // Every pose of a sweep comes here: axes of one value take no division.
+                let (mut rest, mut pose) = (k, [0.0; 6]);
+                for (coordinate, axis) in pose.iter_mut().zip(axes) {
+                    let count = axis.len();
+                    let place = if count == 1 { 0 } else { rest % count };
+                    *coordinate = axis.get(place);
+                    if count > 1 {
+                        rest /= count;
+                    }
+                }
+                pose
             }
         }
     }

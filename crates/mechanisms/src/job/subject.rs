@@ -366,9 +366,12 @@ impl Subject {
         &self,
         target: &Target<'_>,
         geometry: &mut Geometry,
+        placing: &mut Placing,
     ) -> Result<[f64; 6], PoseError> {
         match (self, target) {
-            (Self::File { mechanism, mover }, _) => moved(mechanism, mover).bring(target, geometry),
+            (Self::File { mechanism, mover }, _) => {
+                moved(mechanism, mover).bring(target, geometry, placing)
+            }
             (Self::Prebuilt { mechanism, .. }, Target::Output(asked)) => {
                 let (target, count) = followed(mechanism.as_ref(), asked)?;
                 mechanism.place(&target[..count], geometry)

@@ -174,9 +174,8 @@ struct Leg {
     head: Point3<f64>,
     /// Along the revolute joint R.
     axis: Vector3<f64>,
-    foot_joint: (&'static str, &'static dyn Joint, Rotation3<f64>),
-    drive_frame: Rotation3<f64>,
-    head_frame: Rotation3<f64>,
+    /// From foot to head.
+    along: Vector3<f64>,
 }
 
 impl Leg {
@@ -201,12 +200,7 @@ impl Leg {
             foot,
             head,
             axis,
-            foot_joint: match index {
-                2 => ("S", &Spherical, Rotation3::identity()),
-                _ => ("U", &Universal, frame(&Vector3::x(), &axis)),
-            },
-            drive_frame: frame(&axis, &along),
-            head_frame: frame(&along, &axis),
+            along,
         })
     }
 
@@ -276,12 +270,17 @@ impl Posed<'_> {
             JointPart::passive(joint, leg.name(word), between, frame, stiffness)
         };
         let given = &self.exechon.joint_stiffness;
-        let (word, kind, frame) = leg.foot_joint;
-        parts.joint(joint(kind, word, [None, housing], frame, given).at(leg.name("A")));
-        let slide = joint(&Prismatic, "D", [housing, ram], leg.drive_frame, &RIGID);
+        let (word, kind, foot): (_, &'static dyn Joint, _) = match leg.index {
+            2 => ("S", &Spherical, Rotation3::identity()),
+            _ => ("U", &Universal, frame(&Vector3::x(), &leg.axis)),
+        };
+        parts.joint(joint(kind, word, [None, housing], foot, given).at(leg.name("A")));
+        let drive = frame(&leg.axis, &leg.along);
+        let slide = joint(&Prismatic, "D", [housing, ram], drive, &RIGID);
         let slide = slide.at(leg.name("M"));
         parts.joint(slide.driven(self.exechon.drive_stiffness));
-        let turn = joint(&Revolute, "R", [ram, Some(PLATFORM)], leg.head_frame, given);
+        let head = frame(&leg.along, &leg.axis);
+        let turn = joint(&Revolute, "R", [ram, Some(PLATFORM)], head, given);
         parts.joint(turn.at(leg.name("B")));
     }
 }

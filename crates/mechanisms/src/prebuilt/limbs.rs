@@ -36,7 +36,7 @@ pub(super) fn turned_outward(index: usize, (sin, cos): (f64, f64)) -> Vector3<f6
 }
 
 /// What `limb` gives for each limb, by index from 0.
-#[inline]
+#[inline(always)]
 pub(super) fn per_limb<T>(
     limb: impl Fn(usize) -> Result<T, PoseError>,
 ) -> Result<[T; LIMBS], PoseError> {

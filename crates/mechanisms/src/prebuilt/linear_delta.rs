@@ -108,14 +108,15 @@ impl LinearDelta {
             let foot = Foot::new(self.carriage_joints, axis);
             let along = (wrist - carriage).normalize();
             let rods = Name::limb("the rods of limb ", index);
-            let (foot_frame, y_axis) = foot.orient(&along, rods)?;
+            let y_axis = foot.y_axis(&along, rods)?;
             Ok(Limb {
                 carriage,
                 wrist,
                 half_spacing: axis * (0.5 * self.rod_spacing),
-                rail_frame: frame(&axis, rail),
-                foot: foot.joint(),
-                foot_frame,
+                rail: *rail,
+                axis,
+                foot,
+                along,
                 y_axis,
             })
         })?;
@@ -135,9 +136,12 @@ struct Limb {
     wrist: Point3<f64>,
     /// From the middle to side a.
     half_spacing: Vector3<f64>,
-    rail_frame: Rotation3<f64>,
-    foot: &'static dyn Joint,
-    foot_frame: Rotation3<f64>,
+    /// Along the rail, and along Aa–Ab.
+    rail: Vector3<f64>,
+    axis: Vector3<f64>,
+    foot: Foot,
+    /// Along the rods.
+    along: Vector3<f64>,
     y_axis: Vector3<f64>,
 }
 
@@ -206,10 +210,12 @@ impl Posed<'_> {
         let joint = |joint: &'static dyn Joint, word, between, frame, stiffness| {
             JointPart::passive(joint, name(word), between, frame, stiffness)
         };
-        let slide = joint(&Prismatic, "D", [None, carriage], limb.rail_frame, &RIGID);
+        let rail_frame = frame(&limb.axis, &limb.rail);
+        let slide = joint(&Prismatic, "D", [None, carriage], rail_frame, &RIGID);
         let slide = slide.at(name("A"));
         parts.joint(slide.driven(self.linear_delta.drive_stiffness));
-        let (foot, foot_frame, ball) = (limb.foot, limb.foot_frame, Rotation3::identity());
+        let (foot, ball) = (limb.foot.joint(), Rotation3::identity());
+        let foot_frame = limb.foot.frame(&limb.along, &limb.y_axis);
         parts.joint(joint(foot, "Aa", [carriage, roda], foot_frame, given));
         parts.joint(joint(&Spherical, "Ca", [roda, platform], ball, given));
         parts.joint(joint(foot, "Ab", [carriage, rodb], foot_frame, given));

@@ -2,7 +2,7 @@
 
 use hyperstat_joints::{Prismatic, Revolute};
 use hyperstat_model::{Geometry, Model, ValuePlace};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::construction::{
     BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
@@ -153,9 +153,10 @@ impl Orthoglide {
             shoulder: [a - half, a, a + half],
             wrist: [c - half, c, c + half],
             parallelogram_axis,
-            rail_frame: frame(&axis, &rail),
-            turn_frame: frame(&across, &axis),
-            rod_end_frame: frame(&rod.normalize(), &parallelogram_axis),
+            rail,
+            axis,
+            across,
+            rod: rod.normalize(),
         })
     }
 }
@@ -168,10 +169,13 @@ struct Limb {
     wrist: [Point3<f64>; 3],
     /// Along the joints at the ends of the rods.
     parallelogram_axis: Vector3<f64>,
-    rail_frame: Rotation3<f64>,
-    /// Frame of the joints A and C.
-    turn_frame: Rotation3<f64>,
-    rod_end_frame: Rotation3<f64>,
+    /// Along the rail, and along the joints A and C.
+    rail: Vector3<f64>,
+    axis: Vector3<f64>,
+    /// Along the rods as seen along that axis.
+    across: Vector3<f64>,
+    /// Along the rods.
+    rod: Vector3<f64>,
 }
 
 /// An Orthoglide at a pose.
@@ -244,19 +248,21 @@ impl Posed<'_> {
         let body = |word| Some(name(word));
         let (shoulder, wrist) = (body("shoulder"), body("wrist"));
         let (roda, rodb, carriage) = (body("roda"), body("rodb"), body("carriage"));
-        let slide = limb.rail_frame;
+        let slide = frame(&limb.axis, &limb.rail);
+        let turn = frame(&limb.across, &limb.axis);
+        let rod_end = frame(&limb.rod, &limb.parallelogram_axis);
         let slide = JointPart::passive(&Prismatic, name("D"), [None, carriage], slide, &RIGID);
         let slide = slide.at(name("A"));
         parts.joint(slide.driven(self.orthoglide.drive_stiffness));
         let given = &self.orthoglide.joint_stiffness;
         let joint =
             |word, between, frame| JointPart::passive(&Revolute, name(word), between, frame, given);
-        parts.joint(joint("A", [carriage, shoulder], limb.turn_frame));
-        parts.joint(joint("Aa", [shoulder, roda], limb.rod_end_frame));
-        parts.joint(joint("Ca", [wrist, roda], limb.rod_end_frame));
-        parts.joint(joint("Ab", [shoulder, rodb], limb.rod_end_frame));
-        parts.joint(joint("Cb", [wrist, rodb], limb.rod_end_frame));
-        parts.joint(joint("C", [wrist, Some(PLATFORM)], limb.turn_frame));
+        parts.joint(joint("A", [carriage, shoulder], turn));
+        parts.joint(joint("Aa", [shoulder, roda], rod_end));
+        parts.joint(joint("Ca", [wrist, roda], rod_end));
+        parts.joint(joint("Ab", [shoulder, rodb], rod_end));
+        parts.joint(joint("Cb", [wrist, rodb], rod_end));
+        parts.joint(joint("C", [wrist, Some(PLATFORM)], turn));
     }
 }
 

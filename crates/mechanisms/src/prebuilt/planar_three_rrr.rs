@@ -2,7 +2,7 @@
 
 use hyperstat_joints::Revolute;
 use hyperstat_model::{Geometry, Model, ValuePlace};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts};
 use super::frames::frame;
@@ -106,11 +106,10 @@ impl PlanarThreeRrr {
             };
             let [x, y] = links.elbow([c.x - a.x, c.y - a.y])?;
             let b = a + Vector3::new(x, y, 0.0);
-            let along = |link: Vector3<f64>| frame(&link.normalize(), &Vector3::z());
             Ok(Limb {
                 points: [a, b, c],
-                proximal: along(b - a),
-                distal: along(c - b),
+                proximal: (b - a).normalize(),
+                distal: (c - b).normalize(),
             })
         })?;
         Ok(Posed {
@@ -125,9 +124,9 @@ impl PlanarThreeRrr {
 struct Limb {
     /// A, B and C.
     points: [Point3<f64>; 3],
-    /// Frames with x along the links and y along the joints.
-    proximal: Rotation3<f64>,
-    distal: Rotation3<f64>,
+    /// Along the links.
+    proximal: Vector3<f64>,
+    distal: Vector3<f64>,
 }
 
 /// A planar 3-RRR at a pose.
@@ -169,10 +168,12 @@ impl Configuration for Posed<'_> {
                     &planar.joint_stiffness,
                 )
             };
-            let drive = joint("A", [None, proximal], limb.proximal);
+            let along = frame(&limb.proximal, &Vector3::z());
+            let beyond = frame(&limb.distal, &Vector3::z());
+            let drive = joint("A", [None, proximal], along);
             parts.joint(drive.driven(planar.drive_stiffness));
-            parts.joint(joint("B", [proximal, distal], limb.proximal));
-            parts.joint(joint("C", [distal, Some(PLATFORM)], limb.distal));
+            parts.joint(joint("B", [proximal, distal], along));
+            parts.joint(joint("C", [distal, Some(PLATFORM)], beyond));
         }
     }
 

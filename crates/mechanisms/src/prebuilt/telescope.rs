@@ -106,29 +106,34 @@ impl Foot {
         }
     }
 
-    /// The joint's frame, and the direction of local y of what stands on it along the unit vector
-    /// `along`: the universal joint's second axis, or the revolute joint's. `what` names it in
-    /// messages.
-    #[inline]
-    pub(super) fn orient(
+    /// The direction of local y of what stands on it along the unit vector `along`: the universal joint's
+    /// second axis, or the revolute joint's. `what` names it in messages.
+    #[inline(always)]
+    pub(super) fn y_axis(
         &self,
         along: &Vector3<f64>,
         what: Name,
-    ) -> Result<(Rotation3<f64>, Vector3<f64>), PoseError> {
+    ) -> Result<Vector3<f64>, PoseError> {
         match self {
-            Self::Universal(first) => {
-                let second = second_axis(along, first, what)?;
-                Ok((frame(first, &second), second))
-            }
-            Self::Revolute(axis) => Ok((frame(along, axis), *axis)),
-            Self::Spherical(first) => Ok((Rotation3::identity(), second_axis(along, first, what)?)),
+            Self::Universal(first) | Self::Spherical(first) => second_axis(along, first, what),
+            Self::Revolute(axis) => Ok(*axis),
+        }
+    }
+
+    /// The joint's frame, of what stands on it along `along` with this local y.
+    #[inline]
+    pub(super) fn frame(&self, along: &Vector3<f64>, y_axis: &Vector3<f64>) -> Rotation3<f64> {
+        match self {
+            Self::Universal(first) => frame(first, y_axis),
+            Self::Revolute(axis) => frame(along, axis),
+            Self::Spherical(_) => Rotation3::identity(),
         }
     }
 }
 
 /// The second axis of a universal joint: the unit vector along `along` × `first`, both of which
 /// are unit vectors.
-#[inline]
+#[inline(always)]
 pub(super) fn second_axis(
     along: &Vector3<f64>,
     first: &Vector3<f64>,
@@ -151,15 +156,14 @@ pub(super) struct Leg {
     index: usize,
     /// B, M and S.
     points: [Point3<f64>; 3],
-    foot: &'static dyn Joint,
-    foot_frame: Rotation3<f64>,
-    drive_frame: Rotation3<f64>,
+    foot: Foot,
+    along: Vector3<f64>,
     y_axis: Vector3<f64>,
 }
 
 impl Leg {
     /// Leg `index` (from 0) from `base` to `platform`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(
         parameters: &TelescopicLeg,
         index: usize,
@@ -187,13 +191,12 @@ impl Leg {
             )));
         }
         let along = span / length;
-        let (foot_frame, y_axis) = foot.orient(&along, Name::limb("leg ", index))?;
+        let y_axis = foot.y_axis(&along, Name::limb("leg ", index))?;
         Ok(Self {
             index,
             points: [base, base + along * parameters.cylinder_length, platform],
-            foot: foot.joint(),
-            foot_frame,
-            drive_frame: frame(&y_axis, &along),
+            foot,
+            along,
             y_axis,
         })
     }
@@ -250,17 +253,17 @@ impl Leg {
             JointPart::passive(joint, self.name(word), between, frame, stiffness)
         };
         parts.joint(joint(
-            self.foot,
+            self.foot.joint(),
             "B",
             [None, cylinder],
-            self.foot_frame,
+            self.foot.frame(&self.along, &self.y_axis),
             given,
         ));
         let slide = joint(
             &Prismatic,
             "M",
             [cylinder, piston],
-            self.drive_frame,
+            frame(&self.y_axis, &self.along),
             &RIGID,
         );
         parts.joint(slide.driven(drive));

@@ -2,7 +2,7 @@
 
 use hyperstat_joints::{Prismatic, Revolute};
 use hyperstat_model::{Geometry, Model, ValuePlace};
-use nalgebra::{Point3, Rotation3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use super::construction::{BeamPart, Configuration, JointPart, Name, PLATFORM, Parts, RIGID};
 use super::frames::frame;
@@ -120,13 +120,12 @@ impl Tripteron {
             b[first] += elbow[0];
             b[second] += elbow[1];
             let axis = Vector3::ith(along, 1.0);
-            let link = |link: Vector3<f64>| frame(&link.normalize(), &axis);
             Ok(Limb {
                 points: [Point3::from(a), Point3::from(b), Point3::from(c)],
                 axis,
-                rail: frame(&Vector3::ith(first, 1.0), &axis),
-                proximal: link(b - a),
-                distal: link(c - b),
+                beside: Vector3::ith(first, 1.0),
+                proximal: (b - a).normalize(),
+                distal: (c - b).normalize(),
             })
         })?;
         Ok(Posed {
@@ -143,10 +142,11 @@ struct Limb {
     points: [Point3<f64>; 3],
     /// Along all joints.
     axis: Vector3<f64>,
-    rail: Rotation3<f64>,
-    /// Frames with x along the links and y along the joints.
-    proximal: Rotation3<f64>,
-    distal: Rotation3<f64>,
+    /// Along the first axis of the limb's plane.
+    beside: Vector3<f64>,
+    /// Along the links.
+    proximal: Vector3<f64>,
+    distal: Vector3<f64>,
 }
 
 /// A Tripteron at a pose.
@@ -193,15 +193,18 @@ impl Posed<'_> {
         let name = |word| Name::limb(word, index);
         let (proximal, distal) = (Some(name("proximal")), Some(name("distal")));
         let carriage = Some(name("carriage"));
-        let slide = JointPart::passive(&Prismatic, name("D"), [None, carriage], limb.rail, &RIGID);
+        let rail = frame(&limb.beside, &limb.axis);
+        let along = frame(&limb.proximal, &limb.axis);
+        let beyond = frame(&limb.distal, &limb.axis);
+        let slide = JointPart::passive(&Prismatic, name("D"), [None, carriage], rail, &RIGID);
         let slide = slide.at(name("A"));
         parts.joint(slide.driven(self.tripteron.drive_stiffness));
         let given = &self.tripteron.joint_stiffness;
         let joint =
             |word, between, frame| JointPart::passive(&Revolute, name(word), between, frame, given);
-        parts.joint(joint("A", [carriage, proximal], limb.proximal));
-        parts.joint(joint("B", [proximal, distal], limb.proximal));
-        parts.joint(joint("C", [distal, Some(PLATFORM)], limb.distal));
+        parts.joint(joint("A", [carriage, proximal], along));
+        parts.joint(joint("B", [proximal, distal], along));
+        parts.joint(joint("C", [distal, Some(PLATFORM)], beyond));
     }
 }
 

@@ -78,7 +78,7 @@ impl TwoLinks {
         let square =
             (sum - distance) * (sum + distance) * (distance - difference) * (distance + difference);
         let height = self.side.sign() * square.max(0.0).sqrt() / (2.0 * distance);
-        let along = reach.map(|c| c / distance);
+        let along = [reach[0] / distance, reach[1] / distance];
         Ok([
             foot * along[0] - height * along[1],
             foot * along[1] + height * along[0],

@@ -7,6 +7,7 @@ mod share;
 mod statistics;
 mod summary;
 mod threads;
+mod wide;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -25,6 +26,7 @@ pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
+pub use wide::placing;
 
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
@@ -186,7 +188,7 @@ impl<'a> Sweep<'a> {
                     number,
                     design: None,
                     ready: Err(Failure::Design(Arc::new(error))),
-                    placing: Placing::default(),
+                    placing: placing(),
                 };
             }
         };
@@ -206,7 +208,7 @@ impl<'a> Sweep<'a> {
             number,
             design: Some(design),
             ready,
-            placing: Placing::default(),
+            placing: placing(),
         }
     }
 }

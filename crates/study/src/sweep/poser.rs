@@ -5,6 +5,7 @@ use hyperstat_mechanisms::{Design, Drive, Placing, Target};
 
 use super::Planned;
 use super::record::{Failure, Record};
+use super::wide::placing;
 use crate::error::StudyError;
 use crate::study::Study;
 
@@ -60,7 +61,7 @@ impl Study {
         match made {
             Ok((modal, single)) => Ok(Poser {
                 design,
-                placing: Placing::default(),
+                placing: placing(),
                 planned: Planned { prepared, modal },
                 single,
             }),

@@ -3,6 +3,7 @@
 
 mod drives;
 mod jobs;
+mod lanes;
 mod mechanisms;
 mod prebuilt;
 mod sliding;

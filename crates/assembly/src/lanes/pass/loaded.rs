@@ -27,8 +27,9 @@ struct Loaded<S: Simd> {
     total: Six<S>,
     /// What end 1 moves, free motions apart.
     moved: Six<S>,
-    /// Squares of what shifts move it by.
+    /// Squares of what shifts move it by, and of all terms of what moves it.
     shifted: Six<S>,
+    squares: Six<S>,
     /// A measure of the loads' energy.
     energy: Lane<S>,
     /// Work that is missing along free and along idle motions, with the squares of its terms.
@@ -66,10 +67,12 @@ impl<S: Simd> Acting<'_, S> {
             growth,
             directions,
             stiffness,
+            trust,
         } = transmitted;
         let loaded = self.of_column(element, chain, frame, column);
         let mut moved = ordered(&loaded.moved, chain);
         let mut shifted = ordered(&loaded.shifted, chain);
+        let mut squares = ordered(&loaded.squares, chain);
         // The energy that loads put into the chain.
         let mut energy = loaded.energy;
         // The wrench with both ends held: of it, what free motions ask for.
@@ -91,14 +94,19 @@ impl<S: Simd> Acting<'_, S> {
             held[k] = missing * inverse;
             doubts[k] = terms * inverse * inverse;
             reflections[k].apply(&mut moved, k);
-            let mut spread = zero;
+            let (mut spread, mut spread_squares) = (zero, zero);
             for i in k..6 {
                 spread = (s[i] * s[i]).mul_add(shifted[i], spread);
+                spread_squares = (s[i] * s[i]).mul_add(squares[i], spread_squares);
             }
             let spread = spread * factor * factor;
+            let spread_squares = spread_squares * factor * factor;
             for i in k + 1..6 {
-                moved[i] = c[i][k].mul_add(held[k], moved[i]);
+                let asked = c[i][k] * held[k];
+                moved[i] += asked;
                 shifted[i] = spread.mul_add(s[i] * s[i], shifted[i]);
+                squares[i] = spread_squares.mul_add(s[i] * s[i], squares[i]);
+                squares[i] = asked.mul_add(asked, squares[i]);
             }
             energy = (c[k][k] * held[k]).mul_add(held[k], energy);
         }
@@ -119,13 +127,19 @@ impl<S: Simd> Acting<'_, S> {
 
         // By wrenches: the force with both ends held, reversed.
         let mut forces = [zero; R];
+        // Squares of their errors: by what cancels in the displacement, and by the stiffness itself.
+        let mut lost = [zero; R];
         for a in 0..R {
             forces[a] = moved[M + a] * stiffness[a];
+            let by_stiffness = trust[a] * forces[a];
+            lost[a] = squares[M + a] * stiffness[a] * stiffness[a];
+            lost[a] = by_stiffness.mul_add(by_stiffness, lost[a]);
             energy = shifted[M + a].mul_add(stiffness[a], energy);
             for b in a + 1..R {
                 let l = c[M + b][M + a] * stiffness[a];
                 moved[M + b] = (-l).mul_add(moved[M + a], moved[M + b]);
                 shifted[M + b] = (l * l).mul_add(shifted[M + a], shifted[M + b]);
+                squares[M + b] = (l * l).mul_add(squares[M + a], squares[M + b]);
             }
         }
         for k in (0..M).rev() {
@@ -162,12 +176,13 @@ impl<S: Simd> Acting<'_, S> {
                         sum = terms.of(&directions[a]).mul_add(squared, sum);
                     }
                 }
-                assembly.add_load_error(row, place, sum);
                 let mut force = Lane::new(simd, own[next]);
                 for a in 0..R {
                     let z = Lane::new(simd, transmitted[next * R + a]);
                     force = z.mul_add(forces[a], force);
+                    sum = (z * z).mul_add(lost[a], sum);
                 }
+                assembly.add_load_error(row, place, sum);
                 assembly.add(row, place, force);
                 next += 1;
             }
@@ -189,6 +204,7 @@ impl<S: Simd> Acting<'_, S> {
             total: [zero; 6],
             moved: [zero; 6],
             shifted: [zero; 6],
+            squares: [zero; 6],
             energy: zero,
             works: [[zero; 2]; MOST_RELEASES],
             idle_works: [[zero; 2]; MOST_IDLE],
@@ -218,7 +234,9 @@ impl<S: Simd> Acting<'_, S> {
                         for j in 0..6 {
                             let (row, column) = if i >= j { (i, j) } else { (j, i) };
                             let entry = Lane::new(simd, own[row * (row + 1) / 2 + column]);
-                            moved = entry.mul_add(loaded.total[j], moved);
+                            let term = entry * loaded.total[j];
+                            moved += term;
+                            loaded.squares[i] = term.mul_add(term, loaded.squares[i]);
                         }
                         loaded.moved[i] = moved;
                         let diagonal = Lane::new(simd, own[i * (i + 3) / 2]);
@@ -262,12 +280,15 @@ impl<S: Simd> Acting<'_, S> {
         let carried = cross(&frame.arm_to(&at), &angular);
         for i in 0..3 {
             loaded.moved[i] += angular[i];
-            loaded.shifted[i] = angular[i].mul_add(angular[i], loaded.shifted[i]);
+            let own = angular[i] * angular[i];
+            loaded.shifted[i] += own;
+            loaded.squares[i] += own;
             // At the origin, what turns about the point.
             let k = LINEAR[i];
             loaded.moved[k] += linear[i] + carried[i];
             let squares = linear[i].mul_add(linear[i], carried[i] * carried[i]);
             loaded.shifted[k] += squares;
+            loaded.squares[k] += squares;
         }
     }
 }

@@ -62,6 +62,8 @@ pub(crate) struct Transmitted<S: Simd, const M: usize, const R: usize> {
     /// The wrenches, with the stiffness that each is transmitted with.
     pub directions: [Six<S>; R],
     pub stiffness: [Lane<S>; R],
+    /// Relative errors of these, as multiples of [`ROUNDING`](super::factor::ROUNDING).
+    pub trust: [Lane<S>; R],
 }
 
 /// The same with M free motions and R wrenches, six together.
@@ -237,6 +239,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         growth,
         directions,
         stiffness,
+        trust,
     };
     let acting = Acting {
         simd,

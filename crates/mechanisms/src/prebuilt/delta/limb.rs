@@ -120,7 +120,7 @@ fn norm([out, up]: [f64; 2]) -> f64 {
 /// The unit vector along a vector of the limb's plane.
 fn unit(vector: [f64; 2]) -> [f64; 2] {
     let norm = norm(vector);
-    vector.map(|c| c / norm)
+    [vector[0] / norm, vector[1] / norm]
 }
 
 /// A vector of the limb's plane, given outward and up.
@@ -202,5 +202,8 @@ fn elbow(
         Elbow::Out => height,
         Elbow::In => -height,
     };
-    Ok([0, 1].map(|k| foot * along[k] + height * outer[k]))
+    Ok([
+        foot * along[0] + height * outer[0],
+        foot * along[1] + height * outer[1],
+    ])
 }
