@@ -52,7 +52,6 @@ fn modes(c: &mut Criterion) {
                 ..ModalOptions::lowest(3)
             };
             let plan = prepared.modal(&options).expect("a plan");
-            let mut workspace = plan.workspace();
             let mut geometry = model.geometry().clone();
             group.bench_function(format!("three frequencies, {mass:?} mass"), |b| {
                 b.iter_custom(|poses| {
@@ -60,7 +59,7 @@ fn modes(c: &mut Criterion) {
                     for pose in 0..poses {
                         let placed = job.place(pose as usize % job.len(), &mut geometry);
                         black_box(placed.expect("a pose within reach"));
-                        let found = plan.frequencies(&geometry, &mut workspace);
+                        let found = plan.frequencies(&geometry);
                         black_box(found.expect("frequencies"));
                     }
                     start.elapsed()
