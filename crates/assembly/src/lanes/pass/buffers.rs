@@ -2,7 +2,8 @@
 
 use aligned_vec::{AVec, ConstAlign};
 
-use crate::lanes::pass::{TRIANGLE, results};
+use crate::lanes::pass::lane::TRIANGLE;
+use crate::lanes::pass::results;
 use crate::lanes::program::Program;
 
 /// Numbers aligned as the widest registers are.

@@ -3,10 +3,9 @@
 
 use pulp::Simd;
 
-use super::TRIANGLE;
 use super::blocks::{element_axes, spectral, vector};
 use super::lane::{
-    Lane, Mat3, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub, three,
+    Lane, Mat3, TRIANGLE, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub, three,
     transposed,
 };
 use crate::lanes::program::chain::{

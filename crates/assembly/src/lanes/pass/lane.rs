@@ -62,6 +62,9 @@ macro_rules! six {
 }
 pub(crate) use six;
 
+/// Lower triangle of a 6×6 matrix.
+pub(crate) const TRIANGLE: usize = 21;
+
 /// A register: one number for each pose in the lanes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lane<S: Simd> {

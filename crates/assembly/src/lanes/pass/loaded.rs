@@ -8,18 +8,31 @@
 
 use pulp::Simd;
 
-use super::TRIANGLE;
 use super::acts::read;
 use super::assemble::Assembly;
 use super::blocks::vector;
 use super::compliance::{Frame, LINEAR, Six};
 use super::ends::{Terms, works};
 use super::factor::{IDLE, ROUNDING};
-use super::lane::{Lane, add, apply, cross, scaled, six};
+use super::lane::{Lane, TRIANGLE, add, apply, cross, scaled, six};
 use super::reflections::{Reflection, ordered, put_back};
-use super::transmit::Transmitted;
 use crate::lanes::program::chain::{Chain, Item, MOST_IDLE, MOST_RELEASES};
 use crate::lanes::program::element::{Element, Shift};
+
+/// What a chain with M free motions transmits: R wrenches, six together.
+pub(crate) struct Transmitted<S: Simd, const M: usize, const R: usize> {
+    /// The compliance with the free motions reflected out: of its lower triangle, columns that were
+    /// left out or eliminated are as they were then.
+    pub c: [Six<S>; 6],
+    pub reflections: [Reflection<S>; M],
+    /// What dependence of the free motions makes of errors.
+    pub growth: Lane<S>,
+    /// The wrenches, with the stiffness that each is transmitted with.
+    pub directions: [Six<S>; R],
+    pub stiffness: [Lane<S>; R],
+    /// Relative errors of these, as multiples of [`ROUNDING`](super::factor::ROUNDING).
+    pub trust: [Lane<S>; R],
+}
 
 /// What loads and shifts do in one column, with end 1 free and end 0 held.
 struct Loaded<S: Simd> {

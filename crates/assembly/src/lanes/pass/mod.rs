@@ -23,15 +23,13 @@ use super::pass::blocks::{arm, bushing, flexible, vector};
 use super::pass::buffers::Buffers;
 use super::pass::factor::{Matrix, ROUNDING, eliminate};
 use super::pass::hang::{Motion, make_relative};
-use super::pass::lane::{Lane, Vec3, add, cross, scaled};
+use super::pass::lane::{Lane, TRIANGLE, Vec3, add, cross, scaled};
 use super::pass::loops::close;
 use super::pass::transmit::add_chain;
 use super::program::Program;
 use super::program::element::{Kind, Screw};
 use super::program::fronts::{Front, FrontPart, Moves};
 
-/// Lower triangle of a 6×6 matrix.
-pub(crate) const TRIANGLE: usize = 21;
 /// Place of the stiffness's relative error among a pose's results, behind the upper triangle of the
 /// stiffness by rows.
 #[cfg(test)]

@@ -13,7 +13,7 @@ use super::assemble::Assembly;
 use super::compliance::{Frame, Six, compliance, compliances};
 use super::ends::{Terms, works};
 use super::lane::{Lane, six};
-use super::loaded::Acting;
+use super::loaded::{Acting, Transmitted};
 use super::reflections::{Reflection, ordered, ordered_matrix, put_back, squares};
 use crate::lanes::program::chain::{Chain, DEPENDENT};
 use crate::lanes::program::element::Element;
@@ -23,7 +23,7 @@ const INDEPENDENT: f64 = 1e-12;
 
 /// Adds a chain to a front. `places` of its coordinates, and of the rows of what acts on it; `pairs`:
 /// places of its coordinates' entries, column by column of the lower triangle; `wrenches`: seven
-/// entries a coordinate; `links`: [`TRIANGLE`](super::TRIANGLE) entries a link of a chain that
+/// entries a coordinate; `links`: [`TRIANGLE`](super::lane::TRIANGLE) entries a link of a chain that
 /// something acts on.
 #[inline(always)]
 pub(crate) fn add_chain<S: Simd>(
@@ -49,21 +49,6 @@ pub(crate) fn add_chain<S: Simd>(
         4 => transmit::<S, 4, 2>(assembly, seen, c, to, room),
         _ => transmit::<S, 5, 1>(assembly, seen, c, to, room),
     }
-}
-
-/// What a chain with M free motions transmits: R wrenches, six together.
-pub(crate) struct Transmitted<S: Simd, const M: usize, const R: usize> {
-    /// The compliance with the free motions reflected out: of its lower triangle, columns that were
-    /// left out or eliminated are as they were then.
-    pub c: [Six<S>; 6],
-    pub reflections: [Reflection<S>; M],
-    /// What dependence of the free motions makes of errors.
-    pub growth: Lane<S>,
-    /// The wrenches, with the stiffness that each is transmitted with.
-    pub directions: [Six<S>; R],
-    pub stiffness: [Lane<S>; R],
-    /// Relative errors of these, as multiples of [`ROUNDING`](super::factor::ROUNDING).
-    pub trust: [Lane<S>; R],
 }
 
 /// The same with M free motions and R wrenches, six together.
