@@ -5,8 +5,8 @@ use pulp::Simd;
 
 use super::blocks::{element_axes, spectral, vector};
 use super::lane::{
-    Lane, Mat3, TRIANGLE, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub, three,
-    transposed,
+    Lane, Mat3, TRIANGLE, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub,
+    three, transposed,
 };
 use crate::lanes::program::chain::{
     BeamLink, Chain, ComplianceBlock, JointLink, LinkKind, Release,
