@@ -203,12 +203,15 @@ mod tests {
     use hyperstat_model::{Connection, JointStiffness, Model};
     use nalgebra::{Point3, Vector3};
 
+    /// A link's points, each with its place.
+    type Ends<'a> = [(&'a str, [f64; 3]); 2];
+
     use super::*;
     use crate::closure::LoopClosure;
 
     /// A model of rigid links between points, each joint a revolute about z but where it is given.
     fn linkage(
-        links: &[(&str, [(&str, [f64; 3]); 2])],
+        links: &[(&str, Ends<'_>)],
         joints: &[(&str, [&str; 2], bool)],
         output: (&str, &str),
     ) -> Model {

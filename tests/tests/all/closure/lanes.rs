@@ -82,9 +82,9 @@ fn compare(model: &Model, targets: &[Target<'_>], same: f64) -> Seen {
                 (Ok(pose), Ok(wanted)) => {
                     let off = apart(&geometries[lane], &wanted.geometry, size);
                     assert!(off <= same, "{target:?}: {off:e}");
-                    for k in 0..6 {
+                    for (k, (own, wanted)) in pose.iter().zip(&wanted.pose).enumerate() {
                         let unit = if k < 3 { size } else { 1.0 };
-                        assert!((pose[k] - wanted.pose[k]).abs() <= same * unit);
+                        assert!((own - wanted).abs() <= same * unit);
                     }
                     seen.apart = seen.apart.max(off);
                     seen.reached += 1;
