@@ -74,19 +74,22 @@ impl ModalPlan {
     /// [`SolveError::NoMass`] where nothing has mass; [`SolveError::ModesNotFound`] where they do
     /// not converge; as [`solve`](crate::solve).
     pub fn modes(&self, geometry: &Geometry) -> Result<Modes, SolveError> {
-        self.find(geometry, self.options.count, true, |outcome| Modes {
-            modes: outcome
-                .modes
-                .iter()
-                .map(|m| self.mode(&outcome, m))
-                .collect(),
-            mass: outcome.masses.total,
-            idle: outcome.idle,
-            complete: outcome.complete,
-            counted: outcome.counted.map(|counted| Counted {
-                below: hertz(counted.below),
-                ..counted
-            }),
+        self.find(geometry, self.options.count, true, |mut outcome| {
+            outcome.align(self.model.bodies().len());
+            Modes {
+                modes: outcome
+                    .modes
+                    .iter()
+                    .map(|m| self.mode(&outcome, m))
+                    .collect(),
+                mass: outcome.masses.total,
+                idle: outcome.idle,
+                complete: outcome.complete,
+                counted: outcome.counted.map(|counted| Counted {
+                    below: hertz(counted.below),
+                    ..counted
+                }),
+            }
         })
     }
 

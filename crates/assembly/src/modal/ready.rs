@@ -26,6 +26,11 @@ const MARGIN: f64 = 2.0;
 /// The factor where even fewer modes were found than are wanted: waves of half the length.
 const FINER: f64 = 16.0;
 
+/// Relative difference below which ω² are equal.
+const EQUAL: f64 = 1e-9;
+/// Share of the mass below which modes take no part in a motion of the ground.
+const SHARE: f64 = 1e-12;
+
 /// Where the coordinates are, and where the masses.
 #[derive(Debug)]
 pub(super) struct Ready {
@@ -185,6 +190,42 @@ impl Outcome<'_> {
             true => FINER * limit.max(top),
             false if top > 0.0 => MARGIN * top,
             false => limit,
+        }
+    }
+
+    /// Turns modes of equal frequency, of which any combination is as good, to what the ground shakes:
+    /// of those that take part in a motion along x one takes all of it, of the others one takes all along
+    /// y, and so on. So they are the same wherever they are found.
+    pub fn align(&mut self, bodies: usize) {
+        let least = SHARE * self.masses.total;
+        let mut first = 0;
+        while first < self.modes.len() {
+            let square = self.modes[first].eigenvalue;
+            let is_equal = |mode: &&Mode| mode.eigenvalue - square <= EQUAL * square;
+            let count = self.modes[first..].iter().take_while(is_equal).count();
+            let (mut next, end) = (first, first + count);
+            for axis in 0..if count > 1 { 3 } else { 0 } {
+                let taken = self.modes[next..end].iter();
+                let mut taken: Vec<f64> = taken.map(|m| self.shares(bodies, m).0[axis]).collect();
+                if taken.iter().map(|share| share * share).sum::<f64>() <= least {
+                    continue;
+                }
+                for other in 1..taken.len() {
+                    let length = taken[0].hypot(taken[other]);
+                    if length == 0.0 {
+                        continue;
+                    }
+                    let (c, s) = (taken[0] / length, taken[other] / length);
+                    let (head, tail) = self.modes.split_at_mut(next + other);
+                    let (own, other_mode) = (&mut head[next].vector, &mut tail[0].vector);
+                    for (a, b) in own.iter_mut().zip(other_mode) {
+                        (*a, *b) = (c * *a + s * *b, c * *b - s * *a);
+                    }
+                    taken[0] = length;
+                }
+                next += 1;
+            }
+            first = end.max(first + 1);
         }
     }
 

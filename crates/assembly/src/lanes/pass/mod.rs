@@ -428,9 +428,10 @@ impl<S: Simd> Registers<'_, S> {
                 out[c] = sum[c].value;
                 energy = energy.max(sum[c] * sum[c] * k[c][c]);
             }
-            let relative = lost / energy.sqrt();
-            // Nothing acts: nothing is lost.
-            out[6] = if columns.is_empty() { zero } else { relative }.value;
+            // Where nothing moves it, what the stiffness itself has lost; what is not a number stays so.
+            let of_stiffness = (error + rounding) * solver.gain;
+            let relative = lost.if_above(zero, lost / energy.sqrt(), of_stiffness);
+            out[6] = (relative + lost * zero).value;
         }
     }
 }
