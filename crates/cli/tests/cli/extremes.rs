@@ -151,7 +151,7 @@ fn very_many_loads_points_masses_and_cases() {
     loads: [{loads}], masses: [{masses}], output: ("beam", "B"),"#
     );
     bench.file("m.ron", &mechanism("m", &fields));
-    let check = bench.hyperstat(&["check", "m.ron"]).ends_with(2);
+    let check = bench.hyperstat(&["check", "m.ron"]).ends_with(0);
     assert!(check.out().contains("`q0`") && check.out().contains("and 65528 more"));
     let json = bench
         .hyperstat(&["solve", "m.ron", "--format", "json"])
