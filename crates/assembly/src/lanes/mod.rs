@@ -208,6 +208,7 @@ impl Lanes {
 impl Engine {
     /// The result of a pose of a mechanism of this `size`; `None` where the lanes cannot vouch for it, or
     /// where it asks for a look at the mechanism's freedom.
+    #[inline(always)]
     fn result(&self, lane: usize, size: f64) -> Option<PoseResult> {
         let at = |k: usize| self.buffers.result(k, lane);
         let mut stiffness = Matrix6::zeros();

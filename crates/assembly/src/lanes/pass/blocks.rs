@@ -27,6 +27,15 @@ pub(crate) fn vector<S: Simd>(simd: S, inputs: &[S::f64s], place: usize) -> Vec3
     three!(k => Lane::new(simd, at[k]))
 }
 
+/// Two vectors of the inputs.
+#[inline(always)]
+pub(crate) fn both<S: Simd>(simd: S, inputs: &[S::f64s], places: [usize; 2]) -> [Vec3<S>; 2] {
+    [
+        vector(simd, inputs, places[0]),
+        vector(simd, inputs, places[1]),
+    ]
+}
+
 /// From one point of the inputs to another.
 #[inline(always)]
 pub(crate) fn arm<S: Simd>(simd: S, inputs: &[S::f64s], [from, to]: [usize; 2]) -> Vec3<S> {

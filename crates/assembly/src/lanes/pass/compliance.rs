@@ -3,7 +3,7 @@
 
 use pulp::Simd;
 
-use super::blocks::{element_axes, spectral, vector};
+use super::blocks::{both, element_axes, spectral, vector};
 use super::lane::{
     Lane, Mat3, TRIANGLE, Vec3, add, apply, cross, dot, product, product_transposed, scaled, sub,
     three, transposed,
@@ -34,7 +34,7 @@ impl<S: Simd> Frame<S> {
     pub fn new(simd: S, chain: &Chain, inputs: &[S::f64s]) -> Self {
         let (axes, origin) = match &chain.links[0].kind {
             LinkKind::Beam(beam) => {
-                let [from, to] = beam.ends.map(|p| vector(simd, inputs, p));
+                let [from, to] = both(simd, inputs, beam.ends);
                 let span = sub(&to, &from);
                 let x = scaled(&span, dot(&span, &span).sqrt().recip());
                 let axes = match beam.y_axis {
@@ -301,7 +301,7 @@ fn add_own<S: Simd>(
     frame: &Frame<S>,
     sum: &mut Compliance<S>,
 ) {
-    let [from, to] = beam.ends.map(|p| vector(simd, inputs, p));
+    let [from, to] = both(simd, inputs, beam.ends);
     let span = sub(&to, &from);
     let length = dot(&span, &span).sqrt();
     let give = give(beam, length, frame.square);
@@ -331,7 +331,7 @@ fn add_beam<S: Simd>(
     sum: &mut Compliance<S>,
 ) {
     let zero = Lane::splat(simd, 0.0);
-    let [from, to] = beam.ends.map(|p| vector(simd, inputs, p));
+    let [from, to] = both(simd, inputs, beam.ends);
     let span = sub(&to, &from);
     let length = dot(&span, &span).sqrt();
     let give = give(beam, length, frame.square);

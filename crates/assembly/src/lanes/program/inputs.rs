@@ -162,6 +162,7 @@ impl Inputs {
 }
 
 impl Wanted {
+    #[inline(always)]
     fn at(self, geometry: &Geometry) -> Vector3<f64> {
         let column = |rotation: &Rotation3<f64>, c: usize| -> Vector3<f64> {
             rotation.matrix().column(c).into_owned()
