@@ -204,6 +204,12 @@ fn clamped_bar() {
         .map(|m| m.effective_mass[1] + m.effective_mass[2]);
     let share = first.sum::<f64>() / (2.0 * found.mass);
     assert!((share - 0.613_076_090).abs() < 1e-9, "{share}");
+    // Of the two equal ones the first has all that goes along y, the second all along z.
+    for (k, mode) in found.modes.iter().enumerate() {
+        let [along, across] = [mode.effective_mass[1 + k], mode.effective_mass[2 - k]];
+        assert!((along / found.mass - 0.613_076_090).abs() < 1e-9, "{along}");
+        assert!(across < 1e-15 * found.mass, "{across}");
+    }
 }
 
 /// A clamped bar of ten diameters with κ = 0.9, by Timoshenko's frequency equation.

@@ -3,7 +3,7 @@
 
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_joints::{Dof, DofSet, Fixed, Revolute, Spherical, frame_from_axis};
-use hyperstat_model::{Connection, Geometry, JointStiffness, LANES, Model};
+use hyperstat_model::{Connection, Geometry, JointStiffness, LANES, LoadCase, LoadSet, Model};
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -288,6 +288,31 @@ fn elimination_leaves_the_schur_complement() {
             let matrix = matrix.clone();
             let found = arch.dispatch(Eliminate { matrix, pivots });
             assert!((&found - &expected).abs().sum() < 1e-11, "{size} {pivots}");
+        }
+    }
+}
+
+/// A front has room for so many columns of what acts; a job with more goes one by one.
+#[test]
+fn very_many_cases_within_the_mechanism_go_one_by_one() {
+    for (cases, is_parallel) in [(99, true), (101, false)] {
+        let mut model = portal();
+        let top = model.node("left", "top").expect("a top");
+        for case in 0..cases {
+            let wrench = Vector6::new(1.0, f64::from(case), 0.0, 0.0, 0.0, 0.0);
+            let (name, loads) = (format!("case {case}"), LoadSet::on(top, wrench));
+            model.add_case(LoadCase { name, loads }).expect("a case");
+        }
+        let plan = Plan::new(&model).expect("a plan");
+        let mut lanes = plan.lanes(&model);
+        assert_eq!(lanes.is_parallel(), is_parallel, "{cases}");
+        let [found, ..] = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
+        let found = found.expect("a filled lane").expect("a result");
+        let one = plan.sweep(&model, model.geometry(), &mut plan.workspace());
+        let one = one.expect("a result");
+        assert_eq!(found.cases.len(), cases as usize);
+        for (found, expected) in found.cases.iter().zip(&one.cases) {
+            assert!((found - expected).amax() <= 1e-11 * expected.amax());
         }
     }
 }

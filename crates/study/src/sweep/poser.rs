@@ -11,7 +11,7 @@ use crate::study::Study;
 
 /// A mechanism that is brought to one pose after another, with all that is worked out once for it and the
 /// buffers of its poses: each pays its arithmetic and allocates nothing, as long as a prebuilt mechanism is
-/// moved that goes through the lanes, without natural frequencies.
+/// moved that goes through the lanes, without natural frequencies, load cases or loads in axes of bodies.
 ///
 /// ```
 /// use hyperstat_study::{Job, JobMechanism, JobPoses, Registry, Study, Target, Value};

@@ -4,13 +4,10 @@
 use hyperstat_elements::PlaneLoadFlexibility;
 use pulp::Simd;
 
-use super::blocks::{element_axes, vector};
+use super::blocks::{Pair, element_axes, vector, write_pair};
 use super::lane::{Lane, Vec3, add, cross, dot, scaled, sub, three};
 use crate::lanes::program::acts::{Acts, Direction, FormedKind, LoadedBeam};
 use crate::lanes::program::inputs::Point;
-
-/// A wrench or a displacement: its linear part, then its angular one.
-pub(crate) type Pair<S> = (Vec3<S>, Vec3<S>);
 
 /// Forms all that acts, six numbers each, into `out`.
 #[inline(always)]
@@ -36,29 +33,11 @@ pub(crate) fn form<S: Simd>(simd: S, acts: &Acts, inputs: &[S::f64s], out: &mut 
             }
             FormedKind::Beam(beam) => {
                 let [resultant, free_end] = loaded_beam(simd, beam, inputs);
-                write(out, formed.first, &resultant);
-                write(out, formed.first + 1, &free_end);
+                write_pair(out, formed.first, &resultant);
+                write_pair(out, formed.first + 1, &free_end);
             }
         }
     }
-}
-
-#[inline(always)]
-fn write<S: Simd>(out: &mut [S::f64s], act: usize, (linear, angular): &Pair<S>) {
-    for k in 0..3 {
-        out[6 * act + k] = linear[k].value;
-        out[6 * act + 3 + k] = angular[k].value;
-    }
-}
-
-/// What was formed.
-#[inline(always)]
-pub(crate) fn read<S: Simd>(simd: S, acts: &[S::f64s], act: usize) -> Pair<S> {
-    let at = &acts[6 * act..6 * act + 6];
-    (
-        three!(k => Lane::new(simd, at[k])),
-        three!(k => Lane::new(simd, at[3 + k])),
-    )
 }
 
 /// The displacement of what moves as one with a point, at another point.

@@ -2,8 +2,8 @@
 
 use pulp::Simd;
 
-use super::acts::{carried, read};
-use super::blocks::{arm, place};
+use super::acts::carried;
+use super::blocks::{arm, pair, place};
 use super::lane::{Lane, Vec3, add, cross, dot, scaled, three};
 use crate::lanes::program::element::{Element, NodeMotion};
 use crate::lanes::program::fronts::Moves;
@@ -83,11 +83,7 @@ impl<S: Simd> Assembly<'_, S> {
 
     #[inline(always)]
     pub fn screw(&self, screw: usize) -> (Vec3<S>, Vec3<S>) {
-        let at = &self.screws[6 * screw..6 * screw + 6];
-        (
-            three!(k => Lane::new(self.simd, at[k])),
-            three!(k => Lane::new(self.simd, at[3 + k])),
-        )
+        pair(self.simd, self.screws, screw)
     }
 
     /// Adds an element: `blocks` over its nodes, which move as `nodes` say; `places` of all nodes'
@@ -251,7 +247,7 @@ impl<S: Simd> Assembly<'_, S> {
                 }
                 // Points of a joint are one.
                 let to = points[shift.node.min(points.len() - 1)];
-                let own = read(simd, self.acts, shift.act);
+                let own = pair(simd, self.acts, shift.act);
                 let (linear, angular) = carried(simd, &own, shift.point, to, self.inputs);
                 let sign = Lane::splat(simd, shift.sign);
                 let (linear, angular) = (scaled(&linear, sign), scaled(&angular, sign));

@@ -36,6 +36,33 @@ pub(crate) fn both<S: Simd>(simd: S, inputs: &[S::f64s], places: [usize; 2]) -> 
     ]
 }
 
+/// A wrench, or a twist or displacement: its linear part, then its angular one.
+pub(crate) type Pair<S> = (Vec3<S>, Vec3<S>);
+
+/// The pair at a place of a list of them.
+#[inline(always)]
+pub(crate) fn pair<S: Simd>(simd: S, pairs: &[S::f64s], place: usize) -> Pair<S> {
+    let at = &pairs[6 * place..6 * place + 6];
+    (
+        three!(k => Lane::new(simd, at[k])),
+        three!(k => Lane::new(simd, at[3 + k])),
+    )
+}
+
+/// Writes the pair at a place of a list of them.
+#[inline(always)]
+pub(crate) fn write_pair<S: Simd>(
+    pairs: &mut [S::f64s],
+    place: usize,
+    (linear, angular): &Pair<S>,
+) {
+    let out = &mut pairs[6 * place..6 * place + 6];
+    for k in 0..3 {
+        out[k] = linear[k].value;
+        out[3 + k] = angular[k].value;
+    }
+}
+
 /// From one point of the inputs to another.
 #[inline(always)]
 pub(crate) fn arm<S: Simd>(simd: S, inputs: &[S::f64s], [from, to]: [usize; 2]) -> Vec3<S> {

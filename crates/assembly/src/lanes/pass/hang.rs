@@ -8,9 +8,9 @@
 
 use pulp::Simd;
 
-use super::blocks::arm;
+use super::blocks::{arm, pair};
 use super::factor::Matrix;
-use super::lane::{Lane, Vec3, add, cross, six, three};
+use super::lane::{Lane, Vec3, add, cross, six};
 use crate::lanes::program::fronts::{Hang, HangPlaces};
 
 /// An element is much stiffer than others below this share of its stiffness.
@@ -144,9 +144,7 @@ fn twist<S: Simd>(
     motion: &Motion<'_, S>,
     arm: &Option<Vec3<S>>,
 ) -> Column<S> {
-    let at = &motion.screws[6 * screw..6 * screw + 6];
-    let mut linear: Vec3<S> = three!(k => Lane::new(simd, at[k]));
-    let angular: Vec3<S> = three!(k => Lane::new(simd, at[3 + k]));
+    let (mut linear, angular) = pair(simd, motion.screws, screw);
     if let Some(arm) = arm {
         linear = add(&linear, &cross(&angular, arm));
     }

@@ -8,9 +8,8 @@
 
 use pulp::Simd;
 
-use super::acts::read;
 use super::assemble::Assembly;
-use super::blocks::vector;
+use super::blocks::{pair, vector};
 use super::compliance::{Frame, LINEAR, Six};
 use super::ends::{Terms, works};
 use super::factor::{IDLE, ROUNDING};
@@ -228,7 +227,7 @@ impl<S: Simd> Acting<'_, S> {
                 Item::Load(k) if chain.loads[k].column == column => {
                     is_loaded = true;
                     let load = &chain.loads[k];
-                    let (force, moment) = read(simd, self.acts, load.act);
+                    let (force, moment) = pair(simd, self.acts, load.act);
                     let force = apply(&frame.axes, &force);
                     let moment = scaled(&apply(&frame.axes, &moment), frame.per_size);
                     let arm = frame.arm_to(&vector(simd, inputs, load.point));
@@ -279,7 +278,7 @@ impl<S: Simd> Acting<'_, S> {
     #[inline(always)]
     fn add_shift(&self, shift: &Shift, chain: &Chain, frame: &Frame<S>, loaded: &mut Loaded<S>) {
         let simd = self.simd;
-        let own = read(simd, self.acts, shift.act);
+        let own = pair(simd, self.acts, shift.act);
         let at = vector(simd, self.inputs, shift.point);
         // Of end 1 from end 0.
         let sign = if shift.node == 1 {

@@ -3,8 +3,8 @@
 
 use pulp::Simd;
 
-use super::blocks::vector;
-use super::lane::{Lane, Vec3, add, cross, dot, scaled, sub, three};
+use super::blocks::{Pair, pair, vector, write_pair};
+use super::lane::{Lane, Vec3, add, cross, dot, scaled, sub};
 use crate::lanes::program::loops::{Condition, Loop, NOTHING, PIVOT};
 
 /// Forms the combined screws of a loop, six entries each. `matrix`: an entry for every condition and
@@ -28,7 +28,7 @@ pub(crate) fn close<S: Simd>(
         let (by_force, by_moment) = (dot(&force, &force), dot(&moment, &moment));
         let mut scale = zero;
         for (column, sign) in &condition.terms {
-            let (v, w) = screw(simd, screws, own.coordinates[*column]);
+            let (v, w) = pair(simd, screws, own.coordinates[*column]);
             let work = dot(&force, &v) + dot(&moment, &w);
             entries[*column] = (work * Lane::splat(simd, *sign)).value;
             scale += by_force * dot(&v, &v) + by_moment * dot(&w, &w);
@@ -77,21 +77,17 @@ pub(crate) fn close<S: Simd>(
     for combined in &own.combined {
         let (mut linear, mut angular) = ([poison; 3], [poison; 3]);
         if combined.own {
-            let (v, w) = screw(simd, screws, own.coordinates[combined.column]);
+            let (v, w) = pair(simd, screws, own.coordinates[combined.column]);
             (linear, angular) = (add(&linear, &v), add(&angular, &w));
         }
         for step in &combined.steps {
             let [row, column] = own.pivots[*step];
             let share = -Lane::new(simd, matrix[row * columns + combined.column]);
-            let (v, w) = screw(simd, screws, own.coordinates[column]);
+            let (v, w) = pair(simd, screws, own.coordinates[column]);
             linear = add(&linear, &scaled(&v, share));
             angular = add(&angular, &scaled(&w, share));
         }
-        let out = &mut screws[6 * combined.screw..6 * combined.screw + 6];
-        for k in 0..3 {
-            out[k] = linear[k].value;
-            out[3 + k] = angular[k].value;
-        }
+        write_pair(screws, combined.screw, &(linear, angular));
     }
 }
 
@@ -102,7 +98,7 @@ fn wrench<S: Simd>(
     condition: &Condition,
     reference: &Vec3<S>,
     inputs: &[S::f64s],
-) -> (Vec3<S>, Vec3<S>) {
+) -> Pair<S> {
     let zero = Lane::splat(simd, 0.0);
     let (mut force, mut moment) = ([zero; 3], [zero; 3]);
     for k in 0..3 {
@@ -117,13 +113,4 @@ fn wrench<S: Simd>(
     }
     let arm = sub(&vector(simd, inputs, condition.point), reference);
     (force, add(&moment, &cross(&arm, &force)))
-}
-
-#[inline(always)]
-fn screw<S: Simd>(simd: S, screws: &[S::f64s], screw: usize) -> (Vec3<S>, Vec3<S>) {
-    let at = &screws[6 * screw..6 * screw + 6];
-    (
-        three!(k => Lane::new(simd, at[k])),
-        three!(k => Lane::new(simd, at[3 + k])),
-    )
 }

@@ -17,9 +17,9 @@ pub(crate) mod transmit;
 
 use pulp::{Simd, WithSimd};
 
-use super::pass::acts::{form, read};
+use super::pass::acts::form;
 use super::pass::assemble::Assembly;
-use super::pass::blocks::{arm, bushing, flexible, vector};
+use super::pass::blocks::{arm, bushing, flexible, pair, vector, write_pair};
 use super::pass::buffers::Buffers;
 use super::pass::factor::{Matrix, ROUNDING, eliminate};
 use super::pass::hang::{Motion, make_relative};
@@ -161,11 +161,7 @@ impl<S: Simd> Registers<'_, S> {
         if let Some(points) = screw.arm {
             linear = add(&linear, &cross(&angular, &arm(simd, self.inputs, points)));
         }
-        let out = &mut self.screws[6 * screw.coordinate..6 * screw.coordinate + 6];
-        for k in 0..3 {
-            out[k] = linear[k].value;
-            out[3 + k] = angular[k].value;
-        }
+        write_pair(self.screws, screw.coordinate, &(linear, angular));
     }
 
     /// Assembles a front, eliminates its pivots, and keeps what is left.
@@ -281,7 +277,7 @@ impl<S: Simd> Registers<'_, S> {
                 if program.rows[load.column].is_some() {
                     // The row is the last of its coordinates.
                     let row = places[places.len() - 1];
-                    let (force, moment) = read(simd, self.acts, load.act);
+                    let (force, moment) = pair(simd, self.acts, load.act);
                     assembly.add_load(&load.node, places, row, &force, &moment);
                 }
                 return;
@@ -367,7 +363,7 @@ impl<S: Simd> Registers<'_, S> {
                         if load.column != column {
                             continue;
                         }
-                        let (linear, mut angular) = read(simd, self.acts, load.act);
+                        let (linear, mut angular) = pair(simd, self.acts, load.act);
                         if let Some(points) = load.node.arm {
                             let arm = arm(simd, self.inputs, points);
                             angular = add(&angular, &cross(&arm, &linear));

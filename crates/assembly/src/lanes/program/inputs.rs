@@ -133,9 +133,11 @@ impl Inputs {
         geometry: &Geometry,
         (out, width, lane): (&mut [f64], usize, usize),
     ) {
+        // Forces and moments of a load follow each other, in the same axes.
+        let mut last = None;
         for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
             let vector = match source {
-                Wanted::Turned(number) => self.turn(*number, model, geometry),
+                Wanted::Turned(number) => self.turn(*number, model, geometry, &mut last),
                 _ => source.at(geometry),
             };
             out[lane] = vector.x;
@@ -144,15 +146,25 @@ impl Inputs {
         }
     }
 
-    fn turn(&self, number: usize, model: &Model, geometry: &Geometry) -> Vector3<f64> {
+    /// A vector in axes that turn; `last`: those that were looked at last, with their rotation, `None`
+    /// where they have none.
+    fn turn<'a>(
+        &'a self,
+        number: usize,
+        model: &Model,
+        geometry: &Geometry,
+        last: &mut Option<(&'a Axes, Option<Rotation3<f64>>)>,
+    ) -> Vector3<f64> {
         let (by, vector) = &self.turned[number];
-        match by {
-            Turned::Joint(joint) => geometry.frames[joint.0] * vector,
-            Turned::Axes(axes) => match axes.rotation(model, geometry) {
-                Ok(rotation) => rotation * vector,
-                Err(_) => Vector3::repeat(f64::NAN),
-            },
-        }
+        let axes = match by {
+            Turned::Joint(joint) => return geometry.frames[joint.0] * vector,
+            Turned::Axes(axes) => axes,
+        };
+        let rotation = match last {
+            Some((own, rotation)) if *own == axes => *rotation,
+            _ => last.insert((axes, axes.rotation(model, geometry).ok())).1,
+        };
+        rotation.map_or(Vector3::repeat(f64::NAN), |rotation| rotation * vector)
     }
 
     /// The vector at a place, but for those in axes of loads.

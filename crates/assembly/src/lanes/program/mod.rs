@@ -41,6 +41,8 @@ use crate::plan::trees::Component;
 
 /// Most coordinates that a mechanism may have: beyond, a factorization is worth more than lanes.
 const MOST_COORDINATES: usize = 600;
+/// Most columns of what acts that may have a row: a front has room for all of them.
+const MOST_ROWS: usize = 100;
 /// Nodes of a joint farther apart than this share of the mechanism's size are no one point.
 const APART: f64 = 1e-9;
 
@@ -78,7 +80,7 @@ pub(crate) struct Program {
 impl Program {
     /// The program of a plan; `None` where the lanes do not take it: loops of rigid bodies whose
     /// elimination is not clear, or with misfits; motions of the output without energy; too many
-    /// coordinates.
+    /// coordinates, or load cases that act within the mechanism.
     pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
         let topology = Topology::new(model, geometry, plan.output, false);
         let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
@@ -175,6 +177,9 @@ impl Program {
             let has_row = within || !own.all(of_output);
             rows.push(has_row.then_some(count));
             count += usize::from(has_row);
+        }
+        if count > MOST_ROWS {
+            return None;
         }
         let variable = |column: &usize| Some(unknowns + rows[*column]?);
 
