@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::error::LoadError;
+use crate::file::include;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::batch::Batch;
@@ -11,7 +12,6 @@ use crate::text::files::Files;
 use crate::text::fragment::Fragment;
 use crate::text::named::{is_batch, mechanism_in};
 use crate::text::source::Source;
-use crate::text::tree::Node;
 
 /// What a file holds.
 #[derive(Debug)]
@@ -115,11 +115,11 @@ fn read(source: &Arc<Source>, registry: &Registry) -> Result<Input, LoadError> {
         }
         _ => {}
     }
-    Mechanism::read(Node::of(value), registry).map(Input::Mechanism)
+    Mechanism::read(include::mechanism(value)?, registry).map(Input::Mechanism)
 }
 
 fn read_mechanism(source: &Arc<Source>, registry: &Registry) -> Result<Mechanism, LoadError> {
-    Mechanism::read(Node::of(mechanism_in(source)?), registry)
+    Mechanism::read(include::mechanism(mechanism_in(source)?)?, registry)
 }
 
 fn read_batch(source: &Arc<Source>, registry: &Registry) -> Result<Batch, LoadError> {

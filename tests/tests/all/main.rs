@@ -5,6 +5,7 @@ mod axis_parallel;
 mod bodies;
 mod book;
 mod closure;
+mod copies;
 mod definitions;
 mod designs;
 mod equilibrium;

@@ -116,6 +116,9 @@ pub(crate) fn frame(
 /// A section's name, the section, and its change along a segment.
 type Sections = (Arc<str>, Section, Option<Tapering>);
 
+/// The direction of a y axis, and where it is given.
+type YAxis<'a> = (Option<Vector3<f64>>, Option<Fragment<'a>>);
+
 /// A chain of segments through some points of a body.
 struct Run<'r, 'a> {
     /// What it is, in words.
@@ -152,22 +155,23 @@ impl<'a> Run<'_, 'a> {
         let material = tables.materials.find(of_material)?;
         let material_name: Arc<str> = of_material.string()?.into();
         let y_axis = get("y_axis");
-        let direction = y_axis.map(Fragment::direction).transpose()?;
+        let y_axes = self.y_axes(y_axis)?;
         let elements = get("elements").map_or(Ok(1), elements)?;
         let mut members = Vec::new();
-        for (ends, (name, section, taper)) in self.places.windows(2).zip(sections) {
+        let ends = self.places.windows(2).zip(y_axes);
+        for ((ends, (y_axis, at)), (name, section, taper)) in ends.zip(sections) {
             let member = Member {
                 ends: [ends[0], ends[1]],
                 material: material.clone(),
                 section,
                 taper,
-                y_axis: direction,
+                y_axis,
                 elements,
             };
             let [from, to] = member.ends.map(|place| &self.points[place]);
             let span = to.position - from.position;
             check(&member, &span, material)
-                .map_err(|error| self.error(&error, [from, to], y_axis))?;
+                .map_err(|error| self.error(&error, [from, to], at))?;
             members.push(member);
             given.push(Given {
                 section: name,
@@ -217,6 +221,30 @@ impl<'a> Run<'_, 'a> {
             Ok((name, section, taper))
         };
         names.into_iter().map(whole).collect()
+    }
+
+    /// The direction of every segment's y axis, if it is given, and where: one for all, or a list of one
+    /// for each.
+    fn y_axes(&self, given: Option<Fragment<'a>>) -> Result<Vec<YAxis<'a>>, LoadError> {
+        let count = self.places.len() - 1;
+        let Some(given) = given else {
+            return Ok(vec![(None, None); count]);
+        };
+        let one = |own: Fragment<'a>| Ok((Some(own.direction()?), Some(own)));
+        if !given.text().starts_with('[') {
+            return Ok(vec![one(given)?; count]);
+        }
+        let list = given.list("a direction, or a list of one for each segment")?;
+        if list.len() != count {
+            let message = format!(
+                "{} has {count} segments, its list of y axes has {}",
+                self.what,
+                list.len()
+            );
+            let help = "list one direction for each segment between two points, or give one for all";
+            return Err(given.error(message).with_help(help));
+        }
+        list.into_iter().map(one).collect()
     }
 
     /// Length of every segment \[m\].

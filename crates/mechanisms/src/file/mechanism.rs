@@ -8,6 +8,7 @@ use hyperstat_closure::{LoopClosure, Reached, Target};
 use hyperstat_model::{BodyId, JointId, Model};
 use nalgebra::Point3;
 
+use super::groups::{self, Copies};
 use super::home::Home;
 use super::loads::Acting;
 use super::registry::Registry;
@@ -38,6 +39,8 @@ pub struct Mechanism {
     root: Arc<Node>,
     /// What the segments are given by.
     given: Vec<Given>,
+    /// Paths of what groups have, by the names and numbers of their copies.
+    copies: Copies,
     /// What a job says of what acts, and with it whether the masses are the file's own.
     acting: Option<Acting>,
     registry: Registry,
@@ -48,7 +51,8 @@ impl Mechanism {
     /// Reads the value of a mechanism file.
     pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
         let root = Arc::new(root);
-        let fragment = Fragment::of_node(&root);
+        let written = groups::write_out(&root)?;
+        let fragment = Fragment::of_node(&written.root);
         let known = [
             "name",
             "materials",
@@ -61,6 +65,9 @@ impl Mechanism {
             "gravity",
             "masses",
             "output",
+            "groups",
+            "copies",
+            "include",
         ];
         let fields = Fields::read(fragment, "the mechanism", &known)?;
         let mut model = Model::new(fields.required("name")?.string()?);
@@ -104,6 +111,7 @@ impl Mechanism {
             output: output.place(),
             root: Arc::clone(&root),
             given,
+            copies: written.copies,
             acting: None,
             registry: registry.clone(),
             unused_points,
@@ -142,7 +150,8 @@ impl Mechanism {
     /// The same where some values are varied.
     pub(crate) fn name_others(&self, varied: &[Steps], model: &mut Model) {
         let masses = !self.acting.as_ref().is_some_and(Acting::has_masses);
-        value_names::of_file(&self.root, varied, &self.given, masses, model);
+        let given = (&*self.given, &self.copies);
+        value_names::of_file(&self.root, varied, given, masses, model);
     }
 
     /// The same mechanism with other values in some places, named by their paths as `vary` names them,

@@ -3,7 +3,9 @@
 pub(crate) mod beams;
 pub(crate) mod bodies;
 pub(crate) mod flexible;
+pub(crate) mod groups;
 pub(crate) mod home;
+pub(crate) mod include;
 pub(crate) mod joints;
 pub(crate) mod kinds;
 pub(crate) mod loads;

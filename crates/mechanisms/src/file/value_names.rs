@@ -9,6 +9,7 @@ use std::sync::Arc;
 use hyperstat_joints::Dof;
 use hyperstat_model::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 
+use super::groups::Copies;
 use crate::text::tree::{Node, Number, Steps};
 
 /// What a segment of a mechanism file is given by: names of the tables' entries.
@@ -19,12 +20,12 @@ pub(crate) struct Given {
 }
 
 /// Names values of a file's model by their paths in `root`, in which some values are `varied`. `given` says what its
-/// segments are given by, `masses` whether its masses are the file's. Stiffnesses that several
+/// segments are given by, `copies` what is copied, `masses` whether its masses are the file's. Stiffnesses that several
 /// joints have alike are left without names: they are one parameter.
 pub(crate) fn of_file(
     root: &Node,
     varied: &[Steps],
-    given: &[Given],
+    (given, copies): (&[Given], &Copies),
     masses: bool,
     model: &mut Model,
 ) {
@@ -40,9 +41,10 @@ pub(crate) fn of_file(
             JointStiffness::Matrix(_) => None,
         }
     };
-    let mut counts = HashMap::new();
+    let mut written = HashMap::<_, HashSet<String>>::new();
     for joint in (0..model.joints().len()).map(JointId) {
-        *counts.entry(alike(model, joint)).or_insert(0) += 1;
+        let path = copies.joint(&model.joints()[joint.0].name);
+        written.entry(alike(model, joint)).or_default().insert(path);
     }
     let values = model.values().into_iter().map(|(place, _)| place);
     let masses = (0..model.masses().len()).filter(|_| masses);
@@ -70,11 +72,11 @@ pub(crate) fn of_file(
                 own.map(|own| format!("materials.{}.{constant}", own.material))
             }
             ValuePlace::Stiffness { joint, direction } => {
-                let name = &model.joints()[joint.0].name;
-                let single = counts.get(&alike(model, joint)) == Some(&1);
-                single.then(|| format!("joints.{name}.stiffness.{}", letter(direction)))
+                let path = copies.joint(&model.joints()[joint.0].name);
+                let single = written.get(&alike(model, joint)).is_some_and(|all| all.len() == 1);
+                single.then(|| format!("{path}.stiffness.{}", letter(direction)))
             }
-            ValuePlace::Mass { mass } => Some(format!("masses.{mass}.mass")),
+            ValuePlace::Mass { mass } => Some(format!("{}.mass", copies.mass(mass))),
         };
         if let Some(path) = path.filter(|path| paths.contains(path)) {
             model.name_value(place, path);

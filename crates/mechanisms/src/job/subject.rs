@@ -12,6 +12,7 @@ use super::poses::Poses;
 use super::targets::{Asked, Targets};
 use crate::error::LoadError;
 use crate::file::home::Home;
+use crate::file::include;
 use crate::file::loads::Acting;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::{PrebuiltKind, Registry};
@@ -75,7 +76,8 @@ impl Recipe {
             let expected = "one path, `File(\"file.ron\")`";
             let arguments = arguments.ok_or_else(|| whole.expected(expected))?;
             let [path] = arguments.array(expected)?;
-            (Node::at(&named::mechanism_at(path)?), None)
+            let place = named::mechanism_at(path)?;
+            (include::mechanism(Fragment::at(&place))?, None)
         } else {
             let Some(kind) = registry.prebuilt(name.text()) else {
                 let known = std::iter::once("File").chain(registry.prebuilts());

@@ -45,6 +45,17 @@ pub(crate) fn options() -> ron::Options {
         .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
+impl<'a> Entry<'a> {
+    /// An entry of a tree.
+    pub(crate) fn of(own: &'a Named) -> Self {
+        Self {
+            name: (*own.name).into(),
+            key: Fragment::between(&own.source, &own.at),
+            value: Fragment::of_node(&own.value),
+        }
+    }
+}
+
 impl<'a> Fragment<'a> {
     /// The value that a whole file holds.
     pub(crate) fn of_file(source: &'a Arc<Source>) -> Result<Self, LoadError> {
@@ -89,9 +100,13 @@ impl<'a> Fragment<'a> {
         }
     }
 
-    /// The part of this fragment's text between these bytes of the source.
-    fn between(self, span: &Range<usize>) -> Self {
-        self.part(self.source.text().get(span.clone()).unwrap_or(""))
+    /// What stands between these bytes of a source.
+    fn between(source: &'a Arc<Source>, span: &Range<usize>) -> Self {
+        Self {
+            source,
+            text: source.text().get(span.clone()).unwrap_or(""),
+            node: None,
+        }
     }
 
     fn content(self) -> Option<&'a Content> {
@@ -262,12 +277,7 @@ impl<'a> Fragment<'a> {
     /// A map `{ "name": value, … }` in the order of the file; a name given twice is an error.
     pub(crate) fn map(self) -> Result<Vec<Entry<'a>>, LoadError> {
         if let Some(Content::Map(named)) = self.content() {
-            let entry = |own: &'a Named| Entry {
-                name: (*own.name).into(),
-                key: self.between(&own.at),
-                value: Self::of_node(&own.value),
-            };
-            return Ok(named.iter().map(entry).collect());
+            return Ok(named.iter().map(Entry::of).collect());
         }
         let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
         let mut seen = HashMap::new();
@@ -292,7 +302,10 @@ impl<'a> Fragment<'a> {
     /// The fields of a struct `(name: value, …)` in the order of the file: names and values.
     pub(crate) fn named(self, expected: &str) -> Result<Vec<(Self, Self)>, LoadError> {
         if let Some(Content::Fields(named)) = self.content() {
-            let pair = |own: &'a Named| (self.between(&own.at), Self::of_node(&own.value));
+            let pair = |own: &'a Named| (
+                    Self::between(&own.source, &own.at),
+                    Self::of_node(&own.value),
+                );
             return Ok(named.iter().map(pair).collect());
         }
         self.pieces().ok_or_else(|| self.expected(expected))
@@ -309,7 +322,7 @@ impl<'a> Fragment<'a> {
     pub(crate) fn variant(self, expected: &str) -> Result<(Self, Option<Self>), LoadError> {
         if let Some(Content::Kind(kind, inner)) = self.content() {
             let inner = inner.as_deref().map(Self::of_node);
-            return Ok((self.between(kind), inner));
+            return Ok((Self::between(self.source, kind), inner));
         }
         let wrong = |_| self.expected(expected);
         let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;

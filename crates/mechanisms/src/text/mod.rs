@@ -8,6 +8,7 @@ pub(crate) mod disk;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
+pub(crate) mod made;
 pub(crate) mod named;
 pub(crate) mod names;
 pub(crate) mod paths;

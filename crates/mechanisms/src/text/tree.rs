@@ -14,8 +14,8 @@ use super::source::{Place, Source};
 /// A value and its parts. A copy shares the parts.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
-    source: Arc<Source>,
-    span: Range<usize>,
+    pub(super) source: Arc<Source>,
+    pub(super) span: Range<usize>,
     pub(super) content: Content,
 }
 
@@ -38,10 +38,11 @@ pub(super) enum Content {
 
 /// An entry of a map, or a field.
 #[derive(Debug, Clone)]
-pub(super) struct Named {
+pub(crate) struct Named {
     /// The name, without quotes.
     pub(super) name: Arc<str>,
     /// Where it stands.
+    pub(super) source: Arc<Source>,
     pub(super) at: Range<usize>,
     pub(super) value: Node,
 }
@@ -84,6 +85,7 @@ impl Node {
             Some('{') => value.map().ok().map(|entries| {
                 let named = entries.into_iter().map(|entry| Named {
                     name: entry.name.into(),
+                    source: Arc::clone(entry.key.source()),
                     at: entry.key.span(),
                     value: part(entry.value),
                 });
@@ -95,6 +97,7 @@ impl Node {
                 Some(fields) => {
                     let named = fields.into_iter().map(|(name, value)| Named {
                         name: name.text().into(),
+                        source: Arc::clone(name.source()),
                         at: name.span(),
                         value: part(value),
                     });

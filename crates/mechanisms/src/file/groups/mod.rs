@@ -1,0 +1,262 @@
+//! Groups of points, bodies, joints, masses and loads that are written once, and their copies.
+//!
+//! `groups: { "limb": (points: …, bodies: …, joints: …) }` says what is copied,
+//! `copies: { "limb": Turned(axis: (0.0, 0.0, 1.0), count: 3) }` where the copies stand. The tree of a file
+//! becomes one without groups: every copy's values stand where those of the group are written, so that
+//! messages point there, and names are numbered, `A` becoming `A1`, `A2`, `A3`.
+
+mod copy;
+mod joint;
+mod placement;
+mod renamed;
+
+use std::collections::HashMap;
+
+use copy::Copy;
+
+use crate::error::LoadError;
+use crate::file::through::check_name;
+use crate::text::fields::Fields;
+use crate::text::fragment::{Entry, Fragment, first_at};
+use crate::text::names;
+use crate::text::paths;
+use crate::text::tree::{Named, Node};
+
+/// The fields of a group, which are fields of a mechanism too.
+pub(super) const PARTS: [&str; 5] = ["points", "bodies", "joints", "loads", "masses"];
+
+/// A mechanism's tree without groups.
+#[derive(Debug)]
+pub(crate) struct Written {
+    pub(crate) root: Node,
+    pub(crate) copies: Copies,
+}
+
+/// The paths to what is copied, which all copies share that have nothing of their own there.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Copies {
+    /// By the joint's name.
+    joints: HashMap<String, String>,
+    /// By the mass's number.
+    masses: HashMap<usize, String>,
+}
+
+impl Copies {
+    /// The path to a joint.
+    pub(crate) fn joint(&self, name: &str) -> String {
+        let own = self.joints.get(name);
+        own.cloned().unwrap_or_else(|| format!("joints.{name}"))
+    }
+
+    /// The path to a mass.
+    pub(crate) fn mass(&self, number: usize) -> String {
+        let own = self.masses.get(&number);
+        own.cloned().unwrap_or_else(|| format!("masses.{number}"))
+    }
+}
+
+/// Writes out the groups of a mechanism: those of `copies`.
+pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
+    let mut written = Written {
+        root: root.clone(),
+        copies: Copies::default(),
+    };
+    let groups = root.get("groups");
+    let Some(copies) = root.get("copies") else {
+        return Ok(written);
+    };
+    let groups: Vec<Entry<'_>> = match groups {
+        Some(groups) => Fragment::of_node(groups).map()?,
+        None => Vec::new(),
+    };
+    let mut parts = PARTS.map(|part| Parts::of(root.get(part)));
+    for entry in Fragment::of_node(copies).map()? {
+        let Some(group) = groups.iter().find(|group| group.name == entry.name) else {
+            let known = groups.iter().map(|group| group.name.as_str());
+            return Err(entry
+                .key
+                .error(format!("unknown group `{}`", entry.name))
+                .unreadable()
+                .with_help(names::help(&entry.name, "groups", known)));
+        };
+        let node = root.get("groups").and_then(|groups| groups.get(&entry.name));
+        let Some(node) = node else { continue };
+        of_group(&entry, group, node, root, &mut parts, &mut written)?;
+    }
+    let mut tree = root.without_field("groups").without_field("copies");
+    for (name, part) in PARTS.into_iter().zip(parts) {
+        if !part.is_empty() {
+            let place = root.get(name).unwrap_or(copies);
+            tree = tree.with_field(name, part.into_node(place));
+        }
+    }
+    written.root = tree;
+    Ok(written)
+}
+
+/// Adds the copies of one group.
+fn of_group(
+    entry: &Entry<'_>,
+    group: &Entry<'_>,
+    node: &Node,
+    root: &Node,
+    parts: &mut [Parts; 5],
+    written: &mut Written,
+) -> Result<(), LoadError> {
+    let owner = format!("group `{}`", group.name);
+    Fields::read(group.value, owner, &PARTS)?;
+    let (places, names, overrides) = read(entry)?;
+    let overrides = match overrides {
+        Some(map) => map.map()?,
+        None => Vec::new(),
+    };
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    for own in &overrides {
+        if !names.contains(&own.name) {
+            return Err(own
+                .key
+                .error(format!("group `{}` has no copy `{}`", group.name, own.name))
+                .with_help(names::help(&own.name, "copies", known.iter().copied())));
+        }
+    }
+    for (placement, name) in places.iter().zip(&names) {
+        let own = overrides.iter().find(|own| own.name == *name);
+        let (node, changed) = changed(node, own)?;
+        let copy = Copy::new(&node, root, placement, name);
+        let joints = copy.joints(|joint, made| {
+            let path = format!("groups.{}.joints.{joint}", group.name);
+            let inside = |path: &str| changed.iter().any(|own| starts_with(own, path));
+            if !inside(&format!("joints.{joint}")) {
+                written.copies.joints.insert(made.to_owned(), path);
+            }
+        })?;
+        for (k, _) in node.get("masses").map_or(&[][..], Node::items).iter().enumerate() {
+            let path = format!("groups.{}.masses.{k}", group.name);
+            if !changed.iter().any(|own| starts_with(own, &format!("masses.{k}"))) {
+                written.copies.masses.insert(parts[4].len() + k, path);
+            }
+        }
+        parts[0].add_entries(copy.points()?, "point")?;
+        parts[1].add_entries(copy.bodies()?, "body")?;
+        parts[2].add_entries(joints, "joint")?;
+        parts[3].items.extend(copy.loads()?);
+        parts[4].items.extend(copy.masses()?);
+    }
+    Ok(())
+}
+
+/// Whether a path leads to a value, or into it, or around it.
+fn starts_with(one: &str, other: &str) -> bool {
+    let inside = |long: &str, short: &str| {
+        let rest = long.strip_prefix(short);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    inside(one, other) || inside(other, one)
+}
+
+/// What an entry of `copies` says: places, names, and other values of single copies.
+type Asked<'a> = (Vec<placement::Placement>, Vec<String>, Option<Fragment<'a>>);
+
+/// Reads an entry of `copies`: places, or `(places: …, names: […], overrides: { … })`.
+fn read<'a>(entry: &Entry<'a>) -> Result<Asked<'a>, LoadError> {
+    let given = entry.value;
+    if given.named("").is_err() {
+        let places = placement::read(given)?;
+        let names = (1..=places.len()).map(|k| k.to_string()).collect();
+        return Ok((places, names, None));
+    }
+    let owner = format!("the copies of `{}`", entry.name);
+    let fields = Fields::read(given, owner, &["places", "names", "overrides"])?;
+    let places = placement::read(fields.required("places")?)?;
+    let names = match fields.get("names") {
+        None => (1..=places.len()).map(|k| k.to_string()).collect(),
+        Some(list) => endings(list, places.len())?,
+    };
+    Ok((places, names, fields.get("overrides")))
+}
+
+/// Reads what is put at the end of names, a text for each copy.
+fn endings(list: Fragment<'_>, count: usize) -> Result<Vec<String>, LoadError> {
+    let items = list.list("a list of endings, such as `[\"_left\", \"_right\"]`")?;
+    let mut names = Vec::with_capacity(items.len());
+    for item in items {
+        let name = item.string()?;
+        if names.contains(&name) || name.contains('.') {
+            return Err(item
+                .error(format!("`{name}` cannot be the ending of a copy's names"))
+                .with_help("each copy has its own ending, without a `.`"));
+        }
+        names.push(name);
+    }
+    if names.len() != count {
+        let message = format!("there are {count} copies, and {} endings", names.len());
+        return Err(list.error(message).with_help("give one ending for each copy"));
+    }
+    Ok(names)
+}
+
+/// A group with the values that a copy has for itself, and the paths of these.
+fn changed(group: &Node, own: Option<&Entry<'_>>) -> Result<(Node, Vec<String>), LoadError> {
+    let mut node = group.clone();
+    let mut changed = Vec::new();
+    let Some(own) = own else {
+        return Ok((node, changed));
+    };
+    for value in own.value.map()? {
+        let steps = paths::find(group, value.key)?;
+        node.replace(&steps, Node::of(value.value));
+        changed.push(value.name);
+    }
+    Ok((node, changed))
+}
+
+/// Entries or items of one field of a mechanism, the file's own first.
+#[derive(Debug, Default)]
+struct Parts {
+    entries: Vec<Named>,
+    items: Vec<Node>,
+    /// The number of the entry of each name.
+    by_name: HashMap<String, usize>,
+}
+
+impl Parts {
+    fn of(field: Option<&Node>) -> Self {
+        let mut parts = Self::default();
+        for own in field.map_or(&[][..], Node::entries) {
+            parts.by_name.insert(own.name().into(), parts.entries.len());
+            parts.entries.push(own.clone());
+        }
+        parts.items = field.map_or(&[][..], Node::items).to_vec();
+        parts
+    }
+
+    fn is_empty(&self) -> bool {
+        self.entries.is_empty() && self.items.is_empty()
+    }
+
+    fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    /// Adds entries of a copy; a name that is there is refused.
+    fn add_entries(&mut self, entries: Vec<Named>, what: &str) -> Result<(), LoadError> {
+        for own in entries {
+            let next = self.entries.len();
+            if let Some(first) = self.by_name.insert(own.name().into(), next) {
+                let message = format!("a copy makes a second {what} `{}`", own.name());
+                let first = self.entries[first].place();
+                return Err(own.place().error(message).with_help(first_at(Fragment::at(&first))));
+            }
+            check_name(&Entry::of(&own), what)?;
+            self.entries.push(own);
+        }
+        Ok(())
+    }
+
+    fn into_node(self, place: &Node) -> Node {
+        match self.items.is_empty() {
+            true => place.map_in_place(self.entries),
+            false => place.list_in_place(self.items),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! How a copy lies against what it is a copy of.
+
+use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
+
+use crate::error::LoadError;
+use crate::text::fields::Fields;
+use crate::text::fragment::Fragment;
+use crate::text::names;
+
+/// Most copies of a group.
+const MOST: usize = 10_000;
+
+/// A motion of a group, or its mirror image: p → `linear` p + `shift`, `linear` orthogonal.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Placement {
+    linear: Matrix3<f64>,
+    shift: Vector3<f64>,
+}
+
+impl Placement {
+    /// Where the group was written.
+    pub(super) const HERE: Self = Self {
+        linear: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+        shift: Vector3::new(0.0, 0.0, 0.0),
+    };
+
+    /// A rotation or a reflection about a point.
+    fn about(point: &Point3<f64>, linear: Matrix3<f64>) -> Self {
+        Self {
+            shift: point.coords - linear * point.coords,
+            linear,
+        }
+    }
+
+    /// This one, then another.
+    fn then(&self, next: &Self) -> Self {
+        Self {
+            linear: next.linear * self.linear,
+            shift: next.linear * self.shift + next.shift,
+        }
+    }
+
+    /// Whether axes stay as they are.
+    pub(super) fn keeps_axes(&self) -> bool {
+        self.linear == Self::HERE.linear
+    }
+
+    /// Whether left becomes right.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.linear.determinant() < 0.0
+    }
+
+    pub(super) fn point(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.linear * point + self.shift
+    }
+
+    /// A direction or a force.
+    pub(super) fn direction(&self, direction: &Vector3<f64>) -> Vector3<f64> {
+        self.linear * direction
+    }
+
+    /// A moment: in a mirror the axis of a turn is mirrored, and its sense is turned round.
+    pub(super) fn moment(&self, moment: &Vector3<f64>) -> Vector3<f64> {
+        let moment = self.linear * moment;
+        if self.is_mirrored() { -moment } else { moment }
+    }
+
+    /// An inertia about the mass's centre.
+    pub(super) fn inertia(&self, inertia: &Matrix3<f64>) -> Matrix3<f64> {
+        self.linear * inertia * self.linear.transpose()
+    }
+}
+
+/// Reads the places of copies: one kind of placing, or a list of them, of which each is done with all
+/// copies that those before it made.
+pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
+    let expected = "places of copies, such as `Turned(axis: (0.0, 0.0, 1.0), count: 3)`, or a list of them";
+    let steps = match fragment.variant(expected) {
+        Ok(_) => vec![fragment],
+        Err(_) => fragment.list(expected)?,
+    };
+    let mut places = vec![Placement::HERE];
+    for step in steps {
+        let own = one(step)?;
+        if places.len() * own.len() > MOST {
+            return Err(step.error(format!("these are more than {MOST} copies")));
+        }
+        let with = |next: &Placement| places.iter().map(|place| place.then(next)).collect::<Vec<_>>();
+        places = own.iter().flat_map(with).collect();
+    }
+    Ok(places)
+}
+
+/// Reads one kind of placing.
+fn one(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
+    const KINDS: [&str; 3] = ["Turned", "Moved", "Mirrored"];
+    let (kind, arguments) = fragment.variant("`Turned(…)`, `Moved(…)` or `Mirrored(…)`")?;
+    let owner = format!("`{}`", kind.text());
+    let fields = |known: &[&str]| match arguments {
+        Some(given) => Ok(Fields::read(given, owner.clone(), known)?.within(fragment)),
+        None => Ok(Fields::none(fragment, owner.clone())),
+    };
+    match kind.text() {
+        "Turned" => turned(&fields(&["axis", "through", "count", "step", "angles"])?),
+        "Moved" => moved(&fields(&["by", "count"])?),
+        "Mirrored" => {
+            let fields = fields(&["normal", "through"])?;
+            let normal = fields.required("normal")?.direction()?.normalize();
+            let reflection = Matrix3::identity() - 2.0 * normal * normal.transpose();
+            let mirrored = Placement::about(&through(&fields)?, reflection);
+            Ok(vec![Placement::HERE, mirrored])
+        }
+        other => Err(kind
+            .error(format!("unknown way of placing copies `{other}`"))
+            .unreadable()
+            .with_help(names::help(other, "ways of placing copies", KINDS))),
+    }
+}
+
+/// Reads `Turned(axis: …, count: …)`: all round, or by `step` each; or `angles: […]`.
+fn turned(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
+    let axis = Unit::new_normalize(fields.required("axis")?.direction()?);
+    let point = through(fields)?;
+    let angles = match fields.get("angles") {
+        Some(list) => {
+            if let Some(other) = fields.get("count").or(fields.get("step")) {
+                return Err(other
+                    .error("`angles` says already where the copies are")
+                    .with_help("give `angles`, or `count` with or without `step`"));
+            }
+            let angles = list.list("a list of angles in rad")?;
+            if angles.is_empty() {
+                return Err(list.error("no angles make no copies"));
+            }
+            angles.into_iter().map(Fragment::number).collect::<Result<Vec<_>, _>>()?
+        }
+        None => {
+            let count = count(fields.required("count")?)?;
+            let step = fields.optional_number("step")?;
+            let step = step.unwrap_or(std::f64::consts::TAU / count as f64);
+            (0..count).map(|k| k as f64 * step).collect()
+        }
+    };
+    let turned = |angle| match angle {
+        0.0 => Placement::HERE,
+        angle => Placement::about(&point, Rotation3::from_axis_angle(&axis, angle).into_inner()),
+    };
+    Ok(angles.into_iter().map(turned).collect())
+}
+
+/// Reads `Moved(by: (…), count: …)`, or `Moved(by: [(…), …])`.
+fn moved(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
+    let by = fields.required("by")?;
+    let moved = |shift: Vector3<f64>| Placement {
+        shift,
+        ..Placement::HERE
+    };
+    if let Some(number) = fields.get("count") {
+        let (step, count) = (by.vector()?, count(number)?);
+        return Ok((0..count).map(|k| moved(k as f64 * step)).collect());
+    }
+    let list = by.list("a list of vectors, or one vector with a `count` of copies")?;
+    if list.is_empty() {
+        return Err(by.error("no vectors make no copies"));
+    }
+    list.into_iter().map(|own| own.vector().map(moved)).collect()
+}
+
+/// Reads a number of copies.
+fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
+    let expected = format!("a whole number of copies from 1 to {MOST}");
+    let count = fragment.parse(&expected)?;
+    if !(1..=MOST).contains(&count) {
+        return Err(fragment.expected(&expected));
+    }
+    Ok(count)
+}
+
+/// The point that an axis or a plane goes through; the origin where none is given.
+fn through(fields: &Fields<'_>) -> Result<Point3<f64>, LoadError> {
+    let point = fields.get("through").map(Fragment::vector).transpose()?;
+    Ok(point.unwrap_or_default().into())
+}
