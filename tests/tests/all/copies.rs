@@ -27,7 +27,13 @@ fn everything() -> String {
     }
     let rows = (0..6).map(|row| {
         let entry = |column: usize| match (row, column) {
-            (row, column) if row == column => if row < 3 { "4e7" } else { "3e4" },
+            (row, column) if row == column => {
+                if row < 3 {
+                    "4e7"
+                } else {
+                    "3e4"
+                }
+            }
             (row, column) if row < 3 && column < 3 => "1e7",
             (row, column) if row >= 3 && column >= 3 => "1e4",
             _ => "2e4",
@@ -87,7 +93,7 @@ fn blocks(linear: &Matrix3<f64>, axial: &Matrix3<f64>) -> Matrix6<f64> {
 fn wrench(model: &Model, solution: &Solution, name: &str) -> Vector6<f64> {
     let name = format!("{name}1");
     let joint = model.joints().iter().position(|joint| joint.name == name);
-    let found = solution.joints[joint.expect("a joint of this name")].wrench.as_ref();
+    let found = solution.joint_wrenches[joint.expect("a joint of this name")].as_ref();
     *found.expect("a wrench that is determined")
 }
 
@@ -108,7 +114,10 @@ fn compare(copies: &str, linear: &Matrix3<f64>) {
     assert!(difference < 1e-10, "{copies}: {difference:e}");
     let expected = turn * written.1.output.displacement;
     let found = copied.1.output.displacement;
-    assert!((expected - found).norm() < 1e-10 * expected.norm(), "{expected} {found}");
+    assert!(
+        (expected - found).norm() < 1e-10 * expected.norm(),
+        "{expected} {found}"
+    );
     let signs = match sign < 0.0 {
         true => Vector6::new(1.0, 1.0, -1.0, -1.0, -1.0, 1.0),
         false => Vector6::repeat(1.0),
@@ -117,7 +126,10 @@ fn compare(copies: &str, linear: &Matrix3<f64>) {
         let expected = signs.component_mul(&wrench(&written.0, &written.1, name));
         let found = wrench(&copied.0, &copied.1, name);
         let scale = expected.norm().max(1.0);
-        assert!((expected - found).norm() < 1e-8 * scale, "{name}: {expected} {found}");
+        assert!(
+            (expected - found).norm() < 1e-8 * scale,
+            "{name}: {expected} {found}"
+        );
     }
 }
 
@@ -130,7 +142,9 @@ fn a_turned_copy_is_what_was_written_in_turned_axes() {
     ] {
         let [x, y, z] = axis.into();
         let turn = Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle);
-        let copies = format!("Turned(axis: ({x:?}, {y:?}, {z:?}), through: (0.3, 0.1, -0.2), angles: [{angle:?}])");
+        let copies = format!(
+            "Turned(axis: ({x:?}, {y:?}, {z:?}), through: (0.3, 0.1, -0.2), angles: [{angle:?}])"
+        );
         compare(&copies, turn.matrix());
     }
 }
@@ -154,7 +168,9 @@ fn a_mirrored_copy_is_the_mirror_image() {
 fn three_limbs_written_as_one_are_the_prebuilt_delta() {
     let registry = Registry::builtin();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/delta_limbs.ron");
-    let limbs = load_mechanism(&path, &Disk, &registry).expect("a valid file").model;
+    let limbs = load_mechanism(&path, &Disk, &registry)
+        .expect("a valid file")
+        .model;
     let batch = r#"(jobs: [(name: "delta", mechanism: Delta(
         base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60, rod_spacing: 0.12,
         arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
@@ -164,21 +180,30 @@ fn three_limbs_written_as_one_are_the_prebuilt_delta() {
         loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))])])"#;
     let batch = batch_from_str(batch, Path::new("b.ron"), &MemoryFiles::new(), &registry);
     let batch = batch.expect("a valid batch");
-    let written = batch.jobs[0].design(0).expect("a design").model().expect("in reach");
+    let written = batch.jobs[0]
+        .design(0)
+        .expect("a design")
+        .model()
+        .expect("in reach");
     let solved = [&limbs, &written].map(|model| solve(model).expect("a solution"));
     assert_eq!(solved[0].unknowns, solved[1].unknowns);
-    let [found, expected] = [0, 1].map(|k| *solved[k].output.stiffness.as_ref().expect("a stiffness"));
+    let [found, expected] =
+        [0, 1].map(|k| *solved[k].output.stiffness.as_ref().expect("a stiffness"));
     let difference = stiffness_difference(&found, &expected);
     assert!(difference < 1e-12, "{difference:e}");
-    for (joint, wanted) in written.joints().iter().zip(&solved[1].joints) {
+    for (joint, wanted) in written.joints().iter().zip(&solved[1].joint_wrenches) {
         let place = limbs.joints().iter().position(|own| own.name == joint.name);
-        let found = solved[0].joints[place.expect("a joint of this name")].wrench;
+        let found = solved[0].joint_wrenches[place.expect("a joint of this name")];
         // Of frames that follow from the axis alone, only what does not depend on x.
         let about = |wrench: &Option<Vector6<f64>>| wrench.as_ref().map(|w| [w[1], w[4], w.norm()]);
-        match (about(&found), about(&wanted.wrench)) {
+        match (about(&found), about(wanted)) {
             (Some(found), Some(wanted)) => {
                 for (found, wanted) in found.iter().zip(wanted) {
-                    assert!((found - wanted).abs() < 1e-9 * 100.0, "{}: {found} {wanted}", joint.name);
+                    assert!(
+                        (found - wanted).abs() < 1e-9 * 100.0,
+                        "{}: {found} {wanted}",
+                        joint.name
+                    );
                 }
             }
             (found, wanted) => assert_eq!(found, wanted, "{}", joint.name),

@@ -170,8 +170,7 @@ impl<'a> Run<'_, 'a> {
             };
             let [from, to] = member.ends.map(|place| &self.points[place]);
             let span = to.position - from.position;
-            check(&member, &span, material)
-                .map_err(|error| self.error(&error, [from, to], at))?;
+            check(&member, &span, material).map_err(|error| self.error(&error, [from, to], at))?;
             members.push(member);
             given.push(Given {
                 section: name,
@@ -241,7 +240,8 @@ impl<'a> Run<'_, 'a> {
                 self.what,
                 list.len()
             );
-            let help = "list one direction for each segment between two points, or give one for all";
+            let help =
+                "list one direction for each segment between two points, or give one for all";
             return Err(given.error(message).with_help(help));
         }
         list.into_iter().map(one).collect()

@@ -47,10 +47,13 @@ impl Included {
     fn add(&mut self, list: Fragment<'_>) -> Result<(), LoadError> {
         for name in list.list("a list of files, such as `[\"steel.ron\"]`")? {
             let path = name.source().relative(&name.string()?);
-            let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+            let inside =
+                |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
             if !Path::new(&name.string()?).components().all(inside) {
                 return Err(name
-                    .error("a file that is included lies in the folder of the file that includes it")
+                    .error(
+                        "a file that is included lies in the folder of the file that includes it",
+                    )
                     .with_help("copy it there, or into a folder below"));
             }
             if self.open.contains(&path) {

@@ -73,7 +73,9 @@ pub(crate) fn of_file(
             }
             ValuePlace::Stiffness { joint, direction } => {
                 let path = copies.joint(&model.joints()[joint.0].name);
-                let single = written.get(&alike(model, joint)).is_some_and(|all| all.len() == 1);
+                let single = written
+                    .get(&alike(model, joint))
+                    .is_some_and(|all| all.len() == 1);
                 single.then(|| format!("{path}.stiffness.{}", letter(direction)))
             }
             ValuePlace::Mass { mass } => Some(format!("{}.mass", copies.mass(mass))),

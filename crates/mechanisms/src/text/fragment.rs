@@ -302,10 +302,12 @@ impl<'a> Fragment<'a> {
     /// The fields of a struct `(name: value, …)` in the order of the file: names and values.
     pub(crate) fn named(self, expected: &str) -> Result<Vec<(Self, Self)>, LoadError> {
         if let Some(Content::Fields(named)) = self.content() {
-            let pair = |own: &'a Named| (
-                    Self::between(&own.source, &own.at),
-                    Self::of_node(&own.value),
-                );
+            // A field that was put there stands nowhere.
+            let name = |own: &'a Named| match own.at.is_empty() {
+                true => self.part(&own.name),
+                false => Self::between(&own.source, &own.at),
+            };
+            let pair = |own: &'a Named| (name(own), Self::of_node(&own.value));
             return Ok(named.iter().map(pair).collect());
         }
         self.pieces().ok_or_else(|| self.expected(expected))

@@ -69,7 +69,10 @@ impl Node {
     /// The value of a field or an entry.
     pub(crate) fn get(&self, name: &str) -> Option<&Self> {
         let entries = self.entries().iter();
-        entries.rev().find(|own| *own.name == *name).map(Named::value)
+        entries
+            .rev()
+            .find(|own| *own.name == *name)
+            .map(Named::value)
     }
 
     /// A text in its place.
@@ -85,10 +88,11 @@ impl Node {
     /// Numbers in its place, each in that of its item where it has one.
     pub(crate) fn numbers_in_place(&self, numbers: &[f64]) -> Self {
         let items = self.items();
-        let number = |(k, &number): (usize, &f64)| {
-            items.get(k).unwrap_or(self).number_in_place(number)
-        };
-        self.with(Content::Tuple(numbers.iter().enumerate().map(number).collect()))
+        let number =
+            |(k, &number): (usize, &f64)| items.get(k).unwrap_or(self).number_in_place(number);
+        self.with(Content::Tuple(
+            numbers.iter().enumerate().map(number).collect(),
+        ))
     }
 
     /// A list in its place.
@@ -107,12 +111,12 @@ impl Node {
         self.with(Content::Fields(fields.into_iter().map(field).collect()))
     }
 
-    /// An entry or a field that stands in its place.
+    /// A field that stands nowhere.
     fn named(&self, name: &str, value: Self) -> Named {
         Named {
             name: name.into(),
             source: Arc::clone(self.source()),
-            at: self.place().span,
+            at: 0..0,
             value,
         }
     }

@@ -217,8 +217,8 @@ impl<'g> Copy<'g> {
     /// An inertia, `(Jxx, Jyy, Jzz)` or six entries, as the copy turns it.
     fn inertia(&self, node: &Node) -> Result<Node, LoadError> {
         let numbers = node.items().iter();
-        let numbers: Vec<f64> = (numbers.map(|own| Fragment::of_node(own).acting()))
-            .collect::<Result<_, _>>()?;
+        let numbers: Vec<f64> =
+            (numbers.map(|own| Fragment::of_node(own).acting())).collect::<Result<_, _>>()?;
         let (xy, xz, yz) = match numbers[..] {
             [_, _, _] => (0.0, 0.0, 0.0),
             [_, _, _, xy, xz, yz] => (xy, xz, yz),

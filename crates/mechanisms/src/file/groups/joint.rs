@@ -49,7 +49,11 @@ fn framed(joint: &Node, kind: &Node, placement: &Placement) -> Result<Node, Load
         let pair = axes.map_items(|axis| turn(axis).unwrap_or(axis.clone()));
         own = own.with_field("axes", pair);
     } else if let Some(axis) = axis {
-        let name = if kind.get("axis").is_some() { "axis" } else { "normal" };
+        let name = if kind.get("axis").is_some() {
+            "axis"
+        } else {
+            "normal"
+        };
         own = own.with_field(name, turn(axis)?);
         if x_axis.is_none() {
             let direction = Fragment::of_node(axis).direction()?;
@@ -66,7 +70,8 @@ fn framed(joint: &Node, kind: &Node, placement: &Placement) -> Result<Node, Load
             made = made.with_field("x_axis", numbers(Vector3::x()));
         }
     } else {
-        let error = "a copy of this joint cannot be turned: its kind has no `axis`, `axes` or `normal`";
+        let error =
+            "a copy of this joint cannot be turned: its kind has no `axis`, `axes` or `normal`";
         return Err((Fragment::of_node(kind).error(error)).with_help("write each joint by itself"));
     }
     if let Some(x_axis) = x_axis {
@@ -81,7 +86,11 @@ fn framed(joint: &Node, kind: &Node, placement: &Placement) -> Result<Node, Load
 /// Fields with other signs, where they are given.
 fn mirrored(fields: &Node, names: &[&str], turned_round: &[bool]) -> Result<Node, LoadError> {
     let mut made = fields.clone();
-    for (name, _) in names.iter().zip(turned_round).filter(|(_, turned)| **turned) {
+    for (name, _) in names
+        .iter()
+        .zip(turned_round)
+        .filter(|(_, turned)| **turned)
+    {
         if let Some(given) = fields.get(name) {
             let number = Fragment::of_node(given).number()?;
             made = made.with_field(name, given.number_in_place(-number));

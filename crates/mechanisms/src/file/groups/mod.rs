@@ -79,7 +79,9 @@ pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
                 .unreadable()
                 .with_help(names::help(&entry.name, "groups", known)));
         };
-        let node = root.get("groups").and_then(|groups| groups.get(&entry.name));
+        let node = root
+            .get("groups")
+            .and_then(|groups| groups.get(&entry.name));
         let Some(node) = node else { continue };
         of_group(&entry, group, node, root, &mut parts, &mut written)?;
     }
@@ -130,9 +132,17 @@ fn of_group(
                 written.copies.joints.insert(made.to_owned(), path);
             }
         })?;
-        for (k, _) in node.get("masses").map_or(&[][..], Node::items).iter().enumerate() {
+        for (k, _) in node
+            .get("masses")
+            .map_or(&[][..], Node::items)
+            .iter()
+            .enumerate()
+        {
             let path = format!("groups.{}.masses.{k}", group.name);
-            if !changed.iter().any(|own| starts_with(own, &format!("masses.{k}"))) {
+            if !changed
+                .iter()
+                .any(|own| starts_with(own, &format!("masses.{k}")))
+            {
                 written.copies.masses.insert(parts[4].len() + k, path);
             }
         }
@@ -190,7 +200,9 @@ fn endings(list: Fragment<'_>, count: usize) -> Result<Vec<String>, LoadError> {
     }
     if names.len() != count {
         let message = format!("there are {count} copies, and {} endings", names.len());
-        return Err(list.error(message).with_help("give one ending for each copy"));
+        return Err(list
+            .error(message)
+            .with_help("give one ending for each copy"));
     }
     Ok(names)
 }
@@ -245,7 +257,10 @@ impl Parts {
             if let Some(first) = self.by_name.insert(own.name().into(), next) {
                 let message = format!("a copy makes a second {what} `{}`", own.name());
                 let first = self.entries[first].place();
-                return Err(own.place().error(message).with_help(first_at(Fragment::at(&first))));
+                return Err(own
+                    .place()
+                    .error(message)
+                    .with_help(first_at(Fragment::at(&first))));
             }
             check_name(&Entry::of(&own), what)?;
             self.entries.push(own);

@@ -74,7 +74,8 @@ impl Placement {
 /// Reads the places of copies: one kind of placing, or a list of them, of which each is done with all
 /// copies that those before it made.
 pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
-    let expected = "places of copies, such as `Turned(axis: (0.0, 0.0, 1.0), count: 3)`, or a list of them";
+    let expected =
+        "places of copies, such as `Turned(axis: (0.0, 0.0, 1.0), count: 3)`, or a list of them";
     let steps = match fragment.variant(expected) {
         Ok(_) => vec![fragment],
         Err(_) => fragment.list(expected)?,
@@ -85,7 +86,12 @@ pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> 
         if places.len() * own.len() > MOST {
             return Err(step.error(format!("these are more than {MOST} copies")));
         }
-        let with = |next: &Placement| places.iter().map(|place| place.then(next)).collect::<Vec<_>>();
+        let with = |next: &Placement| {
+            places
+                .iter()
+                .map(|place| place.then(next))
+                .collect::<Vec<_>>()
+        };
         places = own.iter().flat_map(with).collect();
     }
     Ok(places)
@@ -132,7 +138,10 @@ fn turned(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
             if angles.is_empty() {
                 return Err(list.error("no angles make no copies"));
             }
-            angles.into_iter().map(Fragment::number).collect::<Result<Vec<_>, _>>()?
+            angles
+                .into_iter()
+                .map(Fragment::number)
+                .collect::<Result<Vec<_>, _>>()?
         }
         None => {
             let count = count(fields.required("count")?)?;
@@ -143,7 +152,10 @@ fn turned(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
     };
     let turned = |angle| match angle {
         0.0 => Placement::HERE,
-        angle => Placement::about(&point, Rotation3::from_axis_angle(&axis, angle).into_inner()),
+        angle => Placement::about(
+            &point,
+            Rotation3::from_axis_angle(&axis, angle).into_inner(),
+        ),
     };
     Ok(angles.into_iter().map(turned).collect())
 }
@@ -163,7 +175,9 @@ fn moved(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
     if list.is_empty() {
         return Err(by.error("no vectors make no copies"));
     }
-    list.into_iter().map(|own| own.vector().map(moved)).collect()
+    list.into_iter()
+        .map(|own| own.vector().map(moved))
+        .collect()
 }
 
 /// Reads a number of copies.
