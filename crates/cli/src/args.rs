@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hyperstat_assembly::BeamMass;
-use hyperstat_mechanisms::Along;
+use hyperstat_mechanisms::{Along, Noted, View};
 use hyperstat_study::Selection;
 use hyperstat_study::table;
 
@@ -175,6 +175,7 @@ Examples:
   hyperstat plot out/designs.csv --lines pure_force_stiffness_min --over rod.section.diameter --pose 3
   hyperstat plot out/path.csv --trajectory
   hyperstat plot portal.ron --deformed --scale 200
+  hyperstat plot portal.ron --deformed --view front --show names,loads
   hyperstat plot paper.ron --job delta --pose 12 --mode 1
   hyperstat plot portal.ron --budget --along z";
 
@@ -371,6 +372,13 @@ pub(crate) struct Plot {
     /// Pose [default: all of a table; 0 of a batch file, or where lines are over what varies]
     #[arg(long, value_name = "N")]
     pub(crate) pose: Option<usize>,
+    /// Trajectory, deformed, mode: where it is seen from: front, right, top, iso, or azimuth and elevation of
+    /// the eye in degrees, such as -62,22
+    #[arg(long, value_name = "VIEW", conflicts_with_all = ["map", "lines", "budget"], allow_hyphen_values = true)]
+    pub(crate) view: Option<View>,
+    /// Deformed, mode: what stands beside the mechanism, some of names,loads,masses,frames
+    #[arg(long, value_name = "WHAT,…", value_delimiter = ',', conflicts_with_all = ["map", "lines", "budget", "trajectory"])]
+    pub(crate) show: Vec<Noted>,
     /// Title of the figure [default: the name of the job or of the mechanism]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,

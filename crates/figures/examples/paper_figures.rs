@@ -8,8 +8,8 @@ use std::error::Error;
 use std::path::PathBuf;
 
 use hyperstat_figures::{
-    Axis, Curve, DeformedFigure, RigidBody, Scale, SecondMethod, SecondPoints, Shown,
-    TrajectoryFigure,
+    Axis, Curve, DeformedFigure, Notes, RigidBody, Scale, SecondMethod, SecondPoints, Shown,
+    TrajectoryFigure, Viewpoint,
 };
 
 type Vector = [f64; 3];
@@ -71,6 +71,8 @@ fn deformed() -> DeformedFigure {
         ground: Vec::new(),
         second: None,
         scale: Scale::Auto,
+        notes: Notes::default(),
+        view: Viewpoint::default(),
     };
     let mut platform = vec![[0.0, 0.0, 0.5]];
     for limb in 0..3 {

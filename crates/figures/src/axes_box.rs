@@ -15,32 +15,53 @@ const TICK_LENGTH: f64 = 5.0;
 /// Free space around letters \[pixels\].
 const GAP: f64 = 6.0;
 
-/// Names of the axes, each with the corner where the edge of the box starts that it is written
-/// along, as in [`Bounds::corner`]. From where the eye of [`View`] is these edges are outside.
-const AXES: [(&str, [bool; 3]); 3] = [
-    ("x (m)", [false, false, false]),
-    ("y (m)", [true, false, false]),
-    ("z (m)", [false, false, false]),
-];
-
-/// The walls behind everything, by the axis they are normal to, and whether they are at its
-/// largest coordinate.
-const WALLS: [(usize, bool); 3] = [(0, false), (1, true), (2, false)];
+/// Names of the axes.
+const NAMES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
 
 /// Draws the box of axes.
 pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
     let steps = std::array::from_fn(|axis| step(view, bounds, axis));
-    for (normal, at_max) in WALLS {
-        draw_wall(canvas, view, bounds, steps, normal, at_max);
+    // The walls behind everything: those that the eye looks at from inside.
+    for normal in (0..3).filter(|normal| !view.is_edge_on(*normal)) {
+        draw_wall(
+            canvas,
+            view,
+            bounds,
+            steps,
+            normal,
+            !view.is_from_max(normal),
+        );
     }
     for (axis, step) in steps.into_iter().enumerate() {
-        draw_axis(canvas, view, bounds, step, axis);
+        if !view.is_end_on(axis) {
+            draw_axis(canvas, view, bounds, step, axis);
+        }
+    }
+}
+
+/// The corner, as in [`Bounds::corner`], where the edge of the box starts that an axis is written along:
+/// an edge that is outside on the page.
+fn start(view: &View, bounds: &Bounds, axis: usize) -> [bool; 3] {
+    let is_below = !view.is_from_max(2) && !view.is_edge_on(2);
+    match axis {
+        0 => [false, view.is_from_max(1), is_below],
+        1 => [view.is_from_max(0), false, is_below],
+        // The upright edge farthest to the left.
+        _ => {
+            let corners = [[false, false], [false, true], [true, false], [true, true]];
+            let left = |[x, y]: [bool; 2]| view.project(bounds.corner([x, y, false]))[0];
+            let least = corners
+                .into_iter()
+                .min_by(|a, b| left(*a).total_cmp(&left(*b)));
+            let [x, y] = least.unwrap_or_default();
+            [x, y, false]
+        }
     }
 }
 
 /// The edge of the box that an axis is written along, on the page.
 fn edge(view: &View, bounds: &Bounds, axis: usize) -> [PagePoint; 2] {
-    let (_, mut corner) = AXES[axis];
+    let mut corner = start(view, bounds, axis);
     [false, true].map(|at_max| {
         corner[axis] = at_max;
         view.project(bounds.corner(corner))
@@ -52,6 +73,9 @@ fn step(view: &View, bounds: &Bounds, axis: usize) -> f64 {
     let [from, to] = edge(view, bounds, axis);
     let edge = [to[0] - from[0], to[1] - from[1]];
     let edge_length = edge[0].hypot(edge[1]);
+    if view.is_end_on(axis) {
+        return bounds.sides()[axis];
+    }
     let side = bounds.sides()[axis];
     let round_step = |distance: f64| round::up(distance / edge_length * side).unwrap_or(side);
     let fine = round_step(TICK_DISTANCE);
@@ -114,7 +138,7 @@ fn draw_wall(
 }
 
 fn draw_axis(canvas: &mut Canvas, view: &View, bounds: &Bounds, step: f64, axis: usize) {
-    let (name, start) = AXES[axis];
+    let (name, start) = (NAMES[axis], start(view, bounds, axis));
     let along = |value: f64| -> Point {
         let mut point = bounds.corner(start);
         point[axis] = value;
@@ -171,6 +195,7 @@ fn reach(text: &str, size: f64, direction: PagePoint) -> f64 {
 mod tests {
     use super::*;
     use crate::geometry::Area;
+    use crate::viewpoint::Viewpoint;
 
     const AREA: Area = Area {
         left: 0.0,
@@ -182,7 +207,11 @@ mod tests {
     fn ticks_of(min: Point, sides: Point, axis: usize) -> Vec<String> {
         let max = std::array::from_fn(|k| min[k] + sides[k]);
         let bounds = Bounds { min, max }.roomy();
-        let step = step(&View::fit(&bounds, AREA), &bounds, axis);
+        let step = step(
+            &View::fit(&bounds, AREA, Viewpoint::default()),
+            &bounds,
+            axis,
+        );
         ticks(&bounds, axis, step)
             .map(|value| numbers::tick(value, step))
             .collect()

@@ -1,6 +1,7 @@
 //! The undeformed and the deformed mechanism (the paper's Fig. 9), under loads or in a mode.
 
 mod drawing;
+mod notes;
 
 use crate::checks::{self, Displaced};
 use crate::error::FigureError;
@@ -8,8 +9,11 @@ use crate::geometry::{Bounds, length};
 use crate::page::{self, Page, Sample, Words};
 use crate::quantity::Quantity;
 use crate::scale::{Scale, largest};
+use crate::viewpoint::Viewpoint;
 use crate::{numbers, png, style};
 use drawing::{AXIS_LENGTH, Drawing, Part};
+
+pub use notes::{Arrow, Frame, Mass, Name, Named, Notes};
 
 /// A mechanism as it was built and as it is under load or in a natural mode, with the displacements
 /// magnified.
@@ -31,6 +35,10 @@ pub struct DeformedFigure {
     pub second: Option<SecondPoints>,
     /// Magnification of the displacements.
     pub scale: Scale,
+    /// Names, loads, masses and frames, drawn where they are without load.
+    pub notes: Notes,
+    /// Where it is seen from.
+    pub view: Viewpoint,
 }
 
 /// What the displacements in a [`DeformedFigure`] are.
@@ -113,6 +121,7 @@ impl DeformedFigure {
             });
         }
         checks::drawable("ground", &self.ground)?;
+        self.notes.check()?;
 
         let factor = self.factor()?;
         let size = Bounds::around(self.points().copied()).diagonal();
@@ -129,9 +138,13 @@ impl DeformedFigure {
             subtitle: self.subtitle(factor),
             legend: self.legend(factor),
             captions: self.captions(factor),
-            bounds: Bounds::around(drawing.points()),
+            bounds: Bounds::around(drawing.points().chain(self.notes.points(size))),
+            eye: self.view,
         };
-        Ok(page.svg(|canvas, view| drawing.draw(canvas, view)))
+        Ok(page.svg(|canvas, view| {
+            drawing.draw(canvas, view);
+            self.notes.draw(canvas, view, size);
+        }))
     }
 
     /// The figure as a PNG file.
@@ -250,6 +263,7 @@ impl DeformedFigure {
         ];
         let others = others.into_iter().filter(|(_, _, missing)| !missing);
         legend.extend(others.map(|(sample, label, _)| (sample, label.to_string())));
+        legend.extend(self.notes.legend());
         legend.extend(
             self.second
                 .iter()

@@ -1,5 +1,7 @@
 //! Points in space and on the page, boxes around them, and the view from one to the other.
 
+use crate::viewpoint::Viewpoint;
+
 /// A point or vector in space, global axes \[m\].
 pub(crate) type Point = [f64; 3];
 
@@ -11,6 +13,10 @@ pub(crate) const FARTHEST: f64 = 1e100;
 
 /// The smallest side of a [`Bounds::roomy`] box over its largest one.
 const SMALLEST_SIDE: f64 = 0.3;
+
+/// Cosine, and length on the page, below which what has an extent in space has none to see.
+const EDGE_ON: f64 = 1e-9;
+const END_ON: f64 = 0.12;
 
 /// `point + factor · displacement`.
 pub(crate) fn moved(point: Point, displacement: Point, factor: f64) -> Point {
@@ -123,14 +129,12 @@ pub(crate) struct Area {
 }
 
 /// An orthographic view with the same scale on all three axes.
-///
-/// The eye is far out on the side of +x, −y and +z: x runs to the right on the page, y to the
-/// right and back, z up.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
-    /// Directions in space, of unit length: to the right and up on the page.
+    /// Directions in space, of unit length: to the right and up on the page, and towards the eye.
     right: Point,
     up: Point,
+    towards: Point,
     /// The point in space that is drawn at `center`.
     target: Point,
     center: PagePoint,
@@ -139,17 +143,14 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// Azimuth and elevation of the eye \[degrees\].
-    const EYE: (f64, f64) = (-62.0, 22.0);
-
     /// The view that fills `area` with `bounds`, which has three sides above zero.
-    pub(crate) fn fit(bounds: &Bounds, area: Area) -> Self {
-        let (azimuth, elevation) = Self::EYE;
-        let (sin_a, cos_a) = azimuth.to_radians().sin_cos();
-        let (sin_e, cos_e) = elevation.to_radians().sin_cos();
+    pub(crate) fn fit(bounds: &Bounds, area: Area, eye: Viewpoint) -> Self {
+        let (sin_a, cos_a) = eye.azimuth.to_radians().sin_cos();
+        let (sin_e, cos_e) = eye.elevation.to_radians().sin_cos();
         let unit = Self {
             right: [-sin_a, cos_a, 0.0],
             up: [-sin_e * cos_a, -sin_e * sin_a, cos_e],
+            towards: [cos_e * cos_a, cos_e * sin_a, sin_e],
             target: bounds.center(),
             center: [
                 0.5 * (area.left + area.right),
@@ -167,6 +168,21 @@ impl View {
             scale: (0.5 * width / half[0]).min(0.5 * height / half[1]),
             ..unit
         }
+    }
+
+    /// Whether the eye is on the side of an axis's largest coordinates.
+    pub(crate) fn is_from_max(&self, axis: usize) -> bool {
+        self.towards[axis] > EDGE_ON
+    }
+
+    /// Whether a plane normal to this axis is seen as a line.
+    pub(crate) fn is_edge_on(&self, normal: usize) -> bool {
+        self.towards[normal].abs() <= EDGE_ON
+    }
+
+    /// Whether this axis points so nearly to the eye that it is seen as a point.
+    pub(crate) fn is_end_on(&self, axis: usize) -> bool {
+        self.right[axis].hypot(self.up[axis]) < END_ON
     }
 
     /// Where a point in space is on the page.
@@ -236,7 +252,7 @@ mod tests {
             min: [-1.0, 2.0, 0.0],
             max: [3.0, 4.0, 0.5],
         };
-        let view = View::fit(&bounds, AREA);
+        let view = View::fit(&bounds, AREA, Viewpoint::default());
         let [left, top] = [0, 1].map(|k| {
             let along = bounds.corners().map(|corner| view.project(corner)[k]);
             along.fold(f64::INFINITY, f64::min)

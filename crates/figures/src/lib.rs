@@ -24,12 +24,17 @@ mod scale;
 mod style;
 mod svg;
 mod trajectory;
+mod viewpoint;
 
 pub use bars::{Bar, BarFigure, BarGroup};
-pub use deformed::{Axis, Curve, DeformedFigure, RigidBody, SecondPoints, Shown};
+pub use deformed::{
+    Arrow, Axis, Curve, DeformedFigure, Frame, Mass, Name, Named, Notes, RigidBody, SecondPoints,
+    Shown,
+};
 pub use error::FigureError;
 pub use lines::{Diagram, LineFigure, MOST_SERIES, Series};
 pub use map::{ColorScale, MapFigure, MapPanel, Samples};
 pub use quantity::Quantity;
 pub use scale::Scale;
 pub use trajectory::{SecondMethod, TrajectoryFigure};
+pub use viewpoint::Viewpoint;

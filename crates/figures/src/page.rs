@@ -6,12 +6,13 @@ use crate::geometry::{Area, Bounds, PagePoint, View};
 use crate::numbers;
 use crate::style;
 use crate::svg::Color;
+use crate::viewpoint::Viewpoint;
 
 /// Free space at the edges of the page \[pixels\].
 pub(crate) const MARGIN: f64 = 28.0;
 
 /// Where the box of axes may be, without its ticks and names.
-const DRAWING: Area = Area {
+pub(crate) const DRAWING: Area = Area {
     left: 84.0,
     top: 86.0,
     right: 632.0,
@@ -77,6 +78,8 @@ pub(crate) struct Page<'a> {
     pub(crate) captions: Vec<String>,
     /// Around everything that is drawn.
     pub(crate) bounds: Bounds,
+    /// Where it is seen from.
+    pub(crate) eye: Viewpoint,
 }
 
 /// What stands in the legend for a part of the drawing.
@@ -87,13 +90,16 @@ pub(crate) enum Sample {
     Ground,
     Start,
     Second,
+    Force,
+    Moment,
+    Mass,
 }
 
 impl Page<'_> {
     /// The page as an SVG document, with what `draw` draws in the box of axes.
     pub(crate) fn svg(&self, draw: impl FnOnce(&mut Canvas, &View)) -> String {
         let bounds = self.bounds.roomy();
-        let view = View::fit(&bounds, DRAWING);
+        let view = View::fit(&bounds, DRAWING, self.eye);
         let words = Words {
             title: self.title,
             subtitle: &self.subtitle,
@@ -132,6 +138,9 @@ impl Sample {
             Self::Ground => ground_mark(canvas, [middle[0], y - 8.0]),
             Self::Start => start_mark(canvas, middle),
             Self::Second => second_mark(canvas, middle),
+            Self::Force => arrow(canvas, [at, [left + SAMPLE, y]], 1),
+            Self::Moment => arrow(canvas, [at, [left + SAMPLE, y]], 2),
+            Self::Mass => mass_mark(canvas, middle),
         }
     }
 }
@@ -198,6 +207,43 @@ pub(crate) fn start_mark(canvas: &mut Canvas, at: PagePoint) {
 /// The mark of a point of the second method.
 pub(crate) fn second_mark(canvas: &mut Canvas, at: PagePoint) {
     canvas.ring(at, style::SECOND_RADIUS, style::SECOND);
+}
+
+/// An arrow with this number of heads, one behind the other: one for a force, two for a moment.
+pub(crate) fn arrow(canvas: &mut Canvas, [from, to]: [PagePoint; 2], heads: usize) {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length = along[0].hypot(along[1]);
+    // One that points to the eye has no direction on the page.
+    if length < HEAD {
+        canvas.disc(to, 3.5, style::LOAD.color);
+        return;
+    }
+    let unit = along.map(|c| c / length);
+    canvas.line(&[from, to], style::LOAD);
+    for head in 0..heads {
+        let tip = [0, 1].map(|k| to[k] - head as f64 * HEAD * unit[k]);
+        let side = |sign: f64| {
+            let across = [-unit[1], unit[0]].map(|c| sign * 0.4 * HEAD * c);
+            [0, 1].map(|k| tip[k] - HEAD * unit[k] + across[k])
+        };
+        canvas.polygon(&[tip, side(1.0), side(-1.0)], style::LOAD.color);
+    }
+}
+
+/// Length of an arrow's head \[pixels\].
+const HEAD: f64 = 11.0;
+
+/// The mark of a mass: a disc whose quarters are filled in turn, as of a centre of gravity.
+pub(crate) fn mass_mark(canvas: &mut Canvas, [x, y]: PagePoint) {
+    const RADIUS: f64 = 6.5;
+    canvas.disc([x, y], RADIUS, style::WHITE);
+    for start in [0.0, std::f64::consts::PI] {
+        let arc = (0..=6).map(|k| start + f64::from(k) * std::f64::consts::FRAC_PI_2 / 6.0);
+        let arc = arc.map(|a| [x + RADIUS * a.cos(), y - RADIUS * a.sin()]);
+        let quarter: Vec<_> = std::iter::once([x, y]).chain(arc).collect();
+        canvas.polygon(&quarter, style::MARK);
+    }
+    canvas.ring([x, y], RADIUS, style::MARK_STROKE);
 }
 
 /// The captions: the largest deflection \[m\], and the largest difference of a second method,

@@ -46,6 +46,16 @@ pub(crate) const JOINT_AXIS: Stroke = Stroke {
 /// Marks of what is held to the ground, and of where a trajectory starts.
 pub(crate) const MARK: Color = BLACK;
 pub(crate) const MARK_STROKE: Stroke = Stroke::solid(BLACK, 1.2);
+/// Forces and moments.
+pub(crate) const LOAD: Stroke = Stroke::solid(VERMILLION, 2.0);
+/// The axes x, y, z of a frame.
+pub(crate) const TRIAD: [Stroke; 3] = [
+    Stroke::solid(VERMILLION, 1.8),
+    Stroke::solid(GREEN, 1.8),
+    Stroke::solid(BLUE, 1.8),
+];
+/// From a name to what has it, where they are apart.
+pub(crate) const LEADER: Stroke = Stroke::solid(GREY, 0.8);
 /// Points of a second method.
 pub(crate) const SECOND: Stroke = Stroke::solid(VERMILLION, 1.5);
 pub(crate) const SECOND_RADIUS: f64 = 4.2;
@@ -76,6 +86,10 @@ pub(crate) const BAR_LABEL: Lettering = lettering(13.0, BLACK, Anchor::Start);
 /// Shares of a whole, and those against it.
 pub(crate) const BAR: Color = BLUE;
 pub(crate) const BAR_AGAINST: Color = VERMILLION;
+/// Names of joints, and of bodies, in a drawing.
+pub(crate) const JOINT_NAME: Lettering = lettering(12.5, BLACK, Anchor::Middle);
+pub(crate) const BODY_NAME: Lettering = lettering(12.5, BLUE, Anchor::Middle);
+pub(crate) const NAME_HALO: Color = WHITE.opacity(0.78);
 pub(crate) const CONTOUR_LABEL: Lettering = lettering(11.5, BLACK, Anchor::Middle);
 pub(crate) const CONTOUR_HALO: Color = WHITE.opacity(0.78);
 /// Contours over light and over dark colours.

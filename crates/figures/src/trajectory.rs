@@ -6,6 +6,7 @@ use crate::error::FigureError;
 use crate::geometry::{Bounds, Point, View};
 use crate::page::{self, Page, Sample, Words};
 use crate::scale::{Scale, largest};
+use crate::viewpoint::Viewpoint;
 use crate::{numbers, png, style};
 
 /// Most points, but for the last, at which the deflection and the second method are drawn.
@@ -24,6 +25,8 @@ pub struct TrajectoryFigure {
     pub second: Option<SecondMethod>,
     /// Magnification of the displacements.
     pub scale: Scale,
+    /// Where it is seen from.
+    pub view: Viewpoint,
 }
 
 /// Displacements of a trajectory by a second method.
@@ -71,6 +74,7 @@ impl TrajectoryFigure {
                     .chain(&second)
                     .copied(),
             ),
+            eye: self.view,
         };
         Ok(page.svg(|canvas, view| draw(canvas, view, &self.commanded, &deflected, &second)))
     }

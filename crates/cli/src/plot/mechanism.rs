@@ -30,8 +30,14 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
     outputs::refuse(files(&stem).iter().map(|path| &**path), study.files())?;
     let title = args.title.clone();
     let look = || -> Result<Look, CliError> {
-        let (scale, title) = (magnified(args.scale.as_ref())?, args.title.clone());
-        Ok(Look { scale, title })
+        Ok(Look {
+            scale: magnified(args.scale.as_ref())?,
+            title: args.title.clone(),
+            look: hyperstat_mechanisms::Look {
+                view: args.view,
+                shown: args.show.clone(),
+            },
+        })
     };
     let drawing = if args.kind.deformed {
         study.deformed(args.case.as_deref(), args.verify, look()?)?

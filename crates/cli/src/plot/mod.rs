@@ -201,12 +201,10 @@ fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
         };
         Drawing::Lines(figure::lines(table, &lines)?)
     } else {
-        Drawing::Trajectory(figure::trajectory(
-            table,
-            one_design,
-            magnified(args.scale.as_ref())?,
-            title,
-        )?)
+        let scale = magnified(args.scale.as_ref())?;
+        let mut drawn = figure::trajectory(table, one_design, scale, title)?;
+        drawn.view = figure::viewpoint(args.view);
+        Drawing::Trajectory(drawn)
     };
     Ok(Plotted { drawing, stem })
 }

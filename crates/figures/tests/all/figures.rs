@@ -2,8 +2,8 @@
 //! what can be drawn, and data that cannot be.
 
 use hyperstat_figures::{
-    Axis, Curve, DeformedFigure, FigureError, RigidBody, Scale, SecondMethod, SecondPoints, Shown,
-    TrajectoryFigure,
+    Axis, Curve, DeformedFigure, FigureError, Notes, RigidBody, Scale, SecondMethod, SecondPoints,
+    Shown, TrajectoryFigure, Viewpoint,
 };
 use resvg::usvg::roxmltree::{Document, Node};
 

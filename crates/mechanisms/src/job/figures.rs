@@ -1,5 +1,6 @@
 //! The figures that a job asks for.
 
+use super::look::{self, Look};
 use crate::error::LoadError;
 use crate::job::modes;
 use crate::text::fields::Fields;
@@ -23,6 +24,8 @@ pub enum Figure {
         case: Option<String>,
         /// Magnification of the deflection.
         scale: Scale,
+        /// How it looks.
+        look: Look,
     },
     /// A natural mode over the mechanism at rest.
     Mode {
@@ -32,6 +35,8 @@ pub enum Figure {
         pose: usize,
         /// Magnification of the shape of unit modal mass.
         scale: Scale,
+        /// How it looks.
+        look: Look,
     },
     /// The shares of bodies, joints and deformations in the displacement of the output, as bars.
     Budget {
@@ -134,8 +139,8 @@ pub(crate) struct Known<'a> {
 /// Kinds of figures with their fields.
 const KINDS: [(&str, &[&str]); 5] = [
     ("Trajectory", &["scale"]),
-    ("Deformed", &["pose", "case", "scale"]),
-    ("Mode", &["number", "pose", "scale"]),
+    ("Deformed", &["pose", "case", "scale", "view", "show"]),
+    ("Mode", &["number", "pose", "scale", "view", "show"]),
     ("Budget", &["along", "pose", "case"]),
     ("Map", &["value", "plane", "axes", "limits", "scale"]),
 ];
@@ -168,6 +173,12 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
     };
     let case = || fields.get("case").map(|at| case(at, known)).transpose();
     let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
+    let look = || -> Result<Look, LoadError> {
+        Ok(Look {
+            view: fields.get("view").map(look::view).transpose()?,
+            shown: fields.get("show").map_or(Ok(Vec::new()), look::shown)?,
+        })
+    };
     let place = fields.get("value").unwrap_or(whole).place();
     let figure = match kind {
         "Map" => {
@@ -187,11 +198,13 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
             pose: pose()?,
             case: case()?,
             scale: scale()?,
+            look: look()?,
         },
         "Mode" => Figure::Mode {
             number: fields.get("number").map_or(Ok(1), number)?,
             pose: pose()?,
             scale: scale()?,
+            look: look()?,
         },
         "Budget" => Figure::Budget {
             along: fields.get("along").map_or(Ok(Along::Displacement), along)?,

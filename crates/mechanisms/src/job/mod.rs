@@ -4,6 +4,7 @@ pub(crate) mod batch;
 pub(crate) mod commanded;
 pub(crate) mod design;
 pub(crate) mod figures;
+pub(crate) mod look;
 pub(crate) mod made;
 pub(crate) mod modes;
 pub(crate) mod mover;

@@ -4,7 +4,9 @@ use hyperstat_assembly::{
     BodyKind, Connection, Mode, Model, SegmentForces, SegmentId, Solution, SolveError,
     segment_displacement,
 };
-use hyperstat_figures::{Axis, Curve, DeformedFigure, RigidBody, Scale, SecondPoints, Shown};
+use hyperstat_figures::{
+    Axis, Curve, DeformedFigure, Notes, RigidBody, Scale, SecondPoints, Shown, Viewpoint,
+};
 use hyperstat_joints::Dof;
 use hyperstat_reference::ReferenceSolution;
 use nalgebra::Vector6;
@@ -77,6 +79,8 @@ fn figure(
         ground: grounded(model),
         second: None,
         scale: Scale::Auto,
+        notes: Notes::default(),
+        view: Viewpoint::default(),
     })
 }
 
@@ -200,6 +204,6 @@ pub fn compare(
     });
 }
 
-fn position(model: &Model, node: usize) -> [f64; 3] {
+pub(super) fn position(model: &Model, node: usize) -> [f64; 3] {
     model.geometry().positions[node].into()
 }

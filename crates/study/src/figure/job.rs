@@ -1,12 +1,13 @@
 //! The figures that a job asks for.
 
 use hyperstat_assembly::{ModalOptions, Prepared, Solution};
-use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Scale};
+use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Look, Scale};
 
 use super::budget::budget as budget_figure;
 use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
 use super::drawing::Drawing;
 use super::map::{Map, figure as map_figure};
+use super::notes;
 use super::quantity::{Drawn, instead_of};
 use super::rows::Choice;
 use super::trajectory::Trajectory;
@@ -96,15 +97,19 @@ pub fn draw(
             .filter(|trajectory| trajectory.fits(job) && !trajectory.is_empty())
             .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, figure_scale(*scale))))
             .ok_or_else(|| NO_RESULT.to_string()),
-        Figure::Deformed { pose, case, scale } => {
-            deformed(job, *pose, case.as_deref(), figure_scale(*scale))
-                .ok_or_else(|| NO_RESULT.to_string())
-        }
+        Figure::Deformed {
+            pose,
+            case,
+            scale,
+            look,
+        } => deformed(job, *pose, case.as_deref(), (figure_scale(*scale), look))
+            .ok_or_else(|| NO_RESULT.to_string()),
         Figure::Mode {
             number,
             pose,
             scale,
-        } => mode(job, *number, *pose, figure_scale(*scale)),
+            look,
+        } => mode(job, *number, *pose, (figure_scale(*scale), look)),
         Figure::Budget { along, pose, case } => {
             let (case, along) = (case.clone(), *along);
             budget(job, &Asked { case, along }, *pose)
@@ -143,12 +148,13 @@ fn deformed(
     job: &Job,
     pose: usize,
     case: Option<&str>,
-    scale: hyperstat_figures::Scale,
+    (scale, look): (hyperstat_figures::Scale, &Look),
 ) -> Option<Drawing> {
     let (prepared, solution) = solved(job, pose, case)?;
     let model = prepared.model();
     let title = title(job, pose, case);
     let mut figure = deformed_figure(model, &solution, title, scale).ok()?;
+    notes::add(&mut figure, model, case, look);
     if case.is_none()
         && let Ok(reference) = hyperstat_reference::solve(model)
     {
@@ -161,7 +167,7 @@ fn mode(
     job: &Job,
     number: usize,
     pose: usize,
-    scale: hyperstat_figures::Scale,
+    (scale, look): (hyperstat_figures::Scale, &Look),
 ) -> Result<Drawing, String> {
     let model = job_model(job, pose).map_err(|_| NO_RESULT)?;
     let found = hyperstat_assembly::modes(&model, &modal_options(job, number))
@@ -174,9 +180,10 @@ fn mode(
         )
     })?;
     let title = title(job, pose, None);
-    mode_figure(&model, mode, number, title, scale)
-        .map(Drawing::Deformed)
-        .map_err(|error| error.to_string())
+    let mut figure =
+        mode_figure(&model, mode, number, title, scale).map_err(|error| error.to_string())?;
+    notes::add(&mut figure, &model, None, look);
+    Ok(Drawing::Deformed(figure))
 }
 
 fn budget(job: &Job, asked: &Asked, pose: usize) -> Result<Drawing, String> {

@@ -7,6 +7,7 @@ use hyperstat_figures::Scale;
 use super::budget::budget;
 use super::deformed::{compare, deformed, mode};
 use super::drawing::Drawing;
+use super::notes;
 use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
@@ -19,6 +20,8 @@ pub struct Look {
     pub scale: Scale,
     /// Title; else one that says what is drawn.
     pub title: Option<String>,
+    /// Where it is seen from, and what stands beside the mechanism.
+    pub look: hyperstat_mechanisms::Look,
 }
 
 impl Study {
@@ -38,6 +41,7 @@ impl Study {
         let title = look.title.unwrap_or_else(|| self.title(case));
         let mut figure = deformed(self.model(), &loaded, title, look.scale)
             .map_err(|error| self.unsolvable(error))?;
+        notes::add(&mut figure, self.model(), case, &look.look);
         if verify {
             let reference = self.reference()?;
             compare(&mut figure, self.model(), &solution, &reference);
@@ -64,10 +68,10 @@ impl Study {
             count: modes.len(),
         })?;
         let title = look.title.unwrap_or_else(|| self.title(None));
-        let figure = mode(self.model(), found, number, title, look.scale);
-        Ok(Drawing::Deformed(
-            figure.map_err(|error| self.unsolvable(error))?,
-        ))
+        let mut figure = mode(self.model(), found, number, title, look.scale)
+            .map_err(|error| self.unsolvable(error))?;
+        notes::add(&mut figure, self.model(), None, &look.look);
+        Ok(Drawing::Deformed(figure))
     }
 
     /// What the deflection comes from, as bars; `path` is the file that an error names.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use hyperstat_assembly::Floor;
-use hyperstat_figures::{Scale, SecondMethod, TrajectoryFigure};
+use hyperstat_figures::{Scale, SecondMethod, TrajectoryFigure, Viewpoint};
 use hyperstat_mechanisms::{Figure, Job};
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
@@ -85,6 +85,7 @@ impl Trajectory {
             displacement: self.displacement.clone(),
             second: self.second(job),
             scale,
+            view: Viewpoint::default(),
         }
     }
 
@@ -135,6 +136,7 @@ pub fn of_table(
         displacement: Vec::new(),
         second: None,
         scale,
+        view: Viewpoint::default(),
     };
     for row in choice.rows(table)? {
         let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();
