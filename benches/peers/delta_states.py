@@ -148,7 +148,10 @@ def measure(name, version, formulations):
     root = Path(__file__).resolve().parents[2]
     arguments = argparse.ArgumentParser(description="Differences from hyperstat, and times.")
     arguments.add_argument("--hyperstat", default=str(root / "target" / "release" / "hyperstat"))
-    checks = Results(arguments.parse_args().hyperstat).checks()
+    binary = arguments.parse_args().hyperstat
+    if not Path(binary).is_file():
+        arguments.error(f"no {binary}: cargo build --release, or give --hyperstat BINARY")
+    checks = Results(binary).checks()
     print(f"{name} {version}, Python {platform.python_version()}, {delta.processor()}")
     print(f"{len(POSES)} poses of the reference results; time of the processor, one thread")
     print(f"{'':61}{'difference':>11}{'min ms':>9}{'median ms':>11}")
