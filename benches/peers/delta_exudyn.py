@@ -13,14 +13,9 @@ and six unit loads solved in numpy.
   so that bodies share their nodes; joint C remains. 19 nodes and 15 equations.
 """
 
-import os
-
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # for matrices this small one is faster
-
-import exudyn as exu  # noqa: E402
-import numpy as np  # noqa: E402
-
-import delta  # noqa: E402
+import delta  # before numpy: it asks for one thread
+import exudyn as exu
+import numpy as np
 
 IDENTITY = np.eye(3)
 PLATFORM = "platform"

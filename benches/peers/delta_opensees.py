@@ -106,14 +106,19 @@ def analysis(handler, numberer, system):
     ops.analysis("Static")
 
 
-def solved():
-    """The 6×6 from six steps, a unit load each."""
-    compliance = np.empty((6, 6))
-    for k in range(6):
+def displacements(steps):
+    """Displacements of the platform in so many steps, one a column."""
+    found = np.empty((6, steps))
+    for k in range(steps):
         if ops.analyze(1) != 0:
             raise RuntimeError("the analysis failed")
-        compliance[:, k] = ops.nodeDisp(PLATFORM)
-    return np.linalg.inv(compliance)
+        found[:, k] = ops.nodeDisp(PLATFORM)
+    return found
+
+
+def solved():
+    """The 6×6 from six steps, a unit load each."""
+    return np.linalg.inv(displacements(6))
 
 
 def rebuilt(handler, numberer, system):
@@ -136,11 +141,16 @@ class Updated:
         self.transformation = 0
 
     def __call__(self, pose):
+        self.place(pose)
+        return solved()
+
+    def place(self, pose):
+        """Has the model at a pose, ready for the first step."""
         if self.transformation == 0:
             build(pose)
             analysis(*self.options)
             self.transformation = 10
-            return solved()
+            return
         limbs = delta.limbs(pose)
         for k, x in enumerate(pose):
             ops.setNodeCoord(PLATFORM, k + 1, x)
@@ -156,7 +166,6 @@ class Updated:
         ops.updateElementDomain()
         ops.setTime(0.0)
         ops.algorithm("Linear", "-factorOnce")
-        return solved()
 
 
 def main():
