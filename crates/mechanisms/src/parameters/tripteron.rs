@@ -5,8 +5,8 @@ use crate::parameters::{
     Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, pair, refused,
 };
 use crate::prebuilt::Tripteron;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
-use crate::text::fragment::Fragment;
 
 pub(super) const KIND: Kind = Kind {
     name: "Tripteron",
@@ -31,7 +31,7 @@ fn read(fields: &Fields<'_>) -> Result<Tripteron, LoadError> {
             fields,
             "rail",
             "two coordinates, `(0.0, 0.0)`",
-            Fragment::number,
+            |value| value.quantity("`rail`", Dimension::LENGTH),
         )?,
         platform_radius: fields.number("platform_radius")?,
         proximal_length: fields.number("proximal_length")?,
@@ -40,7 +40,7 @@ fn read(fields: &Fields<'_>) -> Result<Tripteron, LoadError> {
         proximal: link(fields, "proximal")?,
         distal: link(fields, "distal")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;
