@@ -42,7 +42,9 @@ fn machine(by_parameters: bool) -> String {
     let outer = number("d".into(), diameter);
     let inner = number("d - 2 * wall".into(), diameter - 4e-3);
     let parameters = match by_parameters {
-        true => "parameters: { \"R\": \"250 mm\", \"height\": 0.4, \"d\": \"20 mm\", \"wall\": \"2 mm\" },",
+        true => {
+            "parameters: { \"R\": \"250 mm\", \"height\": 0.4, \"d\": \"20 mm\", \"wall\": \"2 mm\" },"
+        }
         false => "",
     };
     format!(

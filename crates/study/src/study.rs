@@ -7,7 +7,9 @@ use hyperstat_assembly::{
     Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Dependence, Design, Files, Input, Job, Mechanism, PoseError, Registry, Value};
+use hyperstat_mechanisms::{
+    Dependence, Design, Files, Input, Job, Mechanism, PoseError, Registry, Value,
+};
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;

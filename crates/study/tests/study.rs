@@ -7,8 +7,8 @@ use hyperstat_study::figure::{self, Choice, Drawing, Map};
 use hyperstat_study::sweep::{Columns, Record, Statistics, Summary, Sweep, Threads, Way, measure};
 use hyperstat_study::table::{TableFormat, TableReader, TableWriter, render};
 use hyperstat_study::{
-    Along, Asked, Job, JobMechanism, JobPoses, MemoryFiles, Question, Registry, Selection, Study, StudyError,
-    Value,
+    Along, Asked, Job, JobMechanism, JobPoses, MemoryFiles, Question, Registry, Selection, Study,
+    StudyError, Value,
 };
 
 const CANTILEVER: &str = r#"(

@@ -79,7 +79,11 @@ fn table<'a>(changes: impl Iterator<Item = Change<'a>>, what: &str) -> String {
             left(change.parameter, width),
             number(change.value),
             shown.join(","),
-            if change.by_differences { ", by differences" } else { "" }
+            if change.by_differences {
+                ", by differences"
+            } else {
+                ""
+            }
         );
     }
     if told.is_empty() {

@@ -83,14 +83,10 @@ pub(crate) fn read(
         .add_joint(connection, frame)
         .map_err(|error| refused(&error, &fields))?;
     if let Some(value) = fields.get("misfit") {
-        set(value, MISFIT, |misfit| {
-            model.set_misfit(joint, misfit)
-        })?;
+        set(value, MISFIT, |misfit| model.set_misfit(joint, misfit))?;
     }
     if let Some(value) = fields.get("preload") {
-        set(value, PRELOAD, |preload| {
-            model.set_preload(joint, preload)
-        })?;
+        set(value, PRELOAD, |preload| model.set_preload(joint, preload))?;
     }
     Ok(joint)
 }

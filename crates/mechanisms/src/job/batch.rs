@@ -293,7 +293,9 @@ impl Job {
     /// The parameters of the mechanism in a design, those of the job among them, and what depends on each.
     pub fn dependences(&self, design: &Design) -> Vec<Dependence> {
         match &self.designs {
-            Some(designs) => self.recipe.dependences(&designs.tree(design.number, &self.recipe)),
+            Some(designs) => self
+                .recipe
+                .dependences(&designs.tree(design.number, &self.recipe)),
             None => self.recipe.dependences(self.recipe.root()),
         }
     }

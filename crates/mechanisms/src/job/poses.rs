@@ -162,7 +162,11 @@ fn grid(
         };
         *axis = {
             let dimension = quantities::DISPLACEMENT[index];
-            Values::read(field, "three values, `(first, last, count)`", Some(dimension))?
+            Values::read(
+                field,
+                "three values, `(first, last, count)`",
+                Some(dimension),
+            )?
         };
         for value in axis.ends() {
             given.check(index, value, || field.place())?;

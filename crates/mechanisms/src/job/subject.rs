@@ -158,7 +158,9 @@ impl Recipe {
         for entry in Fragment::of_node(given).map()? {
             let name = entry.name.as_str();
             if !known.contains(&name) && !used.contains(name) {
-                let error = entry.key.error(format!("nothing uses the parameter `{name}`"));
+                let error = entry
+                    .key
+                    .error(format!("nothing uses the parameter `{name}`"));
                 return Err(error.with_help(names::help(name, "parameters", known)));
             }
         }

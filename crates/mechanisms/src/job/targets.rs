@@ -267,7 +267,10 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
 fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<[Option<Values>; 6], LoadError> {
     let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS)?.within(whole);
     let mut axes = [None; 6];
-    for ((axis, name), dimension) in axes.iter_mut().zip(csv::COLUMNS).zip(quantities::DISPLACEMENT)
+    for ((axis, name), dimension) in axes
+        .iter_mut()
+        .zip(csv::COLUMNS)
+        .zip(quantities::DISPLACEMENT)
     {
         let expected = "three values, `(first, last, count)`";
         let read = |field| Values::read(field, expected, Some(dimension));

@@ -215,7 +215,7 @@ impl Axis {
             AxisValues::List(values) => values[k].clone(),
             AxisValues::Range(values) => {
                 Node::number(values.get(k), values.dimension(), self.place.clone())
-            },
+            }
         }
     }
 }

@@ -27,12 +27,9 @@ pub(super) const KIND: Kind = Kind {
 
 fn read(fields: &Fields<'_>) -> Result<Tripteron, LoadError> {
     let mechanism = Tripteron {
-        rail: pair(
-            fields,
-            "rail",
-            "two coordinates, `(0.0, 0.0)`",
-            |value| value.quantity("`rail`", Dimension::LENGTH),
-        )?,
+        rail: pair(fields, "rail", "two coordinates, `(0.0, 0.0)`", |value| {
+            value.quantity("`rail`", Dimension::LENGTH)
+        })?,
         platform_radius: fields.number("platform_radius")?,
         proximal_length: fields.number("proximal_length")?,
         distal_length: fields.number("distal_length")?,

@@ -94,7 +94,9 @@ impl Dimension {
 
     /// A number with a unit that is often used.
     pub(crate) fn example(self) -> Option<&'static str> {
-        self.words().map(|words| words.3).filter(|example| !example.is_empty())
+        self.words()
+            .map(|words| words.3)
+            .filter(|example| !example.is_empty())
     }
 }
 
@@ -104,21 +106,56 @@ const WORDS: [(Dimension, &str, &str, &str); 20] = [
     (Dimension::LENGTH, "a length", "m", "14 mm"),
     (Dimension::AREA, "an area", "m^2", "400 mm^2"),
     (Dimension::VOLUME, "a section modulus", "m^3", "1200 mm^3"),
-    (Dimension::AREA_MOMENT, "a second moment of area", "m^4", "5000 mm^4"),
+    (
+        Dimension::AREA_MOMENT,
+        "a second moment of area",
+        "m^4",
+        "5000 mm^4",
+    ),
     (Dimension::ANGLE, "an angle", "rad", "120 deg"),
     (Dimension::PITCH, "a length per angle", "m/rad", "5 mm/rev"),
     (Dimension::MASS, "a mass", "kg", "2.5 kg"),
     (Dimension::DENSITY, "a density", "kg/m^3", "7.85 g/cm^3"),
-    (Dimension::INERTIA, "a moment of inertia", "kg*m^2", "3 kg*cm^2"),
-    (Dimension::ACCELERATION, "an acceleration", "m/s^2", "9.81 m/s^2"),
+    (
+        Dimension::INERTIA,
+        "a moment of inertia",
+        "kg*m^2",
+        "3 kg*cm^2",
+    ),
+    (
+        Dimension::ACCELERATION,
+        "an acceleration",
+        "m/s^2",
+        "9.81 m/s^2",
+    ),
     (Dimension::FORCE, "a force", "N", "1.2 kN"),
     (Dimension::MOMENT, "a moment", "N*m", "300 N*mm"),
     (Dimension::STIFFNESS, "a force per length", "N/m", "35 N/um"),
-    (Dimension::ROTATIONAL_STIFFNESS, "a moment per angle", "N*m/rad", "1e5 N*m/rad"),
-    (Dimension::COUPLING, "a force per angle", "N/rad", "1e5 N/rad"),
+    (
+        Dimension::ROTATIONAL_STIFFNESS,
+        "a moment per angle",
+        "N*m/rad",
+        "1e5 N*m/rad",
+    ),
+    (
+        Dimension::COUPLING,
+        "a force per angle",
+        "N/rad",
+        "1e5 N/rad",
+    ),
     (Dimension::PRESSURE, "a force per area", "Pa", "210 GPa"),
-    (Dimension::TEMPERATURE, "a change of temperature", "K", "20 K"),
-    (Dimension::EXPANSION, "an expansion per temperature", "1/K", "12e-6 1/K"),
+    (
+        Dimension::TEMPERATURE,
+        "a change of temperature",
+        "K",
+        "20 K",
+    ),
+    (
+        Dimension::EXPANSION,
+        "an expansion per temperature",
+        "1/K",
+        "12e-6 1/K",
+    ),
     (Dimension::TIME, "a time", "s", "20 ms"),
 ];
 

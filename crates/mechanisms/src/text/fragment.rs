@@ -224,12 +224,7 @@ impl<'a> Fragment<'a> {
     }
 
     /// The error of a number that measures something else than wanted.
-    pub(crate) fn of_dimension(
-        self,
-        what: &str,
-        wanted: Dimension,
-        other: Dimension,
-    ) -> LoadError {
+    pub(crate) fn of_dimension(self, what: &str, wanted: Dimension, other: Dimension) -> LoadError {
         let text = self.text;
         let unit = wanted.unit();
         let help = match wanted.example() {
@@ -309,6 +304,11 @@ impl<'a> Fragment<'a> {
         match self.content() {
             Some(Content::Tuple(items)) => return Ok(items.iter().map(Self::of_node).collect()),
             Some(Content::Failed(error)) => return Err(error.again()),
+            Some(Content::Number(_)) if Expression::begins(self.text) => {
+                let error = self.error(format!("expected {expected}, this gives one number"));
+                let help = "points give three: `= midpoint(A, B)`, `= A + 0.5 * (B - A)`";
+                return Err(error.unreadable().with_help(help));
+            }
             _ => {}
         }
         let Tuple(items) = self.parse(expected)?;

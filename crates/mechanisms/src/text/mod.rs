@@ -3,10 +3,10 @@
 pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
-#[cfg(feature = "fs")]
-pub(crate) mod disk;
 pub mod dependence;
 pub mod dimension;
+#[cfg(feature = "fs")]
+pub(crate) mod disk;
 pub(crate) mod expression;
 pub(crate) mod fields;
 pub mod files;

@@ -185,7 +185,11 @@ impl<'t> Scope<'t> {
             return None;
         }
         let items = changed.into_iter().zip(items);
-        Some(items.map(|(new, old)| new.unwrap_or_else(|| old.clone())).collect())
+        Some(
+            items
+                .map(|(new, old)| new.unwrap_or_else(|| old.clone()))
+                .collect(),
+        )
     }
 
     /// The parameters themselves, among the outermost fields, stay as they are.
@@ -221,9 +225,8 @@ impl<'t> Scope<'t> {
     }
 
     fn evaluated(&self, expression: &Expression, node: &Node) -> Result<Operand, Arc<LoadError>> {
-        let value = expression.value(&mut |name, coordinate, at| {
-            self.named(name, coordinate, at, node)
-        });
+        let value =
+            expression.value(&mut |name, coordinate, at| self.named(name, coordinate, at, node));
         value.map_err(|failure| match failure {
             Failure::Elsewhere(error) => error,
             Failure::Here(mistake) => {
@@ -350,14 +353,26 @@ impl<'t> Scope<'t> {
         let name = &*own.name;
         let (message, help) = if !expression::is_name(name) {
             let message = format!("`{name}` cannot be the name of a parameter");
-            (message, "a name is of letters, digits and `_`, and begins with no digit")
+            (
+                message,
+                "a name is of letters, digits and `_`, and begins with no digit",
+            )
         } else if CONSTANTS.iter().any(|(constant, _)| *constant == name) {
-            (format!("`{name}` is a constant"), "give the parameter another name")
+            (
+                format!("`{name}` is a constant"),
+                "give the parameter another name",
+            )
         } else if expression::functions().any(|function| function == name) {
-            (format!("`{name}` is a function"), "give the parameter another name")
+            (
+                format!("`{name}` is a function"),
+                "give the parameter another name",
+            )
         } else if self.points().contains_key(name) {
             let message = format!("a point has the name `{name}`, too");
-            (message, "give the parameter another name: expressions know points by theirs")
+            (
+                message,
+                "give the parameter another name: expressions know points by theirs",
+            )
         } else {
             return Ok(());
         };
@@ -375,7 +390,11 @@ impl<'t> Scope<'t> {
 
     /// The map of the parameters; the whole where there is none.
     fn map(&self) -> &Node {
-        let field = self.root.fields().iter().find(|own| &*own.name == PARAMETERS);
+        let field = self
+            .root
+            .fields()
+            .iter()
+            .find(|own| &*own.name == PARAMETERS);
         field.map_or(self.root, |own| &own.value)
     }
 

@@ -177,7 +177,14 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     if wants_number && let Some(inner) = inner('"') {
         return match inner.parse::<f64>() {
             Ok(_) => Some(format!("numbers stand without quotes: write {inner}")),
-            Err(_) => of_number(inner).map(|(_, help)| help),
+            Err(_) => {
+                let pointed = inner.replacen(',', ".", 1);
+                let commas = inner.contains(',') && units::read(&pointed, None).is_ok();
+                match commas {
+                    true => Some(format!("write \"{pointed}\", with a decimal point")),
+                    false => of_number(inner).map(|(_, help)| help),
+                }
+            }
         };
     }
     if let (true, "True" | "False" | "yes" | "no") = (expected.contains("true"), text) {
@@ -287,12 +294,22 @@ mod tests {
         comes_out("-1e3+1", "-999.0");
         assert_eq!(right("2*pi"), Some("write \"= 2*pi\"".into()));
         assert_eq!(right("0,014"), Some("write 0.014".into()));
-        let units = [("5", "mm"), ("0.3", "m"), ("30", "°"), ("210", "GPa"), ("5", "µm")];
+        let units = [
+            ("5", "mm"),
+            ("0.3", "m"),
+            ("30", "°"),
+            ("210", "GPa"),
+            ("5", "µm"),
+        ];
         for (number, unit) in units {
             let expected = Some(format!("write \"{number} {unit}\""));
             assert_eq!(right(&format!("{number}{unit}")), expected);
         }
-        assert!(right("5furlongs").unwrap().starts_with("write the number alone"));
+        assert!(
+            right("5furlongs")
+                .unwrap()
+                .starts_with("write the number alone")
+        );
         for no_slip in ["", "steel", "0.5", "-3e-4", "1e", "A1", "inf", "0x1f"] {
             assert_eq!(right(no_slip), None, "{no_slip}");
         }

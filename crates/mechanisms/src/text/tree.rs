@@ -196,7 +196,11 @@ impl Node {
         if let Content::Kind(_, Some(inner)) = &mut self.content
             && let Content::Fields(named) = &mut Arc::make_mut(inner).content
         {
-            *named = named.iter().filter(|own| &*own.name != name).cloned().collect();
+            *named = named
+                .iter()
+                .filter(|own| &*own.name != name)
+                .cloned()
+                .collect();
         }
     }
 

@@ -92,7 +92,7 @@ pub(crate) enum Wrong {
 pub(crate) fn read(text: &str, wanted: Option<Dimension>) -> Result<Quantity, Wrong> {
     let (mantissa, exponent, rest) = number(text).ok_or(Wrong::NoQuantity)?;
     let unit = text[rest..].trim();
-    if unit.is_empty() || unit == "1" {
+    if unit.is_empty() || unit == "1" || unit.starts_with(',') {
         return Err(Wrong::NoQuantity);
     }
     let start = rest + (text[rest..].len() - text[rest..].trim_start().len());
@@ -107,7 +107,10 @@ pub(crate) fn read(text: &str, wanted: Option<Dimension>) -> Result<Quantity, Wr
         sign = -1;
         at += 1;
     }
-    for (k, part) in text[at..start + unit.len()].split_inclusive(SEPARATORS).enumerate() {
+    for (k, part) in text[at..start + unit.len()]
+        .split_inclusive(SEPARATORS)
+        .enumerate()
+    {
         let name = part.trim_end_matches(SEPARATORS);
         let separator = part[name.len()..].chars().next();
         let span = at..at + name.len();
@@ -222,7 +225,10 @@ fn meant(text: &str, wanted: Option<Dimension>, alone: bool) -> String {
         return format!("did you mean `{symbol}`?");
     }
     let symbols: Vec<&str> = UNITS.iter().filter(fits).map(|unit| unit.0).collect();
-    match wanted.and_then(Dimension::example).filter(|_| symbols.is_empty() || !alone) {
+    match wanted
+        .and_then(Dimension::example)
+        .filter(|_| symbols.is_empty() || !alone)
+    {
         Some(example) => format!("write such as `{example}`"),
         None if wanted == Some(Dimension::NUMBER) => "write the number alone".into(),
         None => names::help(name, "units", symbols),
@@ -256,7 +262,10 @@ mod tests {
     #[test]
     fn angles_are_told_from_pure_numbers() {
         let angle = read("120 deg", None).unwrap();
-        assert_eq!((angle.value, angle.dimension), (2.0 * PI / 3.0, Dimension::ANGLE));
+        assert_eq!(
+            (angle.value, angle.dimension),
+            (2.0 * PI / 3.0, Dimension::ANGLE)
+        );
         let pitch = read("5 mm/rev", None).unwrap();
         assert_eq!(pitch.dimension, Dimension::PITCH);
         assert!((pitch.value - 0.005 / (2.0 * PI)).abs() < 1e-18);

@@ -14,7 +14,7 @@ fn file(fields: &[(&str, &str)]) -> String {
     name: "limbs", PARAMETERS
     materials: { "steel": (young: YOUNG, poisson: 0.3, density: DENSITY, expansion: EXPANSION) },
     sections: { "rod": Circle(diameter: ROD), "arm": Tube(outer: OUTER, inner: INNER) },
-    points: { "A": (RADIUS, 0.0, 0.0), "B": (TURNED, 0.3), "M": MIDDLE, "C": (0.0, 0.0, 0.3) },
+    points: { "A": (RADIUS, 0.0, 0.0), "B": (ELBOW, 0.3), "M": MIDDLE, "C": (0.0, 0.0, 0.3) },
     bodies: {
         "arm": Beam(through: ["A", "M", "B"], section: "arm", material: "steel", elements: COUNT, temperature: HEAT),
         "rod": Beam(through: ["B", "C"], section: "rod", material: "steel"),
@@ -47,7 +47,7 @@ const NUMBERS: [(&str, &str); 19] = [
     ("OUTER", "0.03"),
     ("INNER", "0.024"),
     ("RADIUS", "0.25"),
-    ("TURNED", "-0.12499999999999994, 0.21650635094610968"),
+    ("ELBOW", "-0.12499999999999994, 0.21650635094610968"),
     ("MIDDLE", "(0.06250000000000003, 0.10825317547305484, 0.15)"),
     ("COUNT", "2"),
     ("HEAT", "20.0"),
@@ -91,7 +91,7 @@ const EXPRESSIONS: [(&str, &str); 9] = [
     ("PARAMETERS", PARAMETERS),
     ("ROD", "\"= d\""),
     ("RADIUS", "\"=R\""),
-    ("TURNED", "\"= R * cos(turn)\", \"= R * sin(turn)\""),
+    ("ELBOW", "\"= R * cos(turn)\", \"= R * sin(turn)\""),
     ("MIDDLE", "\"= midpoint(A, B)\""),
     ("COUNT", "\"= n\""),
     ("AXIS", "(\"= B.x\", \"= B.y\", \"= C.z - M.z - M.z\")"),
@@ -140,21 +140,32 @@ fn another_value_of_a_parameter_reaches_all_that_depends_on_it() {
         assert_eq!(parts(&changed), expected, "{text}");
     }
     // A value in the place of an expression, and back.
-    let changed = mechanism.with_values(&[("sections.rod.diameter", 0.02)]).unwrap();
+    let changed = mechanism
+        .with_values(&[("sections.rod.diameter", 0.02)])
+        .unwrap();
     assert_ne!(parts(&changed), parts(&mechanism));
-    let back = changed.with_values(&[("sections.rod.diameter", "= d")]).unwrap();
+    let back = changed
+        .with_values(&[("sections.rod.diameter", "= d")])
+        .unwrap();
     assert_eq!(parts(&back), parts(&mechanism));
     // What is wrong is told at the parameter.
     let error = mechanism.with_values(&[("d", -0.01)]).unwrap_err();
     assert_eq!(error.location().unwrap().to_string(), "d");
-    assert!(error.message().starts_with("`d` = -0.01: `diameter` of section `rod` cannot be"));
+    assert!(
+        error
+            .message()
+            .starts_with("`d` = -0.01: `diameter` of section `rod` cannot be")
+    );
 }
 
 #[test]
 fn arithmetic_is_that_of_rust() {
     let value = |expression: &str| {
         let text = with(&[
-            ("PARAMETERS", "parameters: { \"a\": 0.3, \"b\": 2, \"angle\": \"30 deg\" },"),
+            (
+                "PARAMETERS",
+                "parameters: { \"a\": 0.3, \"b\": 2, \"angle\": \"30 deg\" },",
+            ),
             ("FORCE", &format!("\"={expression}\"")),
         ]);
         let mechanism = read(&text).unwrap_or_else(|error| panic!("{expression}: {error}"));
@@ -170,13 +181,25 @@ fn arithmetic_is_that_of_rust() {
         ("-(a) - -b", -a + b),
         ("8 / 4 / 2", 1.0),
         ("1e3 + 2.5E-1 + .5", 1000.75),
-        ("sin(angle) + cos(angle) * tan(angle)", angle.sin() + angle.cos() * angle.tan()),
-        ("asin(a) + acos(a) + atan(a)", a.asin() + a.acos() + a.atan()),
+        (
+            "sin(angle) + cos(angle) * tan(angle)",
+            angle.sin() + angle.cos() * angle.tan(),
+        ),
+        (
+            "asin(a) + acos(a) + atan(a)",
+            a.asin() + a.acos() + a.atan(),
+        ),
         ("atan2(a, -b)", a.atan2(-b)),
-        ("hypot(a, b) - sqrt(a * a + b * b)", a.hypot(b) - (a * a + b * b).sqrt()),
+        (
+            "hypot(a, b) - sqrt(a * a + b * b)",
+            a.hypot(b) - (a * a + b * b).sqrt(),
+        ),
         ("min(b, a, 1) + max(1, b)", 2.3),
         ("abs(-a) + exp(a) + ln(b)", a + a.exp() + b.ln()),
-        ("sinh(a) + cosh(a) + tanh(a)", a.sinh() + a.cosh() + a.tanh()),
+        (
+            "sinh(a) + cosh(a) + tanh(a)",
+            a.sinh() + a.cosh() + a.tanh(),
+        ),
         ("log10(1000) + cbrt(27)", 6.0),
         ("floor(2.7) + ceil(2.2) + round(2.5)", 8.0),
         ("pow(b, 10)", 1024.0),
@@ -212,7 +235,11 @@ fn delta(parameters: &str, radius: &str, rest: &str) -> Result<Batch, LoadError>
 
 fn models(batch: &Batch) -> Vec<String> {
     let job = &batch.jobs[0];
-    let model = |number| format!("{:?}", job.design(number).unwrap().model().unwrap());
+    let model = |number| {
+        let model = job.design(number).unwrap().model().unwrap();
+        let (segments, geometry) = (model.segments(), model.geometry());
+        format!("{segments:?} {geometry:?} {:?}", model.loads())
+    };
     (0..job.designs()).map(model).collect()
 }
 
@@ -230,7 +257,11 @@ fn jobs_have_parameters_too() {
     assert_eq!(models(&batch.unwrap()), expected);
     // The job's own take the place of the batch's.
     let given = "parameters: { \"R\": 0.3, \"F\": 30 },";
-    let batch = delta(given, "\"= R\"", &format!("{own} {}", rest("\"500 mm\"", "\"= -F\"")));
+    let batch = delta(
+        given,
+        "\"= R\"",
+        &format!("{own} {}", rest("\"500 mm\"", "\"= -F\"")),
+    );
     assert_eq!(models(&batch.unwrap()), expected);
 }
 
@@ -242,7 +273,14 @@ fn a_parameter_varies_as_a_value_does() {
         .replace("VARY", "{ \"base_radius\": [0.25, 0.3], \"loads\": [1] }");
     assert!(delta("", "0.25", &by_value).is_err());
     let plain = |radius: &str, load: &str| {
-        models(&delta("", radius, &rest.replace("LOAD", load).replace(", vary: VARY", "")).unwrap())
+        models(
+            &delta(
+                "",
+                radius,
+                &rest.replace("LOAD", load).replace(", vary: VARY", ""),
+            )
+            .unwrap(),
+        )
     };
     let expected = [plain("0.25", "-75.0"), plain("0.3", "-90.0")].concat();
     for path in ["R", "parameters.R"] {

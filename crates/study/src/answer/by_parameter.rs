@@ -23,7 +23,11 @@ pub(super) struct ByParameter {
 
 /// How the output answers to all parameters that change anything, from how it answers to the values of
 /// the model.
-pub(super) fn of_output(study: &Study, found: &[Sensitivity], case: Option<&str>) -> Vec<ByParameter> {
+pub(super) fn of_output(
+    study: &Study,
+    found: &[Sensitivity],
+    case: Option<&str>,
+) -> Vec<ByParameter> {
     let model = study.model();
     let paths: Vec<_> = (found.iter())
         .map(|s| paths(model, s.name.as_deref(), &s.parameter))
@@ -63,7 +67,12 @@ pub(super) fn of_frequencies(
         let by_differences = weights.is_none();
         let derivatives = match weights {
             Some(weights) => (0..found.frequencies.len())
-                .map(|place| weights.iter().map(|(k, w)| known[*k].derivatives[place] * w).sum())
+                .map(|place| {
+                    weights
+                        .iter()
+                        .map(|(k, w)| known[*k].derivatives[place] * w)
+                        .sum()
+                })
                 .collect(),
             None => of_frequency(study, &dependence, found, options)?,
         };
@@ -140,16 +149,23 @@ fn summed(dependence: &Dependence, found: &[Sensitivity], weights: &[(usize, f64
         name: Some(dependence.path.clone()),
         value: dependence.value,
         compliance: parts().map(|(s, weight)| s.compliance * weight).sum(),
-        stiffness: (stiffness.then(|| parts().map(|(s, weight)| Some(s.stiffness? * weight)).sum()))
-            .flatten(),
-        displacement: parts().map(|(s, weight)| Some(s.displacement? * weight)).sum(),
+        stiffness: (stiffness
+            .then(|| parts().map(|(s, weight)| Some(s.stiffness? * weight)).sum()))
+        .flatten(),
+        displacement: parts()
+            .map(|(s, weight)| Some(s.displacement? * weight))
+            .sum(),
     }
 }
 
 /// The studies with a little more and a little less of a parameter, and how much between the two.
 fn beside(study: &Study, dependence: &Dependence) -> Option<([Study; 2], f64)> {
     let value = dependence.value;
-    let step = if value == 0.0 { STEP } else { STEP * value.abs() };
+    let step = if value == 0.0 {
+        STEP
+    } else {
+        STEP * value.abs()
+    };
     let [more, less] = [value + step, value - step];
     let with = |value: f64| study.with_values(&[(dependence.path.as_str(), value)]).ok();
     Some(([with(more)?, with(less)?], more - less))

@@ -1,8 +1,8 @@
 //! What 1 % more of every parameter would change: of the deflection, and of natural frequencies.
 
 use hyperstat_assembly::{
-    FrequencySensitivity, Influence, ModalOptions, ModalSensitivities, Sensitivity, Solution, SolveError,
-    larger_first,
+    FrequencySensitivity, Influence, ModalOptions, ModalSensitivities, Sensitivity, Solution,
+    SolveError, larger_first,
 };
 use serde::Serialize;
 
@@ -115,14 +115,15 @@ impl FrequencyReport {
         let group = |group: &std::ops::Range<usize>| {
             let report = |(place, (s, name)): (usize, (&FrequencySensitivity, &String))| {
                 FrequencySensitivityReport {
-                parameter: name.clone(),
-                by_differences: by_differences[place],
-                value: s.value,
-                relative: (group.clone())
-                    .map(|place| s.relative(&found.frequencies, place))
-                    .collect(),
-                derivative: s.derivatives[group.clone()].to_vec(),
-            }};
+                    parameter: name.clone(),
+                    by_differences: by_differences[place],
+                    value: s.value,
+                    relative: (group.clone())
+                        .map(|place| s.relative(&found.frequencies, place))
+                        .collect(),
+                    derivative: s.derivatives[group.clone()].to_vec(),
+                }
+            };
             let all = found.parameters.iter().chain(&own).zip(&names).enumerate();
             let mut sensitivities: Vec<_> = all.map(report).collect();
             sensitivities.sort_by(|a, b| larger_first(a.size(), b.size()));

@@ -25,13 +25,15 @@ impl Dual {
     pub(super) fn power(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let value = x.powf(y);
-        let slope = scaled(self.slope, y * x.powf(y - 1.0)) + scaled(exponent.slope, value * x.ln());
+        let slope =
+            scaled(self.slope, y * x.powf(y - 1.0)) + scaled(exponent.slope, value * x.ln());
         Self { value, slope }
     }
 
     pub(super) fn hypot(self, other: Self) -> Self {
         let value = self.value.hypot(other.value);
-        let slope = scaled(self.slope, self.value / value) + scaled(other.slope, other.value / value);
+        let slope =
+            scaled(self.slope, self.value / value) + scaled(other.slope, other.value / value);
         Self { value, slope }
     }
 

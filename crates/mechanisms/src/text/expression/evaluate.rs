@@ -81,7 +81,11 @@ pub(super) fn coordinate(of: Operand, k: usize, at: &Range<usize>) -> Result<Ope
         Operand::Point(point) => Ok(Operand::Number(point[k])),
         Operand::Number(_) => {
             let message = "a number has no coordinates".to_string();
-            Err(mistake(at, message, "`.x`, `.y` and `.z` are those of a point"))
+            Err(mistake(
+                at,
+                message,
+                "`.x`, `.y` and `.z` are those of a point",
+            ))
         }
     }
 }
@@ -162,7 +166,11 @@ fn finite(operand: Operand, at: &Range<usize>) -> Result<Operand, Mistake> {
     match all.iter().find(|number| !number.value.is_finite()) {
         None => Ok(operand),
         Some(number) => {
-            let what = if number.value.is_nan() { "is not defined" } else { "is infinite" };
+            let what = if number.value.is_nan() {
+                "is not defined"
+            } else {
+                "is infinite"
+            };
             let message = format!("the value of this {what}");
             let help = "look at the values of what stands in it";
             Err(mistake(at, message, help))

@@ -13,8 +13,8 @@ use std::ops::Range;
 
 pub(crate) use dual::Dual;
 pub(crate) use evaluate::{Failure, Operand};
-pub(crate) use functions::{CONSTANTS, names as functions};
 use functions::Rule;
+pub(crate) use functions::{CONSTANTS, names as functions};
 
 /// An expression as it is written, or what is wrong with how it is written.
 #[derive(Debug)]

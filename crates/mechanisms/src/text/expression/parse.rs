@@ -75,7 +75,8 @@ impl Parser<'_> {
             return mistake(self.next(), "the expression is nested too deeply", help);
         }
         self.operand()?;
-        while let Some((c, (what, before, after))) = self.peek().and_then(|c| Some((c, operator(c)?)))
+        while let Some((c, (what, before, after))) =
+            self.peek().and_then(|c| Some((c, operator(c)?)))
         {
             if before < least {
                 break;
@@ -103,7 +104,10 @@ impl Parser<'_> {
                 self.expression(SIGN)?;
                 if c != '+' {
                     let at = start..self.at;
-                    self.operations.push(Operation { at, what: What::Negate });
+                    self.operations.push(Operation {
+                        at,
+                        what: What::Negate,
+                    });
                 }
             }
             '(' => {
@@ -156,7 +160,11 @@ impl Parser<'_> {
     fn quoted(&mut self) -> Result<(), Mistake> {
         let start = self.at;
         let Some(length) = self.text[start + 1..].find('\'') else {
-            return mistake(self.next(), "this name is not closed", "add the missing `'`");
+            return mistake(
+                self.next(),
+                "this name is not closed",
+                "add the missing `'`",
+            );
         };
         self.at = start + length + 2;
         let name = &self.text[start + 1..self.at - 1];
@@ -226,7 +234,11 @@ impl Parser<'_> {
                 self.at += 1;
                 Ok(())
             }
-            None => mistake(open..open + 1, "this `(` is never closed", "add the missing `)`"),
+            None => mistake(
+                open..open + 1,
+                "this `(` is never closed",
+                "add the missing `)`",
+            ),
             Some(c) => mistake(
                 self.next(),
                 format!("unexpected `{c}`"),
@@ -257,7 +269,9 @@ impl Parser<'_> {
         let start = self.at;
         self.at += 1;
         self.skip(continues_name);
-        let place = ["x", "y", "z"].iter().position(|name| *name == &self.text[start + 1..self.at]);
+        let place = ["x", "y", "z"]
+            .iter()
+            .position(|name| *name == &self.text[start + 1..self.at]);
         if place.is_none() {
             let help = "a point has `.x`, `.y` and `.z`; a name holds no `.`";
             return mistake(start..self.at, "this is no coordinate of a point", help);
@@ -291,7 +305,10 @@ impl Parser<'_> {
 
     /// Where the next character is.
     fn next(&self) -> Range<usize> {
-        let width = self.text[self.at..].chars().next().map_or(1, char::len_utf8);
+        let width = self.text[self.at..]
+            .chars()
+            .next()
+            .map_or(1, char::len_utf8);
         self.at..self.at + width
     }
 
