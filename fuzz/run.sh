@@ -5,12 +5,12 @@
 # end.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-seconds=$(("${1:-3600}" / 3))
+seconds=$(("${1:-3600}" / 5))
 bash fuzz/seed.sh
 mkdir -p fuzz/target
 found=0
 told=""
-for target in files tables solved; do
+for target in files tables solved expressions quantities; do
     log="fuzz/target/$target.log"
     if cargo +nightly fuzz run --sanitizer none "$target" -- \
         -dict=crates/mechanisms/tests/all/fuzzing/dictionary.txt \

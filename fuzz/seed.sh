@@ -14,6 +14,10 @@ for folder in tests/reference examples examples/own-joints crates/mechanisms/tes
         esac
     done
 done
-for target in files tables solved; do
+for target in expressions quantities; do
+    mkdir -p "fuzz/corpus/$target"
+    split --lines=1 --additional-suffix=.txt "crates/mechanisms/tests/all/fuzzing/$target.txt" "fuzz/corpus/$target/"
+done
+for target in files tables solved expressions quantities; do
     echo "$target: $(find "fuzz/corpus/$target" -type f | wc -l) seeds"
 done

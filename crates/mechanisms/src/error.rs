@@ -89,6 +89,27 @@ impl LoadError {
         }
     }
 
+    /// The error once more, where it is told at another time.
+    pub(crate) fn again(&self) -> Self {
+        match self {
+            Self::Read { path, source } => Self::Read {
+                path: path.clone(),
+                source: io::Error::new(source.kind(), source.to_string()),
+            },
+            Self::At {
+                location,
+                message,
+                help,
+                unreadable,
+            } => Self::At {
+                location: location.clone(),
+                message: message.clone(),
+                help: help.clone(),
+                unreadable: *unreadable,
+            },
+        }
+    }
+
     /// The same error, of what is no value of its kind at all.
     #[must_use]
     pub(crate) fn unreadable(mut self) -> Self {

@@ -36,6 +36,8 @@ pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };
 pub use prebuilt::PoseError;
+pub use text::dependence::Dependence;
+pub use text::dimension::Dimension;
 pub use text::files;
 #[cfg(feature = "fs")]
 pub use text::files::Disk;

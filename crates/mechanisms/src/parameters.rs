@@ -22,6 +22,7 @@ use crate::file::{joints, materials, through};
 use crate::prebuilt::{
     Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
 };
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 
@@ -99,7 +100,7 @@ fn delta(fields: &Fields<'_>) -> Result<Delta, LoadError> {
         bar: link(fields, "bar")?,
         rod: link(fields, "rod")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::ROTATIONAL_STIFFNESS])?,
         elements: elements(fields)?,
     };
     delta.check().map_err(|error| refused(fields, &error))?;
@@ -108,7 +109,9 @@ fn delta(fields: &Fields<'_>) -> Result<Delta, LoadError> {
 
 fn single_freedom(fields: &Fields<'_>) -> Result<SingleFreedom, LoadError> {
     let structure = SingleFreedom {
-        lengths: pair(fields, "lengths", "two lengths", Fragment::number)?,
+        lengths: pair(fields, "lengths", "two lengths", |value| {
+            value.quantity("`lengths`", Dimension::LENGTH)
+        })?,
         sections: pair(fields, "sections", "two sections", section)?,
         material: material(fields.required("material")?)?,
         joint_stiffness: pair(
@@ -117,7 +120,7 @@ fn single_freedom(fields: &Fields<'_>) -> Result<SingleFreedom, LoadError> {
             "two stiffnesses along x, each a number or `Rigid`",
             |value| match value.text() {
                 "Rigid" => Ok(None),
-                _ => joints::spring(value).map(Some),
+                _ => joints::spring(value, "`joint_stiffness`", &[Dimension::STIFFNESS]).map(Some),
             },
         )?,
     };
@@ -164,8 +167,11 @@ fn joint_stiffness(fields: &Fields<'_>) -> Result<[Option<f64>; 6], LoadError> {
     Ok(stiffness)
 }
 
-fn drive_stiffness(fields: &Fields<'_>) -> Result<Option<f64>, LoadError> {
-    optional(fields, "drive_stiffness", |k| joints::spring(k).map(Some))
+/// Reads the stiffness of drives, of one of these dimensions.
+fn drive_stiffness(fields: &Fields<'_>, of: &[Dimension]) -> Result<Option<f64>, LoadError> {
+    optional(fields, "drive_stiffness", |k| {
+        joints::spring(k, "`drive_stiffness`", of).map(Some)
+    })
 }
 
 fn elements(fields: &Fields<'_>) -> Result<usize, LoadError> {

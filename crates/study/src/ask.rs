@@ -74,8 +74,8 @@ impl Study {
         }
         if let Some(asked) = &question.why {
             report.add_why(self.why(&loaded, asked)?);
-            if let Some(modal) = &modal {
-                self.add_frequencies(modal, &mut report)?;
+            if let Some((modal, options)) = modal.as_ref().zip(options.as_ref()) {
+                self.add_frequencies(modal, options, &mut report)?;
             }
         }
         drop(loaded);
@@ -191,11 +191,12 @@ impl Study {
     fn add_frequencies(
         &self,
         modal: &ModalPlan,
+        options: &ModalOptions,
         report: &mut SolveReport,
     ) -> Result<(), StudyError> {
         let found = modal.sensitivities(self.model().geometry());
         let found = found.map_err(|error| self.unsolvable(error))?;
-        report.add_frequencies(FrequencyReport::all(self, &found), found.complete);
+        report.add_frequencies(FrequencyReport::all(self, &found, options), found.complete);
         Ok(())
     }
 }

@@ -39,8 +39,8 @@ pub use error::{Problem, StudyError};
 #[cfg(feature = "fs")]
 pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
-    Along, Batch, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError, Location,
-    Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
+    Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
+    Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
 };
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;

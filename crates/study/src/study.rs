@@ -7,7 +7,9 @@ use hyperstat_assembly::{
     Configuration, ModalOptions, Model, Motion, Prepared, Solution, SolveError,
 };
 use hyperstat_joints::rigid_motion;
-use hyperstat_mechanisms::{Design, Files, Input, Job, Mechanism, PoseError, Registry, Value};
+use hyperstat_mechanisms::{
+    Dependence, Design, Files, Input, Job, Mechanism, PoseError, Registry, Value,
+};
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
@@ -183,7 +185,12 @@ impl Study {
                 number,
             } => {
                 // Beside what the design has already, where the job varies it.
-                let given = |path: &str| values.iter().any(|(own, _)| own.as_ref() == path);
+                // A parameter may be named with and without its map.
+                let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
+                let given = |path: &str| {
+                    let path = alone(path);
+                    values.iter().any(|(own, _)| alone(own.as_ref()) == path)
+                };
                 let kept = job.varied().iter().zip(design.values());
                 let kept = kept.filter(|(varied, _)| !given(&varied.path));
                 let kept = kept.map(|(varied, value)| (varied.path.as_str(), vec![value.clone()]));
@@ -223,6 +230,14 @@ impl Study {
         match &self.origin {
             Origin::Mechanism(mechanism) => mechanism.name_values(self.prepared.model_mut()),
             Origin::Job { job, design, .. } => job.name_values(design, self.prepared.model_mut()),
+        }
+    }
+
+    /// The parameters of the mechanism, and what depends on each.
+    pub fn dependences(&self) -> Vec<Dependence> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => mechanism.dependences(),
+            Origin::Job { job, design, .. } => job.dependences(design),
         }
     }
 

@@ -7,8 +7,8 @@ use hyperstat_study::figure::{self, Choice, Drawing, Map};
 use hyperstat_study::sweep::{Columns, Record, Statistics, Summary, Sweep, Threads, Way, measure};
 use hyperstat_study::table::{TableFormat, TableReader, TableWriter, render};
 use hyperstat_study::{
-    Job, JobMechanism, JobPoses, MemoryFiles, Question, Registry, Selection, Study, StudyError,
-    Value,
+    Along, Asked, Job, JobMechanism, JobPoses, MemoryFiles, Question, Registry, Selection, Study,
+    StudyError, Value,
 };
 
 const CANTILEVER: &str = r#"(
@@ -356,4 +356,65 @@ fn spoilt_tables_are_errors() {
     assert!(spoilt > 0);
     let whole = TableReader::of(Path::new("a.parquet"), whole).unwrap();
     assert!(whole.read(&[10_000]).is_err());
+}
+
+/// A cantilever of length L, diameter 2 r² and density ρ, under F.
+const BY_PARAMETERS: &str = r#"(
+    name: "cantilever",
+    parameters: { "L": "1000 mm", "r": 0.1, "F": 100, "E": "210 GPa", "unused": 1, "d": "= 2 * r^2" },
+    materials: { "steel": (young: "= E", poisson: 0.3, density: 7850.0) },
+    sections: { "rod": Circle(diameter: "= d") },
+    points: { "A": (0.0, 0.0, 0.0), "B": ("= L", 0.0, 0.0) },
+    bodies: { "beam": Beam(through: ["A", "B"], section: "rod", material: "steel") },
+    joints: { "wall": (at: "A", between: ("ground", "beam"), kind: Fixed) },
+    loads: [(on: ("beam", "B"), force: (0.0, 0.0, "= -F"))],
+    output: ("beam", "B"),
+)"#;
+
+/// The sag is F L³ / 3 E I with I ∝ d⁴ ∝ r⁸, the lowest frequency ∝ d/L² √(E/ρ).
+#[test]
+fn parameters_have_derivatives_through_the_expressions() {
+    let mut cantilever = study("a.ron", BY_PARAMETERS, &Selection::default()).unwrap();
+    let question = Question {
+        why: Some(Asked {
+            case: None,
+            along: Along::Displacement,
+        }),
+        modes: Some(1),
+        ..Question::default()
+    };
+    let answer = cantilever.answer(&question).unwrap();
+    close(answer.report.output.displacement[2], sag(0.02));
+    let report = serde_json::to_value(&answer.report).unwrap();
+    let of = |list: &serde_json::Value, name: &str| {
+        let mut found = list.as_array().unwrap().iter();
+        let found = found.find(|own| own["parameter"] == format!("parameters.{name}"));
+        let found = found.unwrap_or_else(|| panic!("no {name}")).clone();
+        let relative = match &found["relative"] {
+            serde_json::Value::Array(all) => all[0].clone(),
+            one => one.clone(),
+        };
+        (relative.as_f64().unwrap(), found["by_differences"] == true)
+    };
+    let near = |(found, by_differences): (f64, bool), expected: f64, differences: bool| {
+        // Central differences with a step of 1e-4 of the value.
+        let precision = if differences { 1e-6 } else { 1e-10 };
+        assert!((found - expected).abs() <= precision, "{found} {expected}");
+        assert_eq!(by_differences, differences, "{expected}");
+    };
+    let sags = &report["sensitivities"];
+    near(of(sags, "r"), -8.0, false);
+    near(of(sags, "d"), -4.0, false);
+    near(of(sags, "E"), -1.0, false);
+    near(of(sags, "L"), 3.0, true);
+    near(of(sags, "F"), 1.0, true);
+    near(of(sags, "unused"), 0.0, false);
+    let frequencies = &report["frequency_sensitivities"][0]["sensitivities"];
+    near(of(frequencies, "r"), 2.0, false);
+    near(of(frequencies, "E"), 0.5, false);
+    near(of(frequencies, "L"), -2.0, true);
+    // Values that have no name beside a parameter are as before.
+    let rod = sags.as_array().unwrap().iter();
+    let rod = rod.filter(|own| own["parameter"] == "sections.rod.diameter");
+    assert_eq!(rod.count(), 1);
 }

@@ -69,6 +69,21 @@ pub struct FrequencySensitivity {
 }
 
 impl FrequencySensitivity {
+    /// How frequencies answer to what has this name and value.
+    pub fn new(
+        parameter: Parameter,
+        name: impl Into<String>,
+        value: f64,
+        derivatives: Vec<f64>,
+    ) -> Self {
+        Self {
+            parameter,
+            name: Some(name.into()),
+            value,
+            derivatives,
+        }
+    }
+
     /// The relative change of a frequency per relative change of the parameter, p/f ∂f/∂p: 0.5
     /// says that 1 % more of it makes the frequency 0.5 % higher. `None` of a frequency that is
     /// zero.

@@ -17,6 +17,7 @@ const LEAST: f64 = 0.0005;
 pub(super) fn write_sensitivities(found: &[SensitivityReport], what: &str, text: &mut String) {
     let changes = found.iter().map(|s| Change {
         parameter: &s.parameter,
+        by_differences: s.by_differences,
         value: s.value,
         relative: s.relative.iter().copied().collect(),
     });
@@ -37,6 +38,7 @@ pub(crate) fn write_frequencies(found: &FrequencyReport, text: &mut String) {
     };
     let changes = found.sensitivities.iter().map(|s| Change {
         parameter: &s.parameter,
+        by_differences: s.by_differences,
         value: s.value,
         relative: s.relative.clone().unwrap_or_default(),
     });
@@ -50,6 +52,7 @@ pub(crate) fn write_frequencies(found: &FrequencyReport, text: &mut String) {
 /// A row of the text.
 struct Change<'a> {
     parameter: &'a str,
+    by_differences: bool,
     value: f64,
     /// More than one of equal frequencies; none where there is no derivative.
     relative: Vec<f64>,
@@ -72,10 +75,15 @@ fn table<'a>(changes: impl Iterator<Item = Change<'a>>, what: &str) -> String {
         // Writing to a String cannot fail.
         let _ = writeln!(
             body,
-            "  {}  {:>12}   {} {what}",
+            "  {}  {:>12}   {} {what}{}",
             left(change.parameter, width),
             number(change.value),
-            shown.join(",")
+            shown.join(","),
+            if change.by_differences {
+                ", by differences"
+            } else {
+                ""
+            }
         );
     }
     if told.is_empty() {

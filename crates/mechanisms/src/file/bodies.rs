@@ -6,6 +6,7 @@ use super::through::{Tables, check_name, pairs, through};
 use super::value_names::Given;
 use crate::error::LoadError;
 use crate::file::{beams, flexible};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
 use crate::text::names;
@@ -81,7 +82,7 @@ pub(crate) fn read(
 
 /// Reads a change of temperature.
 fn temperature(given: Fragment<'_>, body: BodyId, model: &mut Model) -> Result<(), LoadError> {
-    let change = given.acting()?;
+    let change = given.acting("`temperature`", Dimension::TEMPERATURE)?;
     model.set_temperature(body, change).map_err(|error| {
         let refused = given.error(error.to_string());
         match error {

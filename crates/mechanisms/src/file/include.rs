@@ -9,7 +9,7 @@ use crate::text::named::read_named;
 use crate::text::tree::{Named, Node};
 
 /// The tables that an included file may have, beside an `include` of its own.
-const TABLES: [&str; 3] = ["materials", "sections", "groups"];
+const TABLES: [&str; 4] = ["parameters", "materials", "sections", "groups"];
 
 /// The tree of a mechanism, with the tables of the files that it includes.
 pub(crate) fn mechanism(value: Fragment<'_>) -> Result<Node, LoadError> {
@@ -36,7 +36,7 @@ pub(crate) fn mechanism(value: Fragment<'_>) -> Result<Node, LoadError> {
 
 /// What has been included so far.
 struct Included {
-    tables: [Vec<Named>; 3],
+    tables: [Vec<Named>; 4],
     /// The files that are being read, each included by the one before it.
     open: Vec<PathBuf>,
     done: Vec<PathBuf>,
@@ -76,7 +76,7 @@ impl Included {
 
     /// Adds the tables of a file.
     fn add_file(&mut self, file: &Node) -> Result<(), LoadError> {
-        let known = ["include", "materials", "sections", "groups"];
+        let known = ["include", "parameters", "materials", "sections", "groups"];
         let fields = Fields::read(Fragment::of_node(file), "a file that is included", &known)?;
         if let Some(list) = fields.get("include") {
             self.add(list)?;

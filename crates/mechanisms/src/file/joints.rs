@@ -11,13 +11,20 @@ use super::registry::{Orientation, ParsedJoint, Registry};
 use super::through::check_name;
 use crate::error::LoadError;
 use crate::file::nodes;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
-use crate::text::names;
+use crate::text::{names, quantities};
 
 /// Entries of a stiffness matrix that differ by less count as equal, relative to the square root
 /// of the two diagonal entries in their row and column.
 const SYMMETRY: f64 = 1e-9;
+
+/// Numbers by direction: what they are, in words, and what each measures.
+pub(crate) type Directed = (&'static str, [Dimension; 6]);
+
+pub(crate) const MISFIT: Directed = ("the misfit", quantities::DISPLACEMENT);
+pub(crate) const PRELOAD: Directed = ("the preload", quantities::WRENCH);
 
 /// Adds the joint of `entry` to the model; `at` finds a point's name in the file.
 pub(crate) fn read(
@@ -76,14 +83,10 @@ pub(crate) fn read(
         .add_joint(connection, frame)
         .map_err(|error| refused(&error, &fields))?;
     if let Some(value) = fields.get("misfit") {
-        set(value, "the misfit", |misfit| {
-            model.set_misfit(joint, misfit)
-        })?;
+        set(value, MISFIT, |misfit| model.set_misfit(joint, misfit))?;
     }
     if let Some(value) = fields.get("preload") {
-        set(value, "the preload", |preload| {
-            model.set_preload(joint, preload)
-        })?;
+        set(value, PRELOAD, |preload| model.set_preload(joint, preload))?;
     }
     Ok(joint)
 }
@@ -92,7 +95,7 @@ pub(crate) fn read(
 /// the model's joints have.
 pub(crate) fn replace(
     map: Fragment<'_>,
-    owner: &str,
+    owner: Directed,
     model: &mut Model,
     set: fn(&mut Model, JointId, &Vector6<f64>) -> Result<(), ModelError>,
 ) -> Result<(), LoadError> {
@@ -120,14 +123,14 @@ pub(crate) fn replace(
 /// one direction.
 fn set(
     fragment: Fragment<'_>,
-    owner: &str,
+    (owner, of): Directed,
     set: impl FnOnce(&Vector6<f64>) -> Result<(), ModelError>,
 ) -> Result<(), LoadError> {
     let fields = Fields::read(fragment, owner, &Dof::ALL.map(Dof::name))?;
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
-            values[dof.index()] = value.acting()?;
+            values[dof.index()] = value.acting(&format!("`{dof}`"), of[dof.index()])?;
         }
     }
     set(&values).map_err(|error| {
@@ -244,25 +247,51 @@ pub(crate) fn directions(fragment: Fragment<'_>) -> Result<[Option<f64>; 6], Loa
     let known = Dof::ALL.map(Dof::name);
     let fields = Fields::read(fragment, "the stiffness", &known)?;
     let mut values = [None; 6];
-    for (value, name) in values.iter_mut().zip(known) {
-        *value = fields.get(name).map(spring).transpose()?;
+    for ((value, name), dimension) in values.iter_mut().zip(known).zip(quantities::STIFFNESS) {
+        let read = |given| spring(given, &format!("`{name}`"), &[dimension]);
+        *value = fields.get(name).map(read).transpose()?;
     }
     Ok(values)
 }
 
-/// Reads one stiffness, zero or more.
-pub(crate) fn spring(fragment: Fragment<'_>) -> Result<f64, LoadError> {
+/// Reads one stiffness, zero or more, of one of these dimensions; `what` it is, in words.
+pub(crate) fn spring(
+    fragment: Fragment<'_>,
+    what: &str,
+    of: &[Dimension],
+) -> Result<f64, LoadError> {
     let rigid = "a stiffness is finite, zero or more; leave it out for a rigid direction";
-    let value = fragment.number().map_err(|error| match fragment.text() {
+    let value = entry(fragment, what, of).map_err(|error| match fragment.text() {
         "inf" => error.with_help(rigid),
         _ => error,
     })?;
     if value < 0.0 {
         return Err(fragment
-            .error(format!("a stiffness cannot be {}", fragment.text()))
+            .error(format!("a stiffness cannot be {}", fragment.shown()))
             .with_help(rigid));
     }
     Ok(value)
+}
+
+/// Reads a number of one of these dimensions, of which there is one at least.
+fn entry(fragment: Fragment<'_>, what: &str, of: &[Dimension]) -> Result<f64, LoadError> {
+    let (value, dimension) = fragment.measured(of.first().copied())?;
+    match (dimension, of.first()) {
+        (Some(other), Some(first)) if !of.contains(&other) => {
+            Err(fragment.of_dimension(what, *first, other))
+        }
+        _ => Ok(value),
+    }
+}
+
+/// What an entry of a stiffness matrix measures: between a force and a rotation N/rad, which is the same
+/// as N between a moment and a translation.
+fn of_entry(row: usize, column: usize) -> &'static [Dimension] {
+    match (row / 3, column / 3) {
+        (0, 0) => &[Dimension::STIFFNESS],
+        (1, 1) => &[Dimension::ROTATIONAL_STIFFNESS],
+        _ => &[Dimension::COUPLING, Dimension::FORCE],
+    }
 }
 
 /// Reads six rows of six numbers, or 36 numbers row by row.
@@ -284,7 +313,8 @@ fn matrix(fragment: Fragment<'_>) -> Result<Matrix6<f64>, LoadError> {
     }
     let mut matrix = Matrix6::zeros();
     for (k, entry) in entries.iter().enumerate() {
-        matrix[(k / 6, k % 6)] = entry.number()?;
+        let (row, column) = (k / 6, k % 6);
+        matrix[(row, column)] = self::entry(*entry, "this entry", of_entry(row, column))?;
     }
     check_entries(&matrix, &entries)?;
     Ok(matrix)
@@ -296,7 +326,7 @@ fn check_entries(matrix: &Matrix6<f64>, entries: &[Fragment<'_>]) -> Result<(), 
     for (k, entry) in entries.iter().enumerate() {
         let (row, column) = (k / 6, k % 6);
         if row == column {
-            spring(*entry)?;
+            spring(*entry, "this entry", of_entry(row, column))?;
         }
         let (below, above) = (matrix[(row, column)], matrix[(column, row)]);
         let scale = (matrix[(row, row)] * matrix[(column, column)]).sqrt();

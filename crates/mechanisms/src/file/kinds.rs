@@ -8,6 +8,7 @@ use nalgebra::Rotation3;
 
 use super::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
 use crate::error::LoadError;
+use crate::text::dimension::Dimension;
 
 /// Adds all built-in kinds.
 pub(crate) fn register(registry: &mut Registry) {
@@ -73,7 +74,7 @@ fn may_have_axis(
 }
 
 fn screw(arguments: &Arguments<'_>) -> Result<ParsedJoint, LoadError> {
-    let pitch = arguments.number("pitch")?;
+    let pitch = arguments.quantity("pitch", Dimension::PITCH)?;
     let screw = Screw::new(pitch).map_err(|e| arguments.error("pitch", e.to_string()))?;
     along(arguments, "axis", screw)
 }

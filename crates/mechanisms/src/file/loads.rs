@@ -10,22 +10,43 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 use super::home::{Home, NO_HOME};
 use crate::error::LoadError;
 use crate::file::{joints, nodes};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
+use crate::text::quantities;
+use crate::text::scope::Scope;
 use crate::text::source::Place;
+use crate::text::tree::Node;
 
 /// The fields of a job that say what acts. Those of a file are the first four: what its joints have
 /// stands with each of them.
 pub(crate) const FIELDS: [&str; 6] = ["loads", "cases", "gravity", "masses", "misfits", "preloads"];
 
-/// Where those fields stand, each if it is given.
+/// What stands in those fields, each if it is given.
 #[derive(Debug, Clone)]
-pub(crate) struct Acting([Option<Place>; 6]);
+pub(crate) struct Acting([Option<Node>; 6]);
 
 impl Acting {
     /// Finds the fields.
     pub(crate) fn find(fields: &Fields<'_>) -> Self {
-        Self(FIELDS.map(|name| fields.get(name).map(Fragment::place)))
+        Self(FIELDS.map(|name| fields.get(name).map(Scope::written)))
+    }
+
+    /// The same with the values of its expressions, whose names are those of a mechanism.
+    pub(crate) fn in_scope(&self, mechanism: &Node) -> Result<Self, LoadError> {
+        if !self.given().any(|(_, node)| node.has_expressions()) {
+            return Ok(self.clone());
+        }
+        let scope = Scope::new(mechanism)?;
+        Ok(Self(self.0.each_ref().map(|field| {
+            field.as_ref().map(|field| scope.valued(field))
+        })))
+    }
+
+    /// What is given, by its field.
+    pub(crate) fn given(&self) -> impl Iterator<Item = (&'static str, &Node)> {
+        let given = FIELDS.iter().zip(&self.0);
+        given.filter_map(|(name, node)| Some((*name, node.as_ref()?)))
     }
 
     /// Names of the cases that are given; none where they are not.
@@ -33,7 +54,7 @@ impl Acting {
         let Some(cases) = &self.0[1] else {
             return Ok(None);
         };
-        let entries = Fragment::at(cases).map()?;
+        let entries = Fragment::of_node(cases).map()?;
         Ok(Some(entries.into_iter().map(|entry| entry.name).collect()))
     }
 
@@ -53,7 +74,7 @@ impl Acting {
         model: &mut Model,
         home: &Home,
     ) -> Result<Option<Vec<Place>>, LoadError> {
-        read(|k| self.0[k].as_ref().map(Fragment::at), model, home)
+        read(|k| self.0[k].as_ref().map(Fragment::of_node), model, home)
     }
 }
 
@@ -78,13 +99,13 @@ pub(crate) fn read<'a>(
         }
     }
     if let Some(misfits) = field(4) {
-        joints::replace(misfits, "the misfit", model, Model::set_misfit)?;
+        joints::replace(misfits, joints::MISFIT, model, Model::set_misfit)?;
     }
     if let Some(preloads) = field(5) {
-        joints::replace(preloads, "the preload", model, Model::set_preload)?;
+        joints::replace(preloads, joints::PRELOAD, model, Model::set_preload)?;
     }
     if let Some(gravity) = field(2) {
-        let set = model.set_gravity(gravity.acting_vector()?);
+        let set = model.set_gravity(gravity.acting_vector("`gravity`", Dimension::ACCELERATION)?);
         set.map_err(|error| refused(gravity, error))?;
     }
     if let Some(cases) = field(1) {
@@ -119,7 +140,7 @@ fn check_case_name(name: &str, key: Fragment<'_>) -> Result<(), LoadError> {
 fn read_mass(fragment: Fragment<'_>, model: &mut Model, home: &Home) -> Result<(), LoadError> {
     let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"])?;
     let node = nodes::on(model, fields.required("on")?, "a mass")?;
-    let mass = fields.required("mass")?.acting()?;
+    let mass = fields.required("mass")?.acting("`mass`", Dimension::MASS)?;
     let made = match fields.get("inertia") {
         None => RigidMass::point(mass),
         Some(given) => {
@@ -128,7 +149,7 @@ fn read_mass(fragment: Fragment<'_>, model: &mut Model, home: &Home) -> Result<(
             let numbers: Result<Vec<f64>, _> = given
                 .tuple(expected)?
                 .into_iter()
-                .map(Fragment::acting)
+                .map(|part| part.acting("`inertia`", Dimension::INERTIA))
                 .collect();
             let numbers = numbers?;
             if let Ok(moments) = <[f64; 3]>::try_from(&*numbers) {
@@ -201,12 +222,17 @@ fn read_set(
     Ok((set, places))
 }
 
+/// The vector of a field of a load.
+fn vector(name: &str, given: Fragment<'_>) -> Result<Vector3<f64>, LoadError> {
+    let dimension = quantities::of(name).unwrap_or(Dimension::NUMBER);
+    given.acting_vector(&format!("`{name}`"), dimension)
+}
+
 /// A force and a moment, each zero where it is not given.
 fn wrench(fields: &Fields<'_>, force: &str, moment: &str) -> Result<Vector6<f64>, LoadError> {
     let part = |name: &str| {
-        fields
-            .get(name)
-            .map_or(Ok(Vector3::zeros()), Fragment::acting_vector)
+        let given = fields.get(name);
+        given.map_or(Ok(Vector3::zeros()), |given| vector(name, given))
     };
     let (f, m) = (part(force)?, part(moment)?);
     Ok(Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z))
@@ -253,7 +279,7 @@ fn read_along(
                     .with_help("write `on: (\"body\", \"A\", \"B\")`"));
             }
             let end = |name: &str| -> Result<Vector6<f64>, LoadError> {
-                let force = fields.required(name)?.acting_vector()?;
+                let force = vector(name, fields.required(name)?)?;
                 Ok(Vector6::new(force.x, force.y, force.z, 0.0, 0.0, 0.0))
             };
             [end("from")?, end("to")?]

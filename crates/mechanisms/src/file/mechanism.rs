@@ -17,6 +17,8 @@ use super::value_names::Given;
 use crate::error::{LoadError, Location};
 use crate::file::{bodies, joints, loads, materials, nodes, value_names};
 use crate::prebuilt::PoseError;
+use crate::text::dependence::{self, Dependence};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::paths;
@@ -50,11 +52,12 @@ pub struct Mechanism {
 impl Mechanism {
     /// Reads the value of a mechanism file.
     pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
-        let root = Arc::new(root);
         let written = groups::write_out(&root)?;
+        let root = Arc::new(root);
         let fragment = Fragment::of_node(&written.root);
         let known = [
             "name",
+            "parameters",
             "materials",
             "sections",
             "points",
@@ -99,7 +102,8 @@ impl Mechanism {
         model.set_output(nodes::on(&model, output, "the output")?);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
-        let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        let mut used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+        root.expressions(&mut |expression| used.extend(expression.names()));
         let points = tables.points.names();
         let unused = points.filter(|name| !used.contains(name));
         let unused_points = unused.map(Into::into).collect();
@@ -121,7 +125,8 @@ impl Mechanism {
     /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the
     /// mechanism's own.
     pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
-        if let Some(loads) = acting.read(&mut self.model, &Home::Here)? {
+        let values = acting.in_scope(&self.root)?;
+        if let Some(loads) = values.read(&mut self.model, &Home::Here)? {
             self.loads = loads;
         }
         self.acting = Some(acting.clone());
@@ -152,6 +157,12 @@ impl Mechanism {
         let masses = !self.acting.as_ref().is_some_and(Acting::has_masses);
         let given = (&*self.given, &self.copies);
         value_names::of_file(&self.root, varied, given, masses, model);
+    }
+
+    /// The parameters of the mechanism, and what depends on each.
+    pub fn dependences(&self) -> Vec<Dependence> {
+        let beside: Vec<_> = self.acting.iter().flat_map(Acting::given).collect();
+        dependence::dependences(&self.root, &beside)
     }
 
     /// The same mechanism with other values in some places, named by their paths as `vary` names them,
@@ -234,7 +245,7 @@ impl Mechanism {
         &self.root
     }
 
-    /// The points of the file that no body runs through, in its order.
+    /// The points of the file that no body runs through and no expression names, in its order.
     pub fn unused_points(&self) -> &[String] {
         &self.unused_points
     }
@@ -276,7 +287,7 @@ const FARTHEST: f64 = 1e50;
 
 /// Reads the place of a point.
 fn place(fragment: Fragment<'_>) -> Result<Point3<f64>, LoadError> {
-    let place = fragment.vector()?;
+    let place = fragment.vector("a coordinate", Dimension::LENGTH)?;
     if place.amax() > FARTHEST {
         return Err(fragment
             .error(format!("no point can be farther than {FARTHEST:?} m"))

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::error::LoadError;
 use crate::prebuilt::Prebuilt;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
@@ -201,12 +202,21 @@ impl<'a> Arguments<'a> {
         self.fields.get(name).is_some()
     }
 
-    /// A number that must be given.
+    /// A number that must be given, SI, with any unit or none.
     ///
     /// # Errors
     /// It is missing, not a number or not finite.
     pub fn number(&self, name: &str) -> Result<f64, LoadError> {
-        self.fields.number(name)
+        self.fields.required(name)?.number()
+    }
+
+    /// A number that must be given, SI, with a unit of this dimension or none.
+    ///
+    /// # Errors
+    /// It is missing, not a number or not finite, or measures something else.
+    pub fn quantity(&self, name: &str, dimension: Dimension) -> Result<f64, LoadError> {
+        let value = self.fields.required(name)?;
+        value.quantity(&format!("`{name}`"), dimension)
     }
 
     /// A vector `(x, y, z)` that must be given.

@@ -44,7 +44,7 @@ pub(crate) fn check_name(entry: &Entry<'_>, what: &str) -> Result<(), LoadError>
 /// Reads a number of elements a segment.
 pub(crate) fn elements(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     let expected = format!("a whole number of elements from 1 to {MOST_ELEMENTS}");
-    let elements = fragment.parse(&expected)?;
+    let elements = fragment.count(&expected)?;
     if !(1..=MOST_ELEMENTS).contains(&elements) {
         return Err(fragment.expected(&expected));
     }

@@ -17,9 +17,12 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
+use crate::text::dependence::Dependence;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
+use crate::text::scope::PARAMETERS;
 use crate::text::source::Place;
+use crate::text::tree::Node;
 use crate::text::value::Value;
 
 /// The jobs of a batch file, in its order, all of them checked.
@@ -44,7 +47,7 @@ pub struct Job {
     /// Where each figure stands.
     pub(super) figure_places: Vec<Place>,
     /// What is written of it, by field.
-    pub(super) written: Vec<(&'static str, Place)>,
+    pub(super) written: Vec<(&'static str, Node)>,
     pub(super) recipe: Recipe,
     pub(super) poses: Arc<Poses>,
     /// Where `vary` is given.
@@ -60,7 +63,8 @@ pub struct Job {
 impl Batch {
     /// Reads the value of a batch file.
     pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
-        let fields = Fields::read(fragment, "the batch", &["jobs"])?;
+        let fields = Fields::read(fragment, "the batch", &["jobs", PARAMETERS])?;
+        let shared = fields.get(PARAMETERS).map(Node::of);
         let list = fields.required("jobs")?;
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
@@ -71,7 +75,7 @@ impl Batch {
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
                 return Err(same_name(at, &name, first, &other));
             }
-            let recipe = Recipe::find(&fields, registry)?;
+            let recipe = Recipe::find(&fields, shared.as_ref(), registry)?;
             jobs.push(Job::read(name, &fields, at.place(), recipe, None)?);
         }
         if jobs.is_empty() {
@@ -90,9 +94,10 @@ impl Batch {
 }
 
 /// The fields of a job.
-pub(super) const FIELDS: [&str; 13] = [
+pub(super) const FIELDS: [&str; 14] = [
     "name",
     "mechanism",
+    PARAMETERS,
     "poses",
     "loads",
     "cases",
@@ -143,6 +148,12 @@ impl Job {
         recipe: Recipe,
         poses: Option<Arc<Poses>>,
     ) -> Result<Self, LoadError> {
+        let nodes = fields.written(&FIELDS);
+        recipe.check_parameters(&nodes)?;
+        let values = recipe.valued(&nodes)?;
+        let given = values.as_ref().unwrap_or(&nodes).iter();
+        let given = given.map(|(name, node)| (*name, Fragment::of_node(node)));
+        let fields = &Fields::of(fields.whole(), fields.owner(), given.collect());
         let written = recipe.read(recipe.root())?;
         let poses = match poses {
             Some(poses) => poses,
@@ -176,7 +187,7 @@ impl Job {
             figures,
             figure_places,
             modes,
-            written: fields.places(&FIELDS),
+            written: nodes,
             recipe,
             poses,
             designs,
@@ -276,6 +287,16 @@ impl Job {
         match design.mechanism() {
             Some(mechanism) => mechanism.name_others(&varied, model),
             None => value_names::of_prebuilt(tree, &varied, &design.subject, model),
+        }
+    }
+
+    /// The parameters of the mechanism in a design, those of the job among them, and what depends on each.
+    pub fn dependences(&self, design: &Design) -> Vec<Dependence> {
+        match &self.designs {
+            Some(designs) => self
+                .recipe
+                .dependences(&designs.tree(design.number, &self.recipe)),
+            None => self.recipe.dependences(self.recipe.root()),
         }
     }
 

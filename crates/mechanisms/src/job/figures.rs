@@ -3,10 +3,11 @@
 use super::look::{self, Look};
 use crate::error::LoadError;
 use crate::job::modes;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
-use crate::text::{csv, names};
+use crate::text::{csv, names, quantities};
 
 /// A figure that a job asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -236,7 +237,7 @@ fn case(fragment: Fragment<'_>, known: &Known<'_>) -> Result<String, LoadError> 
 /// Reads the number of a mode.
 fn number(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     let expected = format!("the number of a mode, 1 to {}", modes::MOST);
-    match fragment.parse::<usize>(&expected)? {
+    match fragment.count::<usize>(&expected)? {
         number if (1..=modes::MOST).contains(&number) => Ok(number),
         _ => Err(fragment.expected(&expected)),
     }
@@ -247,7 +248,8 @@ fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
     if fragment.text().starts_with('(') {
         let numbers = fragment.array("a direction of three numbers, such as `(0.0, 1.0, -1.0)`")?;
         let [a, b, c] = numbers;
-        let components = [a.number()?, b.number()?, c.number()?];
+        let part = |part: Fragment<'_>| part.quantity("a part of a direction", Dimension::NUMBER);
+        let components = [part(a)?, part(b)?, part(c)?];
         return Along::direction(components).ok_or_else(|| {
             fragment
                 .error("the direction has no length")
@@ -286,7 +288,10 @@ fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
     };
     let coordinate = coordinate(kind)?;
     let [value] = arguments.array(PLANE)?;
-    Ok((coordinate, value.number()?))
+    let place = csv::COLUMNS.iter().position(|name| *name == coordinate);
+    let dimension = quantities::DISPLACEMENT[place.unwrap_or(0)];
+    let value = value.quantity(&format!("`{coordinate}`"), dimension)?;
+    Ok((coordinate, value))
 }
 
 /// Reads `(rx, ry)`, or of drives `("A1.v", "A2.v")`.
@@ -349,14 +354,18 @@ fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
         return Ok(Scale::Auto);
     }
     let expected = "`Auto` or a factor above zero, such as `50.0`";
-    match fragment.parse::<f64>(expected)? {
+    let factor = match fragment.text().starts_with('"') {
+        true => fragment.quantity("a factor", Dimension::NUMBER)?,
+        false => fragment.parse::<f64>(expected)?,
+    };
+    match factor {
         factor if factor.is_finite() && factor > 0.0 => Ok(Scale::Factor(factor)),
         _ => Err(fragment.expected(expected)),
     }
 }
 
 fn pose(fragment: Fragment<'_>, poses: usize) -> Result<usize, LoadError> {
-    let pose = fragment.parse("the number of a pose, from 0")?;
+    let pose = fragment.count("the number of a pose, from 0")?;
     if pose >= poses {
         return Err(fragment
             .error(format!("there is no pose {pose}"))

@@ -9,6 +9,7 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
+use crate::text::scope::Scope;
 use crate::text::source::{Place, Source};
 use crate::text::tree::Node;
 use crate::text::value::Value;
@@ -154,9 +155,10 @@ impl Job {
         let (root, recipe) = recipe(mechanism.into(), registry)?;
         let near = root.source.clone();
         let checked = recipe.read(recipe.root())?;
-        let mut written = vec![("mechanism", root)];
+        let root_node = Node::whole(Fragment::at(&root));
+        let mut written = vec![("mechanism", root_node)];
         let poses = match poses {
-            JobPoses::Own => Some(checked.own_pose(&written[0].1)?),
+            JobPoses::Own => Some(checked.own_pose(&root)?),
             JobPoses::Table { columns, rows } => {
                 let at = |part: &str| {
                     let name = match part {
@@ -169,7 +171,8 @@ impl Job {
                 Some(checked.poses_of(&columns, &rows, &at(""), at)?)
             }
             JobPoses::Written(text) => {
-                written.push(("poses", argument("poses", text, Some(&near))?));
+                let poses = argument("poses", text, Some(&near))?;
+                written.push(("poses", Scope::written(Fragment::at(&poses))));
                 None
             }
         };
@@ -178,7 +181,7 @@ impl Job {
     }
 
     /// Sets a field of the job to what would stand there in a batch file: `loads`, `cases`, `gravity`,
-    /// `masses`, `misfits`, `preloads`, `modes`, `figures`, `vary` or `zip`. What it had there is replaced; an empty text takes it
+    /// `masses`, `misfits`, `preloads`, `modes`, `figures`, `vary`, `zip` or `parameters`. What it had there is replaced; an empty text takes it
     /// away.
     ///
     /// # Errors
@@ -254,11 +257,12 @@ impl Job {
             };
             written.retain(|(other, _)| *other != name);
             if !text.is_empty() {
-                written.push((name, argument(name, text.clone(), Some(&near))?));
+                let value = argument(name, text.clone(), Some(&near))?;
+                written.push((name, Scope::written(Fragment::at(&value))));
             }
         }
         let fields = fields(&self.place, &written);
-        let recipe = self.recipe.with_acting(&fields);
+        let recipe = self.recipe.with_fields(&fields)?;
         let poses = Some(Arc::clone(&self.poses));
         let (name, place) = (self.name.clone(), self.place.clone());
         let mut job = Self::read(name, &fields, place, recipe, poses)?;
@@ -277,8 +281,8 @@ impl Job {
 }
 
 /// Fields that stand at these places.
-fn fields<'a>(whole: &'a Place, written: &'a [(&'static str, Place)]) -> Fields<'a> {
-    let field = |(name, place): &'a (&'static str, Place)| (*name, Fragment::at(place));
+fn fields<'a>(whole: &'a Place, written: &'a [(&'static str, Node)]) -> Fields<'a> {
+    let field = |(name, node): &'a (&'static str, Node)| (*name, Fragment::of_node(node));
     let written = written.iter().map(field).collect();
     Fields::of(Fragment::at(whole), "a job", written)
 }

@@ -55,7 +55,7 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
 /// A number of modes.
 fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     let expected = "a number of natural frequencies from 1 to 1000, or `(count: 6, mass: Lumped)`";
-    match fragment.parse::<usize>(expected)? {
+    match fragment.count::<usize>(expected)? {
         count if (1..=MOST).contains(&count) => Ok(count),
         _ => Err(fragment.expected(expected)),
     }

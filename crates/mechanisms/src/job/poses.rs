@@ -8,7 +8,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
 use crate::text::values::Values;
-use crate::text::{csv, named, names};
+use crate::text::{csv, named, names, quantities};
 
 /// Poses x y z \[m\] and rotation vector \[rad\] of the output.
 #[derive(Debug)]
@@ -132,7 +132,7 @@ fn list_of_poses(list: Fragment<'_>, given: &Given<'_>) -> Result<Vec<[f64; 6]>,
         }
         let mut pose = [0.0; 6];
         for (k, number) in numbers.iter().enumerate() {
-            pose[k] = number.number()?;
+            pose[k] = csv::quantity(k, *number)?;
             given.check(k, pose[k], || number.place())?;
         }
         poses.push(pose);
@@ -160,7 +160,14 @@ fn grid(
             None if given.coordinates.iter().any(position) => fields.required(name)?,
             None => continue,
         };
-        *axis = Values::read(field, "three values, `(first, last, count)`")?;
+        *axis = {
+            let dimension = quantities::DISPLACEMENT[index];
+            Values::read(
+                field,
+                "three values, `(first, last, count)`",
+                Some(dimension),
+            )?
+        };
         for value in axis.ends() {
             given.check(index, value, || field.place())?;
         }

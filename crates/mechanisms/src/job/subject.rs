@@ -1,5 +1,6 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -18,8 +19,10 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::{PrebuiltKind, Registry};
 use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 use crate::text::columns::Given;
+use crate::text::dependence::{self, Dependence};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
+use crate::text::scope::{self, PARAMETERS, Scope};
 use crate::text::source::Place;
 use crate::text::tree::Node;
 use crate::text::{csv, named, names};
@@ -27,8 +30,14 @@ use crate::text::{csv, named, names};
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug, Clone)]
 pub(crate) struct Recipe {
-    /// The mechanism: the value of its file, or the prebuilt one in the job.
+    /// The mechanism: the value of its file, or the prebuilt one in the job, with the parameters of the
+    /// batch and of the job.
     root: Node,
+    /// The same without them.
+    own: Node,
+    /// The parameters of the batch, and of the job.
+    shared: Option<Node>,
+    given: Option<Node>,
     /// Kind of a prebuilt mechanism; `None` is a file.
     kind: Option<PrebuiltKind>,
     acting: Acting,
@@ -41,7 +50,7 @@ pub(crate) enum Checked {
     /// Of a file, with the job's loads.
     File(Box<Mechanism>),
     /// Prebuilt, not yet built.
-    Prebuilt(Box<dyn Prebuilt>),
+    Prebuilt(Box<dyn Prebuilt>, Acting),
 }
 
 /// A mechanism with its loads.
@@ -68,7 +77,11 @@ pub(crate) struct Template {
 
 impl Recipe {
     /// Finds the mechanism and the loads of a job.
-    pub(crate) fn find(fields: &Fields<'_>, registry: &Registry) -> Result<Self, LoadError> {
+    pub(crate) fn find(
+        fields: &Fields<'_>,
+        shared: Option<&Node>,
+        registry: &Registry,
+    ) -> Result<Self, LoadError> {
         let whole = fields.required("mechanism")?;
         let expected = "a mechanism, `File(\"file.ron\")` or a prebuilt one";
         let (name, arguments) = whole.variant(expected)?;
@@ -87,12 +100,16 @@ impl Recipe {
             };
             (Node::of(whole), Some(kind.clone()))
         };
-        Ok(Self {
+        let recipe = Self {
+            own: root.clone(),
             root,
+            shared: shared.cloned(),
+            given: None,
             kind,
             acting: Acting::find(fields),
             registry: registry.clone(),
-        })
+        };
+        recipe.with_fields(fields)
     }
 
     /// A mechanism that a program hands in, of a `kind` if it is prebuilt, and what acts on it.
@@ -103,21 +120,77 @@ impl Recipe {
         registry: &Registry,
     ) -> Self {
         Self {
+            own: root.clone(),
             root,
+            shared: None,
+            given: None,
             kind,
             acting: Acting::find(fields),
             registry: registry.clone(),
         }
     }
 
-    /// The same mechanism with what these fields say of what acts.
-    pub(crate) fn with_acting(&self, fields: &Fields<'_>) -> Self {
-        Self {
-            root: self.root.clone(),
-            kind: self.kind.clone(),
-            acting: Acting::find(fields),
-            registry: self.registry.clone(),
+    /// The same mechanism with what these fields say of parameters and of what acts.
+    pub(crate) fn with_fields(&self, fields: &Fields<'_>) -> Result<Self, LoadError> {
+        let given = fields.get(PARAMETERS).map(Node::of);
+        let mut root = self.own.clone();
+        for parameters in self.shared.iter().chain(&given) {
+            scope::put(&mut root, parameters)?;
         }
+        Ok(Self {
+            root,
+            given,
+            acting: Acting::find(fields),
+            ..self.clone()
+        })
+    }
+
+    /// Refuses a parameter of the job that takes the place of no other, and that neither the mechanism
+    /// nor the job's `fields` use.
+    pub(crate) fn check_parameters(&self, fields: &[(&str, Node)]) -> Result<(), LoadError> {
+        let Some(given) = &self.given else {
+            return Ok(());
+        };
+        let mut known = scope::parameters(&self.own).collect::<Vec<_>>();
+        known.extend(self.shared.iter().flat_map(Node::entry_names));
+        let mut used = HashSet::new();
+        for node in fields.iter().map(|(_, node)| node).chain([&self.root]) {
+            node.expressions(&mut |expression| used.extend(expression.names()));
+        }
+        for entry in Fragment::of_node(given).map()? {
+            let name = entry.name.as_str();
+            if !known.contains(&name) && !used.contains(name) {
+                let error = entry
+                    .key
+                    .error(format!("nothing uses the parameter `{name}`"));
+                return Err(error.with_help(names::help(name, "parameters", known)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Fields of the job with the values of their expressions; `None` where they have none.
+    pub(crate) fn valued<'f>(
+        &self,
+        fields: &[(&'f str, Node)],
+    ) -> Result<Option<Vec<(&'f str, Node)>>, LoadError> {
+        let others = |name: &str| !["mechanism", PARAMETERS].contains(&name);
+        let expressions = |(name, node): &(&str, Node)| others(name) && node.has_expressions();
+        if !fields.iter().any(expressions) {
+            return Ok(None);
+        }
+        let scope = Scope::new(&self.root)?;
+        let valued = |(name, node): &(&'f str, Node)| match others(name) {
+            true => (*name, scope.valued(node)),
+            false => (*name, node.clone()),
+        };
+        Ok(Some(fields.iter().map(valued).collect()))
+    }
+
+    /// The parameters of the mechanism, written so, and what depends on each.
+    pub(crate) fn dependences(&self, root: &Node) -> Vec<Dependence> {
+        let beside: Vec<_> = self.acting.given().collect();
+        dependence::dependences(root, &beside)
     }
 
     /// The mechanism as it is written.
@@ -143,7 +216,11 @@ impl Recipe {
                 mechanism.replace(&self.acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
-            Some(kind) => kind.read(Fragment::of_node(root)).map(Checked::Prebuilt),
+            Some(kind) => {
+                let tree = Scope::tree(root)?;
+                let mechanism = kind.read(Fragment::of_node(&tree))?;
+                Ok(Checked::Prebuilt(mechanism, self.acting.in_scope(root)?))
+            }
         }
     }
 
@@ -157,11 +234,11 @@ impl Recipe {
     ) -> Result<Subject, LoadError> {
         match checked {
             Checked::File(mechanism) => Ok(Subject::of(mechanism)),
-            Checked::Prebuilt(mechanism) => {
+            Checked::Prebuilt(mechanism, acting) => {
                 let mut template = template(mechanism.as_ref(), poses, similar);
                 if let Ok(template) = &mut template {
                     let home = Home::Output(template.turned(mechanism.as_ref()));
-                    self.acting.read(&mut template.model, &home)?;
+                    acting.read(&mut template.model, &home)?;
                 }
                 Ok(Subject::Prebuilt {
                     mechanism,
@@ -188,7 +265,7 @@ impl Checked {
     /// Reads the poses of a job of this mechanism.
     pub(crate) fn poses(&self, fields: &Fields<'_>) -> Result<Poses, LoadError> {
         let mechanism = match self {
-            Self::Prebuilt(mechanism) => mechanism,
+            Self::Prebuilt(mechanism, _) => mechanism,
             Self::File(mechanism) => {
                 return match fields.get("poses") {
                     None => Ok(Poses::Own),
@@ -221,7 +298,7 @@ impl Checked {
             Self::File(mechanism) => {
                 Targets::table(columns, rows, &mechanism.model, whole, at).map(Poses::Asked)
             }
-            Self::Prebuilt(mechanism) => {
+            Self::Prebuilt(mechanism, _) => {
                 let given = Given {
                     kind: mechanism.kind(),
                     coordinates: mechanism.coordinates(),
@@ -237,7 +314,7 @@ impl Checked {
     /// The mechanism's own configuration as its only pose; `mechanism` is where it stands.
     pub(crate) fn own_pose(&self, mechanism: &Place) -> Result<Poses, LoadError> {
         match self {
-            Self::Prebuilt(own) if !own.coordinates().is_empty() => {
+            Self::Prebuilt(own, _) if !own.coordinates().is_empty() => {
                 let given = Given {
                     kind: own.kind(),
                     coordinates: own.coordinates(),

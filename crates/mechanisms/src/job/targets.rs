@@ -11,7 +11,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::source::Place;
 use crate::text::values::Values;
-use crate::text::{csv, named, names};
+use crate::text::{csv, named, names, quantities};
 
 /// Targets of a mechanism of a file, one a pose.
 #[derive(Debug)]
@@ -251,8 +251,8 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
             return Err(item.expected(expected));
         }
         let mut pose = [None; 6];
-        for (coordinate, number) in pose.iter_mut().zip(&numbers) {
-            *coordinate = Some(number.number()?);
+        for (k, number) in numbers.iter().enumerate() {
+            pose[k] = Some(csv::quantity(k, *number)?);
         }
         poses.push(pose);
     }
@@ -267,8 +267,13 @@ fn list_of_poses(list: Fragment<'_>) -> Result<Vec<[Option<f64>; 6]>, LoadError>
 fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<[Option<Values>; 6], LoadError> {
     let fields = Fields::read(arguments, "`Grid`", &csv::COLUMNS)?.within(whole);
     let mut axes = [None; 6];
-    for (axis, name) in axes.iter_mut().zip(csv::COLUMNS) {
-        let read = |field| Values::read(field, "three values, `(first, last, count)`");
+    for ((axis, name), dimension) in axes
+        .iter_mut()
+        .zip(csv::COLUMNS)
+        .zip(quantities::DISPLACEMENT)
+    {
+        let expected = "three values, `(first, last, count)`";
+        let read = |field| Values::read(field, expected, Some(dimension));
         *axis = fields.get(name).map(read).transpose()?;
     }
     if axes.iter().all(Option::is_none) {

@@ -213,7 +213,9 @@ impl Axis {
     fn value(&self, k: usize) -> Node {
         match &self.values {
             AxisValues::List(values) => values[k].clone(),
-            AxisValues::Range(values) => Node::number(values.get(k), self.place.clone()),
+            AxisValues::Range(values) => {
+                Node::number(values.get(k), values.dimension(), self.place.clone())
+            }
         }
     }
 }
@@ -247,7 +249,7 @@ impl AxisValues {
         }
         match fragment.variant(expected)? {
             (kind, Some(arguments)) if kind.text() == "Range" => {
-                Values::read(arguments, "three values, `Range(first, last, count)`")
+                Values::read(arguments, "three values, `Range(first, last, count)`", None)
                     .map(Self::Range)
             }
             (kind, Some(_)) => Err(kind

@@ -7,14 +7,17 @@ use crate::error::LoadError;
 use crate::file::registry::Arguments;
 use crate::parameters;
 use crate::prebuilt::{Link, ParameterError};
+use crate::text::dimension::Dimension;
+use crate::text::fragment::Fragment;
 
 impl Arguments<'_> {
-    /// A number, if it is given.
+    /// A number, SI, with any unit or none, if it is given.
     ///
     /// # Errors
     /// It is not a number or not finite.
     pub fn optional_number(&self, name: &str) -> Result<Option<f64>, LoadError> {
-        self.fields().optional_number(name)
+        let value = self.fields().get(name);
+        value.map(Fragment::number).transpose()
     }
 
     /// A link `(section: …, material: …)` that must be given.
@@ -55,7 +58,8 @@ impl Arguments<'_> {
     /// # Errors
     /// What is wrong with it.
     pub fn drive_stiffness(&self) -> Result<Option<f64>, LoadError> {
-        parameters::drive_stiffness(self.fields())
+        let of = [Dimension::STIFFNESS, Dimension::ROTATIONAL_STIFFNESS];
+        parameters::drive_stiffness(self.fields(), &of)
     }
 
     /// The number of beam elements a link is divided into, `elements`: 1 where it is not given.

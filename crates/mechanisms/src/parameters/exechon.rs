@@ -3,6 +3,7 @@
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Exechon;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -30,7 +31,7 @@ fn read(fields: &Fields<'_>) -> Result<Exechon, LoadError> {
         housing: link(fields, "housing")?,
         ram: link(fields, "ram")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

@@ -4,6 +4,7 @@ use super::legs::{foot_joint, telescopic_leg};
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::Hexapod;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -43,7 +44,7 @@ fn read(fields: &Fields<'_>) -> Result<Hexapod, LoadError> {
         base_joints: foot_joint(fields, "base_joints")?,
         leg: telescopic_leg(fields)?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;
@@ -55,7 +56,7 @@ fn read_cubic(fields: &Fields<'_>) -> Result<Hexapod, LoadError> {
     let cubic = Hexapod::cubic(edge, telescopic_leg(fields)?);
     let mechanism = Hexapod {
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
         ..cubic.map_err(|error| refused(fields, &error))?
     };

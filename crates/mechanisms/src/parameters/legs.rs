@@ -4,8 +4,8 @@
 use crate::error::LoadError;
 use crate::parameters::{link, optional, pair, refused};
 use crate::prebuilt::{CarriageSide, FootJoint, Rails, TelescopicLeg};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
-use crate::text::fragment::Fragment;
 
 /// The field `leg`.
 pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadError> {
@@ -19,7 +19,7 @@ pub(super) fn telescopic_leg(fields: &Fields<'_>) -> Result<TelescopicLeg, LoadE
             &fields,
             "lengths",
             "two lengths, `(shortest, longest)`",
-            Fragment::number,
+            |value| value.quantity("`lengths`", Dimension::LENGTH),
         )?,
     };
     leg.check().map_err(|error| refused(&fields, &error))?;

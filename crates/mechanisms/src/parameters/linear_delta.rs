@@ -4,6 +4,7 @@ use super::legs::{foot_joint, rails};
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::LinearDelta;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -31,7 +32,7 @@ fn read(fields: &Fields<'_>) -> Result<LinearDelta, LoadError> {
         carriage_joints: foot_joint(fields, "carriage_joints")?,
         rod: link(fields, "rod")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

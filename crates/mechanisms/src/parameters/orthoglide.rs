@@ -3,6 +3,7 @@
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Orthoglide;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -28,7 +29,7 @@ fn read(fields: &Fields<'_>) -> Result<Orthoglide, LoadError> {
         bar: link(fields, "bar")?,
         rod: link(fields, "rod")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

@@ -5,6 +5,7 @@ use crate::parameters::{
     Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused,
 };
 use crate::prebuilt::PlanarThreeRrr;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -34,7 +35,7 @@ fn read(fields: &Fields<'_>) -> Result<PlanarThreeRrr, LoadError> {
         proximal: link(fields, "proximal")?,
         distal: link(fields, "distal")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::ROTATIONAL_STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

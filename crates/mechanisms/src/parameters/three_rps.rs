@@ -4,6 +4,7 @@ use super::legs::telescopic_leg;
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::ThreeRps;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -25,7 +26,7 @@ fn read(fields: &Fields<'_>) -> Result<ThreeRps, LoadError> {
         platform_radius: fields.number("platform_radius")?,
         leg: telescopic_leg(fields)?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

@@ -4,6 +4,7 @@ use super::legs::telescopic_leg;
 use crate::error::LoadError;
 use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::Tricept;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
@@ -31,7 +32,7 @@ fn read(fields: &Fields<'_>) -> Result<Tricept, LoadError> {
         spline: link(fields, "spline")?,
         tube_length: fields.number("tube_length")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

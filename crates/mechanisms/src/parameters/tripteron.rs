@@ -5,8 +5,8 @@ use crate::parameters::{
     Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, pair, refused,
 };
 use crate::prebuilt::Tripteron;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
-use crate::text::fragment::Fragment;
 
 pub(super) const KIND: Kind = Kind {
     name: "Tripteron",
@@ -27,12 +27,9 @@ pub(super) const KIND: Kind = Kind {
 
 fn read(fields: &Fields<'_>) -> Result<Tripteron, LoadError> {
     let mechanism = Tripteron {
-        rail: pair(
-            fields,
-            "rail",
-            "two coordinates, `(0.0, 0.0)`",
-            Fragment::number,
-        )?,
+        rail: pair(fields, "rail", "two coordinates, `(0.0, 0.0)`", |value| {
+            value.quantity("`rail`", Dimension::LENGTH)
+        })?,
         platform_radius: fields.number("platform_radius")?,
         proximal_length: fields.number("proximal_length")?,
         distal_length: fields.number("distal_length")?,
@@ -40,7 +37,7 @@ fn read(fields: &Fields<'_>) -> Result<Tripteron, LoadError> {
         proximal: link(fields, "proximal")?,
         distal: link(fields, "distal")?,
         joint_stiffness: joint_stiffness(fields)?,
-        drive_stiffness: drive_stiffness(fields)?,
+        drive_stiffness: drive_stiffness(fields, &[Dimension::STIFFNESS])?,
         elements: elements(fields)?,
     };
     mechanism.check().map_err(|error| refused(fields, &error))?;

@@ -4,12 +4,19 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::columns::Given;
+use super::fragment::Fragment;
 use super::source::{Place, Source};
 use crate::error::LoadError;
-use crate::text::{names, slips};
+use crate::text::{names, quantities, slips};
 
 /// Names of the columns: a table has the first three or all six.
 pub(crate) const COLUMNS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// A number of a pose, by its place among the columns.
+pub(crate) fn quantity(column: usize, number: Fragment<'_>) -> Result<f64, LoadError> {
+    let dimension = quantities::DISPLACEMENT[column];
+    number.quantity(&format!("`{}`", COLUMNS[column]), dimension)
+}
 
 /// Reads all poses of a table; empty lines are passed over.
 pub(crate) fn read(table: &Arc<Source>, given: &Given<'_>) -> Result<Vec<[f64; 6]>, LoadError> {

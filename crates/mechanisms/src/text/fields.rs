@@ -3,9 +3,10 @@
 use hyperstat_elements::ElementError;
 
 use super::fragment::{Fragment, first_at};
-use super::source::Place;
+use super::scope::Scope;
+use super::tree::Node;
 use crate::error::LoadError;
-use crate::text::names;
+use crate::text::{names, quantities};
 
 /// The fields of `(name: value, …)`: each known, and none given twice.
 #[derive(Debug)]
@@ -90,10 +91,15 @@ impl<'a> Fields<'a> {
         self.values.iter().find_map(of_name)
     }
 
-    /// Where each of the fields that are given stands, of those that are `known`.
-    pub(crate) fn places(&self, known: &[&'static str]) -> Vec<(&'static str, Place)> {
-        let place = |name: &&'static str| Some((*name, self.get(name)?.place()));
-        known.iter().filter_map(place).collect()
+    /// The fields that are given, of those that are `known`, as they are written.
+    pub(crate) fn written(&self, known: &[&'static str]) -> Vec<(&'static str, Node)> {
+        let written = |name: &&'static str| Some((*name, Scope::written(self.get(name)?)));
+        known.iter().filter_map(written).collect()
+    }
+
+    /// What errors about the fields together point at.
+    pub(crate) fn whole(&self) -> Fragment<'a> {
+        self.whole
     }
 
     /// The value of a field that must be given.
@@ -106,14 +112,15 @@ impl<'a> Fields<'a> {
         })
     }
 
-    /// A finite number that must be given.
+    /// A finite number, SI, that must be given, of the [dimension](quantities::of) of its field.
     pub(crate) fn number(&self, name: &str) -> Result<f64, LoadError> {
-        self.required(name)?.number()
+        measured(name, self.required(name)?)
     }
 
-    /// A finite number that may be left out.
+    /// The same of a number that may be left out.
     pub(crate) fn optional_number(&self, name: &str) -> Result<Option<f64>, LoadError> {
-        self.get(name).map(Fragment::number).transpose()
+        let given = self.get(name);
+        given.map(|value| measured(name, value)).transpose()
     }
 
     /// An error at a field's value, or at the whole where the field is not given.
@@ -131,7 +138,7 @@ impl<'a> Fields<'a> {
             } => {
                 let message = match self.get(field) {
                     Some(given) => {
-                        format!("`{field}` of {} cannot be {}", self.owner, given.text())
+                        format!("`{field}` of {} cannot be {}", self.owner, given.shown())
                     }
                     None => format!("`{field}` of {} comes out as {value:?}", self.owner),
                 };
@@ -140,5 +147,13 @@ impl<'a> Fields<'a> {
             }
             other => self.whole.error(format!("{}: {other}", self.owner)),
         }
+    }
+}
+
+/// The number of a field, of the field's dimension; any that has none.
+fn measured(name: &str, value: Fragment<'_>) -> Result<f64, LoadError> {
+    match quantities::of(name) {
+        Some(dimension) => value.quantity(&format!("`{name}`"), dimension),
+        None => value.number(),
     }
 }

@@ -33,13 +33,6 @@ impl Named {
 }
 
 impl Node {
-    fn with(&self, content: Content) -> Self {
-        Self {
-            content,
-            ..self.clone()
-        }
-    }
-
     /// The entries of a map, or the fields of a struct or of a kind; nothing of anything else.
     pub(crate) fn entries(&self) -> &[Named] {
         match &self.content {

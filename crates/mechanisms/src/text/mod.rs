@@ -3,8 +3,11 @@
 pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
+pub mod dependence;
+pub mod dimension;
 #[cfg(feature = "fs")]
 pub(crate) mod disk;
+pub(crate) mod expression;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
@@ -12,11 +15,14 @@ pub(crate) mod made;
 pub(crate) mod named;
 pub(crate) mod names;
 pub(crate) mod paths;
+pub(crate) mod quantities;
 pub(crate) mod replace;
+pub(crate) mod scope;
 pub(crate) mod slips;
 pub(crate) mod source;
 pub(crate) mod syntax;
 pub(crate) mod table;
 pub(crate) mod tree;
+pub(crate) mod units;
 pub(crate) mod value;
 pub(crate) mod values;

@@ -2,9 +2,11 @@
 //!
 //! A path goes from the outside in: names of fields and of entries of maps, and places in tuples
 //! and lists, by number from 0. A kind has no step of its own: `rod.section.diameter` is the
-//! diameter of `rod: (section: Circle(diameter: 0.014), …)`.
+//! diameter of `rod: (section: Circle(diameter: 0.014), …)`. A parameter may be named alone: `R` is
+//! `parameters.R`, unless the mechanism has a field of that name.
 
 use super::fragment::Fragment;
+use super::scope::PARAMETERS;
 use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
@@ -12,6 +14,10 @@ use crate::text::names;
 /// The steps to the value of `root` that the path written at `key` leads to.
 pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
     let path = key.string()?;
+    let parameters = Parameters::of(root);
+    if let Some(steps) = parameters.named(&path) {
+        return Ok(steps);
+    }
     let (mut value, mut rest) = (root, path.as_str());
     let mut steps = Steps::new();
     loop {
@@ -20,6 +26,7 @@ pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
             key,
             path: &path,
             walked,
+            parameters: &parameters.names,
         };
         let (place, length) = step.take(Fragment::of_node(value))?;
         steps.push(place);
@@ -28,6 +35,34 @@ pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
         }
         value = value.part(place).ok_or_else(|| step.without_parts())?;
         rest = &path[walked + length + 1..];
+    }
+}
+
+/// The parameters of a mechanism, which a path may name alone.
+struct Parameters<'r> {
+    names: Vec<&'r str>,
+    /// Place of their map among the fields.
+    place: usize,
+    fields: Vec<&'r str>,
+}
+
+impl<'r> Parameters<'r> {
+    fn of(root: &'r Node) -> Self {
+        let fields: Vec<&str> = root.field_names().collect();
+        let place = fields.iter().position(|name| *name == PARAMETERS);
+        let map = place.and_then(|place| root.part(place));
+        Self {
+            names: map.map_or_else(Vec::new, |map| map.entry_names().collect()),
+            place: place.unwrap_or(0),
+            fields,
+        }
+    }
+
+    /// The steps to the parameter of this name, where no field has it.
+    fn named(&self, path: &str) -> Option<Steps> {
+        let place = self.names.iter().position(|name| *name == path)?;
+        let is_field = self.fields.contains(&path);
+        (!is_field).then(|| vec![self.place, place])
     }
 }
 
@@ -50,6 +85,8 @@ struct Step<'k> {
     path: &'k str,
     /// Bytes of the path before this step.
     walked: usize,
+    /// Names of the mechanism's parameters.
+    parameters: &'k [&'k str],
 }
 
 impl Step<'_> {
@@ -96,7 +133,8 @@ impl Step<'_> {
         match fitting.max_by_key(|(_, name)| name.len()) {
             Some((place, name)) => Ok((place, name.len())),
             None => {
-                let known = names.iter().map(String::as_str);
+                let parameters = self.parameters.iter().filter(|_| self.walked == 0);
+                let known = names.iter().map(String::as_str).chain(parameters.copied());
                 let what = "values written there";
                 let mut help = names::help(self.name(), what, known);
                 if help.starts_with("the") {

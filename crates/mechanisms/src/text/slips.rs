@@ -7,6 +7,8 @@ use std::ops::{Range, RangeInclusive};
 
 pub(crate) use separators::decimal_commas;
 
+use super::units;
+
 /// What was probably meant.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Slip {
@@ -175,7 +177,14 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     if wants_number && let Some(inner) = inner('"') {
         return match inner.parse::<f64>() {
             Ok(_) => Some(format!("numbers stand without quotes: write {inner}")),
-            Err(_) => of_number(inner).map(|(_, help)| help),
+            Err(_) => {
+                let pointed = inner.replacen(',', ".", 1);
+                let commas = inner.contains(',') && units::read(&pointed, None).is_ok();
+                match commas {
+                    true => Some(format!("write \"{pointed}\", with a decimal point")),
+                    false => of_number(inner).map(|(_, help)| help),
+                }
+            }
         };
     }
     if let (true, "True" | "False" | "yes" | "no") = (expected.contains("true"), text) {
@@ -199,7 +208,7 @@ fn of_number(text: &str) -> Option<(String, String)> {
     let rest = &text[first..];
     let operator = rest.chars().next()?;
     if OPERATORS.contains(operator) {
-        let message = "nothing is calculated in a file".to_string();
+        let message = "arithmetic stands in quotes, behind `=`".to_string();
         let [a, b] = [&text[..first], &rest[operator.len_utf8()..]].map(str::parse::<f64>);
         let value = match (a, b, operator) {
             (Ok(a), Ok(b), '*' | '×' | '·') => Some(a * b),
@@ -212,10 +221,10 @@ fn of_number(text: &str) -> Option<(String, String)> {
         // Without the rounding of 0.6 - 0.5.
         let value = value.and_then(|value| format!("{value:.11e}").parse::<f64>().ok());
         let value = value.filter(|value| value.is_finite());
-        let help = value.map_or_else(
-            || "write the number that comes out".into(),
-            |value| format!("write the number that comes out, {value:?}"),
-        );
+        let mut help = format!("write \"= {text}\"");
+        if let Some(value) = value {
+            help += &format!(", or the number that comes out, {value:?}");
+        }
         return Some((message, help));
     }
     if rest.contains(',') {
@@ -224,10 +233,17 @@ fn of_number(text: &str) -> Option<(String, String)> {
     let unit = operator.is_alphabetic() || "°%µ".contains(operator);
     let known = ["inf", "nan", "e", "E", "x", "b", "o"];
     if unit && !known.iter().any(|other| rest.starts_with(other)) {
-        return Some((
-            format!("a number has no unit: `{rest}` cannot follow it"),
-            "write the number alone, in m, N, rad, kg and s".into(),
-        ));
+        let (number, alone) = (&text[..first], "write the number alone, in SI units");
+        return Some(match units::read(text, None) {
+            Ok(_) => (
+                "a number with its unit stands in quotes".into(),
+                format!("write \"{number} {rest}\""),
+            ),
+            Err(_) => (
+                format!("`{rest}` is no unit that could follow a number"),
+                format!("{alone}, or with its unit in quotes, such as \"14 mm\""),
+            ),
+        });
     }
     None
 }
@@ -267,16 +283,33 @@ mod tests {
 
     #[test]
     fn what_stands_in_for_a_number_is_recognised() {
-        let comes_out = |value| Some(format!("write the number that comes out, {value}"));
-        assert_eq!(right("0.06/2"), comes_out("0.03"));
-        assert_eq!(right("2*0.5"), comes_out("1.0"));
-        assert_eq!(right("0.6-0.5"), comes_out("0.1"));
-        assert_eq!(right("-1e3+1"), comes_out("-999.0"));
+        let comes_out = |text: &str, value: &str| {
+            let right = right(text).unwrap();
+            let expected = format!("write \"= {text}\", or the number that comes out, {value}");
+            assert_eq!(right, expected);
+        };
+        comes_out("0.06/2", "0.03");
+        comes_out("2*0.5", "1.0");
+        comes_out("0.6-0.5", "0.1");
+        comes_out("-1e3+1", "-999.0");
+        assert_eq!(right("2*pi"), Some("write \"= 2*pi\"".into()));
         assert_eq!(right("0,014"), Some("write 0.014".into()));
-        let alone = Some("write the number alone, in m, N, rad, kg and s".into());
-        for unit in ["5mm", "0.3m", "30°", "210GPa", "5µm"] {
-            assert_eq!(right(unit), alone, "{unit}");
+        let units = [
+            ("5", "mm"),
+            ("0.3", "m"),
+            ("30", "°"),
+            ("210", "GPa"),
+            ("5", "µm"),
+        ];
+        for (number, unit) in units {
+            let expected = Some(format!("write \"{number} {unit}\""));
+            assert_eq!(right(&format!("{number}{unit}")), expected);
         }
+        assert!(
+            right("5furlongs")
+                .unwrap()
+                .starts_with("write the number alone")
+        );
         for no_slip in ["", "steel", "0.5", "-3e-4", "1e", "A1", "inf", "0x1f"] {
             assert_eq!(right(no_slip), None, "{no_slip}");
         }

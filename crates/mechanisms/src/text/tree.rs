@@ -4,12 +4,19 @@
 //! tree with other values at some places: what is not on the way to them is shared, and no text is read
 //! again. What a tree does not know of a value, because it is no value of that form, is asked of the
 //! value's text, so that mistakes are told as they are without a tree.
+//!
+//! Expressions stand in it as they are written; [`Scope`](super::scope::Scope) makes a tree of it in which
+//! their values stand in their places.
 
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::dimension::Dimension;
+use super::expression::Expression;
 use super::fragment::Fragment;
 use super::source::{Place, Source};
+use super::units;
+use crate::error::LoadError;
 
 /// A value and its parts. A copy shares the parts.
 #[derive(Debug, Clone)]
@@ -24,8 +31,14 @@ pub(crate) struct Node {
 pub(super) enum Content {
     /// A finite number.
     Number(f64),
+    /// A number of this dimension.
+    Measured(f64, Dimension),
     /// A text, without its quotes.
     Text(Arc<str>),
+    /// A text that begins with `=`.
+    Expression(Arc<Expression>),
+    /// What is wrong with an expression that stands here.
+    Failed(Arc<LoadError>),
     Tuple(Arc<[Node]>),
     List(Arc<[Node]>),
     Map(Arc<[Named]>),
@@ -64,16 +77,141 @@ impl Node {
         Self::of(Fragment::at(place))
     }
 
-    /// A number that is asked for at `origin` without standing there, such as one of a range.
-    pub(crate) fn number(number: f64, origin: Place) -> Self {
+    /// A number that is asked for at `origin` without standing there, such as one of a range: of this
+    /// dimension, if any.
+    pub(crate) fn number(number: f64, dimension: Option<Dimension>, origin: Place) -> Self {
         let text = written(number);
         Self {
             span: 0..text.len(),
-            content: match number.is_finite() {
-                true => Content::Number(number),
-                false => Content::Other,
+            content: match (number.is_finite(), dimension) {
+                (true, None) => Content::Number(number),
+                (true, Some(dimension)) => Content::Measured(number, dimension),
+                (false, _) => Content::Other,
             },
             source: Source::made(text, origin),
+        }
+    }
+
+    /// A value that is not taken apart: all is asked of its text.
+    pub(crate) fn whole(value: Fragment<'_>) -> Self {
+        Self {
+            source: Arc::clone(value.source()),
+            span: value.span(),
+            content: Content::Other,
+        }
+    }
+
+    /// The same place with another content.
+    pub(super) fn with(&self, content: Content) -> Self {
+        Self {
+            source: Arc::clone(&self.source),
+            span: self.span.clone(),
+            content,
+        }
+    }
+
+    /// The fields of a struct, or of the arguments of a kind.
+    pub(super) fn fields(&self) -> &[Named] {
+        match &self.content {
+            Content::Fields(named) => named,
+            Content::Kind(_, Some(inner)) => inner.fields(),
+            _ => &[],
+        }
+    }
+
+    /// Names of the fields of a struct, or of the arguments of a kind.
+    pub(super) fn field_names(&self) -> impl Iterator<Item = &str> {
+        self.fields().iter().map(|own| &*own.name)
+    }
+
+    /// Names of the entries of a map.
+    pub(crate) fn entry_names(&self) -> impl Iterator<Item = &str> {
+        let named: &[Named] = match &self.content {
+            Content::Map(named) => named,
+            _ => &[],
+        };
+        named.iter().map(|own| &*own.name)
+    }
+
+    /// Whether there are expressions in it.
+    pub(crate) fn has_expressions(&self) -> bool {
+        match &self.content {
+            Content::Expression(_) => true,
+            Content::Tuple(items) | Content::List(items) => items.iter().any(Self::has_expressions),
+            Content::Map(named) | Content::Fields(named) => {
+                named.iter().any(|own| own.value.has_expressions())
+            }
+            Content::Kind(_, Some(inner)) => inner.has_expressions(),
+            _ => false,
+        }
+    }
+
+    /// Puts the entries of a map into the map that stands in this field, each in the place of the one of
+    /// its name; a field that there is not is made.
+    pub(super) fn put_into(&mut self, field: &str, map: &Self) {
+        let named = match &mut self.content {
+            Content::Fields(named) => named,
+            Content::Kind(_, Some(inner)) => return Arc::make_mut(inner).put_into(field, map),
+            _ => return,
+        };
+        let own = named.iter().position(|own| &*own.name == field);
+        let Some(own) = own.and_then(|k| Arc::make_mut(named).get_mut(k)) else {
+            let made = Named {
+                name: field.into(),
+                source: Arc::clone(&map.source),
+                at: 0..0,
+                value: map.clone(),
+            };
+            *named = named.iter().cloned().chain([made]).collect();
+            return;
+        };
+        let (Content::Map(old), Content::Map(new)) = (&own.value.content, &map.content) else {
+            return;
+        };
+        let mut entries = old.to_vec();
+        for entry in new.iter() {
+            match entries.iter_mut().find(|old| old.name == entry.name) {
+                Some(old) => old.value = entry.value.clone(),
+                None => entries.push(entry.clone()),
+            }
+        }
+        own.value.content = Content::Map(entries.into());
+    }
+
+    /// Calls `take` for every expression in it.
+    pub(crate) fn expressions<'n>(&'n self, take: &mut dyn FnMut(&'n Expression)) {
+        match &self.content {
+            Content::Expression(expression) => take(expression),
+            Content::Tuple(items) | Content::List(items) => {
+                items.iter().for_each(|item| item.expressions(take));
+            }
+            Content::Map(named) | Content::Fields(named) => {
+                named.iter().for_each(|own| own.value.expressions(take));
+            }
+            Content::Kind(_, Some(inner)) => inner.expressions(take),
+            _ => {}
+        }
+    }
+
+    /// Takes the field of this name away from the arguments of a kind.
+    pub(super) fn drop_of_kind(&mut self, name: &str) {
+        if let Content::Kind(_, Some(inner)) = &mut self.content
+            && let Content::Fields(named) = &mut Arc::make_mut(inner).content
+        {
+            *named = named
+                .iter()
+                .filter(|own| &*own.name != name)
+                .cloned()
+                .collect();
+        }
+    }
+
+    /// The number that stands here, SI; of an expression not even that there is one is known.
+    pub(crate) fn as_number(&self) -> Option<f64> {
+        match &self.content {
+            Content::Number(number) | Content::Measured(number, _) => Some(*number),
+            Content::Text(text) => units::read(text, None).ok().map(|found| found.value),
+            _ => None,
         }
     }
 
@@ -105,12 +243,16 @@ impl Node {
                 }
                 None => (value.tuple("").ok()).map(|items| Content::Tuple(parts(items))),
             },
+            Some('"') if Expression::begins(value.text()) => {
+                let expression = Expression::read(value.text());
+                Some(Content::Expression(Arc::new(expression)))
+            }
             Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
             Some(first) if first.is_alphabetic() || first == '_' => {
                 let kind = value.variant("").ok();
                 kind.map(|(kind, inner)| Content::Kind(kind.span(), inner.map(part).map(Arc::new)))
             }
-            _ => value.number().ok().map(Content::Number),
+            _ => value.plain_number().ok().map(Content::Number),
         };
         Self {
             source: Arc::clone(value.source()),
@@ -144,6 +286,24 @@ impl Node {
         }
     }
 
+    /// The parts of it, each with the step of a path that leads there.
+    pub(super) fn parts(&self) -> Vec<(String, &Self)> {
+        match &self.content {
+            Content::Tuple(items) | Content::List(items) => {
+                let items = items.iter().enumerate();
+                items.map(|(k, item)| (k.to_string(), item)).collect()
+            }
+            Content::Map(named) | Content::Fields(named) => {
+                let named = named.iter();
+                named
+                    .map(|own| (own.name.to_string(), &own.value))
+                    .collect()
+            }
+            Content::Kind(_, Some(inner)) => inner.parts(),
+            _ => Vec::new(),
+        }
+    }
+
     /// The value that some steps lead to.
     pub(crate) fn find(&self, steps: &[usize]) -> Option<&Self> {
         steps.iter().try_fold(self, |node, &k| node.part(k))
@@ -169,7 +329,7 @@ impl Node {
         }
     }
 
-    /// All finite numbers in it that a path leads to, each with its path and its steps.
+    /// All finite numbers in it that a path leads to, each with its path and its steps; expressions, too.
     pub(crate) fn numbers(&self) -> Vec<Number> {
         let mut found = Vec::new();
         self.add_numbers("", &mut Vec::new(), &mut found);
@@ -177,28 +337,24 @@ impl Node {
     }
 
     fn add_numbers(&self, path: &str, steps: &mut Steps, found: &mut Vec<Number>) {
-        let parts: Vec<(String, &Self)> = match &self.content {
-            Content::Number(value) => {
-                found.push(Number {
-                    path: path.into(),
-                    steps: steps.clone(),
-                    value: *value,
-                });
+        match &self.content {
+            Content::Number(_)
+            | Content::Measured(..)
+            | Content::Text(_)
+            | Content::Expression(_) => {
+                let value = self.as_number();
+                if value.is_some() || matches!(self.content, Content::Expression(_)) {
+                    found.push(Number {
+                        path: path.into(),
+                        steps: steps.clone(),
+                        value,
+                    });
+                }
                 return;
             }
-            Content::Tuple(items) | Content::List(items) => {
-                let items = items.iter().enumerate();
-                items.map(|(k, item)| (k.to_string(), item)).collect()
-            }
-            Content::Map(named) | Content::Fields(named) => {
-                let named = named.iter();
-                named
-                    .map(|own| (own.name.to_string(), &own.value))
-                    .collect()
-            }
-            Content::Kind(_, Some(inner)) => return inner.add_numbers(path, steps, found),
-            _ => return,
-        };
+            _ => {}
+        }
+        let parts = self.parts();
         let dotted = parts.iter().any(|(name, _)| name.contains('.'));
         let before = path.len() + usize::from(!path.is_empty());
         for (k, (name, part)) in parts.iter().enumerate() {
@@ -231,7 +387,8 @@ impl Node {
 pub(crate) struct Number {
     pub(crate) path: String,
     pub(crate) steps: Steps,
-    pub(crate) value: f64,
+    /// `None` of an expression.
+    pub(crate) value: Option<f64>,
 }
 
 /// Whether the first steps of a path are this name.
@@ -279,7 +436,9 @@ mod tests {
     fn every_number_has_its_path_and_every_path_its_number() {
         let tree = tree(TEXT);
         let found = tree.numbers();
-        let listed: Vec<_> = found.iter().map(|n| (n.path.as_str(), n.value)).collect();
+        let listed: Vec<_> = (found.iter())
+            .map(|n| (n.path.as_str(), n.value.unwrap()))
+            .collect();
         // No path leads to the area of `a`: `sections.a.area` is another section.
         let expected = [
             ("sections.rod.diameter", 0.02),
@@ -297,7 +456,7 @@ mod tests {
         for number in found {
             assert_eq!(steps(&tree, &number.path), number.steps, "{}", number.path);
             let value = Fragment::of_node(tree.find(&number.steps).unwrap());
-            assert_eq!(value.number().unwrap(), number.value);
+            assert_eq!(value.number().ok(), number.value);
         }
     }
 
@@ -307,7 +466,7 @@ mod tests {
         let mut changed = whole.clone();
         let origin = whole.place();
         let way = steps(&whole, "sections.rod.diameter");
-        changed.replace(&way, Node::number(0.03, origin));
+        changed.replace(&way, Node::number(0.03, None, origin));
         let number = |tree: &Node| Fragment::of_node(tree.find(&way).unwrap()).number();
         assert_eq!(
             (number(&whole).unwrap(), number(&changed).unwrap()),

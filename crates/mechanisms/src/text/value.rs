@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::fragment::Fragment;
 use super::tree::{Node, written};
+use super::units;
 
 /// A value in the place of another of a mechanism.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,13 +46,15 @@ impl Value {
     }
 
     /// As it is written in a file in the place of `old`: where that is a text in quotes, such as the name
-    /// of a material, a text without quotes gets them.
+    /// of a material, a text without quotes gets them; an expression and a number with a unit always do.
     pub(crate) fn written(&self, old: Option<&Node>) -> String {
         match self {
             Self::Number(number) => written(*number),
             Self::Text(text) => {
                 let quoted = |text: &str| text.trim_start().starts_with('"');
-                match old.is_some_and(|old| quoted(old.text())) && !quoted(text) {
+                let number = text.starts_with('=') || units::read(text, None).is_ok();
+                let of_text = old.is_some_and(|old| quoted(old.text()));
+                match (of_text || number) && !quoted(text) {
                     true => format!("{text:?}"),
                     false => text.clone(),
                 }

@@ -1,5 +1,6 @@
 //! Evenly spaced numbers: an axis of a grid of poses, a range of a varied value.
 
+use super::dimension::Dimension;
 use super::fragment::Fragment;
 use crate::error::LoadError;
 
@@ -9,6 +10,8 @@ pub(crate) struct Values {
     first: f64,
     last: f64,
     count: usize,
+    /// What they measure, where that is said.
+    dimension: Option<Dimension>,
 }
 
 impl Values {
@@ -16,14 +19,36 @@ impl Values {
     pub(crate) const ZERO: Self = Self::new(0.0, 0.0, 1);
 
     pub(crate) const fn new(first: f64, last: f64, count: usize) -> Self {
-        Self { first, last, count }
+        Self {
+            first,
+            last,
+            count,
+            dimension: None,
+        }
     }
 
-    /// Reads `(first, last, count)`; `expected` says that in words.
-    pub(crate) fn read(fragment: Fragment<'_>, expected: &str) -> Result<Self, LoadError> {
+    /// Reads `(first, last, count)`, of this dimension, or of any; `expected` says that in words.
+    pub(crate) fn read(
+        fragment: Fragment<'_>,
+        expected: &str,
+        wanted: Option<Dimension>,
+    ) -> Result<Self, LoadError> {
         let [first, last, count] = fragment.array(expected)?;
         let expected = "a whole number of values, 1 or more";
-        let values = Self::new(first.number()?, last.number()?, count.parse(expected)?);
+        let (from, dimension) = first.measured(wanted)?;
+        let dimension = wanted.or(dimension);
+        let what = "a value of the range";
+        if let Some(dimension) = dimension {
+            first.quantity(what, dimension)?;
+        }
+        let to = match dimension {
+            Some(dimension) => last.quantity(what, dimension)?,
+            None => last.number()?,
+        };
+        let values = Self {
+            dimension,
+            ..Self::new(from, to, count.count(expected)?)
+        };
         if values.count == 0 {
             return Err(count.expected(expected));
         }
@@ -38,6 +63,11 @@ impl Values {
     /// How many they are, at least 1.
     pub(crate) fn len(&self) -> usize {
         self.count
+    }
+
+    /// What they measure, where that is said.
+    pub(crate) fn dimension(&self) -> Option<Dimension> {
+        self.dimension
     }
 
     /// The first and the last.

@@ -4,6 +4,7 @@ mod batches;
 mod broken;
 mod corpus;
 mod designs;
+mod expressions;
 mod fuzzing;
 mod loading;
 mod made;

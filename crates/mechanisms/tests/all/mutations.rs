@@ -109,6 +109,16 @@ fn tables_are_answered() {
     });
 }
 
+#[test]
+fn expressions_are_answered() {
+    change("expressions", fuzzing::expressions(), fuzzing::expression);
+}
+
+#[test]
+fn quantities_are_answered() {
+    change("quantities", fuzzing::quantities(), fuzzing::quantity);
+}
+
 fn answer(text: &str) {
     // What a batch names is found beside it.
     fuzzing::answer(text, Path::new("../../examples/mutated.ron"));
@@ -127,6 +137,8 @@ proptest! {
     fn anything_at_all(text in any::<String>()) {
         answer(&text);
         answer(&format!("(name: {text}"));
+        fuzzing::expression(&text);
+        fuzzing::quantity(&text);
     }
 }
 
@@ -142,6 +154,27 @@ fn deeply_nested_files_are_answered() {
         let closed = piece.replace(['(', '[', '{'], ")").replace("\"a\":", "");
         answer(&format!("{}{}", piece.repeat(100), closed.repeat(100)));
     }
+}
+
+#[test]
+fn deeply_nested_expressions_are_answered() {
+    for piece in [
+        "(", "-", "2^", "sin(", "1+", "a.", "'", ",", "1-(", "A+", "\n", "min(1,",
+    ] {
+        for count in [10, 55, 100, 10_000, 1_000_000] {
+            fuzzing::expression(&piece.repeat(count));
+            fuzzing::expression(&format!("{}1", piece.repeat(count)));
+            fuzzing::quantity(&format!("1 {}", piece.repeat(count)));
+        }
+    }
+    let chain = |count: usize| {
+        let one = |k: usize| format!("\"p{k}\": \"= p{} + 1\", ", k + 1);
+        let all: String = (0..count).map(one).collect();
+        answer(&format!(
+            "(name: \"chain\", parameters: {{ {all} \"p{count}\": 1 }})"
+        ));
+    };
+    [10, 99, 100, 101, 100_000].into_iter().for_each(chain);
 }
 
 #[test]

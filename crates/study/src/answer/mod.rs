@@ -1,5 +1,6 @@
 //! What `solve` and `check` find, as plain data: what the JSON is, and what tables are made from.
 
+mod by_parameter;
 mod cases;
 mod check;
 mod forces;

@@ -127,7 +127,7 @@ fn short(names: &[&str], few: usize) -> String {
 }
 
 /// The letter of a direction, as in files.
-fn letter(dof: Dof) -> &'static str {
+pub(super) fn letter(dof: Dof) -> &'static str {
     match dof {
         Dof::X => "x",
         Dof::Y => "y",

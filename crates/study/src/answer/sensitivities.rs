@@ -1,12 +1,12 @@
 //! What 1 % more of every parameter would change: of the deflection, and of natural frequencies.
 
 use hyperstat_assembly::{
-    FrequencySensitivity, Influence, ModalSensitivities, Sensitivity, Solution, SolveError,
-    larger_first,
+    FrequencySensitivity, Influence, ModalOptions, ModalSensitivities, Sensitivity, Solution,
+    SolveError, larger_first,
 };
 use serde::Serialize;
 
-use super::{Rows, numbers, parameters, rows};
+use super::{Rows, by_parameter, numbers, parameters, rows};
 use crate::study::Study;
 
 /// How the output answers to a parameter. Field names are those of the JSON output.
@@ -14,6 +14,9 @@ use crate::study::Study;
 pub struct SensitivityReport {
     /// Its path, as `vary` takes it, or words.
     pub parameter: String,
+    /// Whether its derivatives are differences of the whole answer, not exact.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_differences: bool,
     /// Its value, SI.
     pub value: f64,
     /// Relative change of the budget's total per relative change of the parameter.
@@ -42,6 +45,9 @@ pub struct FrequencyReport {
 pub struct FrequencySensitivityReport {
     /// Its path, as `vary` takes it, or words.
     pub parameter: String,
+    /// Whether its derivatives are differences of the whole answer, not exact.
+    #[serde(skip_serializing_if = "is_false")]
+    pub by_differences: bool,
     /// Its value, SI.
     pub value: f64,
     /// Relative change of each frequency per relative change of the parameter.
@@ -56,14 +62,21 @@ impl SensitivityReport {
         study: &Study,
         influence: &Influence<'_>,
         solution: &Solution,
+        case: Option<&str>,
         relative: impl Fn(&Sensitivity) -> Option<f64>,
     ) -> Result<Vec<Self>, SolveError> {
-        let found = influence.sensitivities(solution)?;
+        let mut found = influence.sensitivities(solution)?;
+        let known = found.len();
+        let parameters = by_parameter::of_output(study, &found, case);
+        let differences: Vec<bool> = parameters.iter().map(|own| own.by_differences).collect();
+        found.extend(parameters.into_iter().map(|own| own.sensitivity));
         let named = found.iter().map(|s| (s.name.as_deref(), &s.parameter));
         let names = parameters::names(study.model(), named);
-        let mut all: Vec<Self> = (found.iter().zip(names))
-            .map(|(s, parameter)| Self {
+        let by_differences = std::iter::repeat_n(false, known).chain(differences);
+        let mut all: Vec<Self> = (found.iter().zip(names).zip(by_differences))
+            .map(|((s, parameter), by_differences)| Self {
                 parameter,
+                by_differences,
                 value: s.value,
                 relative: relative(s),
                 displacement: s.displacement.as_ref().map(numbers),
@@ -90,21 +103,29 @@ impl SensitivityReport {
 
 impl FrequencyReport {
     /// Those of a model, one a group of equal frequencies.
-    pub fn all(study: &Study, found: &ModalSensitivities) -> Vec<Self> {
-        let named = found.parameters.iter();
+    pub fn all(study: &Study, found: &ModalSensitivities, options: &ModalOptions) -> Vec<Self> {
+        let parameters = by_parameter::of_frequencies(study, found, options);
+        let (own, differences): (Vec<_>, Vec<_>) = parameters.into_iter().unzip();
+        let by_differences: Vec<bool> = std::iter::repeat_n(false, found.parameters.len())
+            .chain(differences)
+            .collect();
+        let named = found.parameters.iter().chain(&own);
         let named = named.map(|s| (s.name.as_deref(), &s.parameter));
         let names = parameters::names(study.model(), named);
         let group = |group: &std::ops::Range<usize>| {
-            let own = |(s, name): (&FrequencySensitivity, &String)| FrequencySensitivityReport {
-                parameter: name.clone(),
-                value: s.value,
-                relative: (group.clone())
-                    .map(|place| s.relative(&found.frequencies, place))
-                    .collect(),
-                derivative: s.derivatives[group.clone()].to_vec(),
+            let report = |(place, (s, name)): (usize, (&FrequencySensitivity, &String))| {
+                FrequencySensitivityReport {
+                    parameter: name.clone(),
+                    by_differences: by_differences[place],
+                    value: s.value,
+                    relative: (group.clone())
+                        .map(|place| s.relative(&found.frequencies, place))
+                        .collect(),
+                    derivative: s.derivatives[group.clone()].to_vec(),
+                }
             };
-            let all = found.parameters.iter().zip(&names);
-            let mut sensitivities: Vec<_> = all.map(own).collect();
+            let all = found.parameters.iter().chain(&own).zip(&names).enumerate();
+            let mut sensitivities: Vec<_> = all.map(report).collect();
             sensitivities.sort_by(|a, b| larger_first(a.size(), b.size()));
             Self {
                 modes: group.clone().map(|place| place + 1).collect(),
@@ -120,6 +141,12 @@ impl FrequencySensitivityReport {
     fn size(&self) -> f64 {
         largest(self.relative.as_deref().unwrap_or_default())
     }
+}
+
+// serde asks with a reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// Largest size of some numbers.

@@ -7,6 +7,7 @@ use super::joint;
 use super::placement::Placement;
 use super::renamed::Names;
 use crate::error::LoadError;
+use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
 use crate::text::tree::{Named, Node};
 
@@ -21,9 +22,20 @@ pub(super) struct Copy<'g> {
 }
 
 /// Fields of a load that are forces.
-const FORCES: [&str; 4] = ["force", "per_length", "from", "to"];
+const FORCES: [(&str, Dimension); 4] = [
+    ("force", Dimension::FORCE),
+    ("per_length", Dimension::STIFFNESS),
+    ("from", Dimension::STIFFNESS),
+    ("to", Dimension::STIFFNESS),
+];
 /// Fields of a load that are moments.
-const MOMENTS: [&str; 2] = ["moment", "moment_per_length"];
+const MOMENTS: [(&str, Dimension); 2] = [
+    ("moment", Dimension::MOMENT),
+    ("moment_per_length", Dimension::FORCE),
+];
+
+/// What the numbers of a direction are.
+pub(super) const DIRECTION: (&str, Dimension) = ("a part of a direction", Dimension::NUMBER);
 
 impl<'g> Copy<'g> {
     /// The copy whose names end with `ending`.
@@ -56,7 +68,9 @@ impl<'g> Copy<'g> {
     pub(super) fn points(&self) -> Result<Vec<Named>, LoadError> {
         self.entries("points", |point| match self.placement {
             here if *here == Placement::HERE => Ok(point.clone()),
-            placement => vector(point, |p| placement.point(p)),
+            placement => vector(point, ("a coordinate", Dimension::LENGTH), |p| {
+                placement.point(p)
+            }),
         })
     }
 
@@ -132,7 +146,7 @@ impl<'g> Copy<'g> {
     fn position(&self, name: &Node) -> Option<Vector3<f64>> {
         let find = |node: &Node| {
             let point = node.get("points")?.get(name.as_text()?)?;
-            Fragment::of_node(point).vector().ok()
+            Fragment::of_node(point).vector("", Dimension::LENGTH).ok()
         };
         find(self.group).or_else(|| find(self.root))
     }
@@ -169,14 +183,17 @@ impl<'g> Copy<'g> {
             if self.placement.keeps_axes() {
                 return Ok(made);
             }
-            for field in FORCES {
+            for (field, dimension) in FORCES {
                 if let Some(force) = load.get(field) {
-                    made = made.with_field(field, self.direction(force)?);
+                    let what = (&*format!("`{field}`"), dimension);
+                    let force = vector(force, what, |f| self.placement.direction(f))?;
+                    made = made.with_field(field, force);
                 }
             }
-            for field in MOMENTS {
+            for (field, dimension) in MOMENTS {
                 if let Some(moment) = load.get(field) {
-                    let moment = vector(moment, |m| self.placement.moment(m))?;
+                    let what = (&*format!("`{field}`"), dimension);
+                    let moment = vector(moment, what, |m| self.placement.moment(m))?;
                     made = made.with_field(field, moment);
                 }
             }
@@ -206,19 +223,20 @@ impl<'g> Copy<'g> {
         self.group.get(part).map_or(&[][..], Node::items)
     }
 
-    /// A direction or a force, as the copy turns it.
+    /// A direction, as the copy turns it.
     fn direction(&self, node: &Node) -> Result<Node, LoadError> {
         if self.placement.keeps_axes() {
             return Ok(node.clone());
         }
-        vector(node, |v| self.placement.direction(v))
+        vector(node, DIRECTION, |v| self.placement.direction(v))
     }
 
     /// An inertia, `(Jxx, Jyy, Jzz)` or six entries, as the copy turns it.
     fn inertia(&self, node: &Node) -> Result<Node, LoadError> {
         let numbers = node.items().iter();
-        let numbers: Vec<f64> =
-            (numbers.map(|own| Fragment::of_node(own).acting())).collect::<Result<_, _>>()?;
+        let numbers: Vec<f64> = (numbers
+            .map(|own| Fragment::of_node(own).acting("`inertia`", Dimension::INERTIA)))
+        .collect::<Result<_, _>>()?;
         let (xy, xz, yz) = match numbers[..] {
             [_, _, _] => (0.0, 0.0, 0.0),
             [_, _, _, xy, xz, yz] => (xy, xz, yz),
@@ -233,11 +251,12 @@ impl<'g> Copy<'g> {
     }
 }
 
-/// Three numbers with others in their places.
+/// Three numbers, `what` of this dimension, with others in their places.
 pub(super) fn vector(
     node: &Node,
+    (what, dimension): (&str, Dimension),
     make: impl FnOnce(&Vector3<f64>) -> Vector3<f64>,
 ) -> Result<Node, LoadError> {
-    let given = Fragment::of_node(node).vector()?;
+    let given = Fragment::of_node(node).vector(what, dimension)?;
     Ok(node.numbers_in_place(make(&given).as_slice()))
 }

@@ -7,7 +7,7 @@
 use hyperstat_joints::frame_from_axis;
 use nalgebra::Vector3;
 
-use super::copy::vector;
+use super::copy::{DIRECTION, vector};
 use super::placement::Placement;
 use crate::error::LoadError;
 use crate::text::fragment::Fragment;
@@ -39,7 +39,7 @@ pub(super) fn turned(joint: &Node, placement: &Placement) -> Result<Node, LoadEr
 
 /// The joint with its frame turned.
 fn framed(joint: &Node, kind: &Node, placement: &Placement) -> Result<Node, LoadError> {
-    let turn = |node: &Node| vector(node, |v| placement.direction(v));
+    let turn = |node: &Node| vector(node, DIRECTION, |v| placement.direction(v));
     let x_axis = joint.get("x_axis");
     let mut made = joint.clone();
     let mut own = kind.clone();

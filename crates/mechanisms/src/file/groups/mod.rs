@@ -20,6 +20,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment, first_at};
 use crate::text::names;
 use crate::text::paths;
+use crate::text::scope::Scope;
 use crate::text::tree::{Named, Node};
 
 /// The fields of a group, which are fields of a mechanism too.
@@ -55,15 +56,56 @@ impl Copies {
     }
 }
 
-/// Writes out the groups of a mechanism: those of `copies`.
+/// The mechanism with the values of its expressions in their places, and its groups written out: those of
+/// `copies`. In a group, expressions know its points as it is written; elsewhere those of all copies.
 pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
     let mut written = Written {
         root: root.clone(),
         copies: Copies::default(),
     };
+    if root.get("groups").is_some() || root.get("copies").is_some() {
+        let root = valued(root)?;
+        of_copies(&root, &mut written)?;
+    }
+    written.root = Scope::tree(&written.root)?;
+    Ok(written)
+}
+
+/// The mechanism with the values of the expressions of its groups, and of what is said of their copies, in
+/// their places.
+fn valued(root: &Node) -> Result<Node, LoadError> {
+    let mut tree = root.clone();
+    if let Some(copies) = root.get("copies") {
+        let copies = Scope::lazy(root)?.valued(copies);
+        tree = tree.with_field("copies", copies);
+    }
+    if let Some(groups) = root.get("groups") {
+        let mut made = Vec::new();
+        for own in groups.entries() {
+            let mut points = own
+                .value()
+                .get("points")
+                .map_or(&[][..], Node::entries)
+                .to_vec();
+            points.extend_from_slice(root.get("points").map_or(&[][..], Node::entries));
+            let place = own.value().get("points").unwrap_or(groups);
+            let root = root.with_field("points", place.map_in_place(points));
+            made.push(own.with(own.name(), Scope::lazy(&root)?.valued(own.value())));
+        }
+        // What is no map is told where it is read.
+        if !made.is_empty() {
+            tree = tree.with_field("groups", groups.map_in_place(made));
+        }
+    }
+    Ok(tree)
+}
+
+/// Writes out the copies, whose numbers are known.
+fn of_copies(root: &Node, written: &mut Written) -> Result<(), LoadError> {
     let groups = root.get("groups");
     let Some(copies) = root.get("copies") else {
-        return Ok(written);
+        written.root = root.without_field("groups");
+        return Ok(());
     };
     let groups: Vec<Entry<'_>> = match groups {
         Some(groups) => Fragment::of_node(groups).map()?,
@@ -83,7 +125,7 @@ pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
             .get("groups")
             .and_then(|groups| groups.get(&entry.name));
         let Some(node) = node else { continue };
-        of_group(&entry, group, node, root, &mut parts, &mut written)?;
+        of_group((&entry, copies), (group, node), root, &mut parts, written)?;
     }
     let mut tree = root.without_field("groups").without_field("copies");
     for (name, part) in PARTS.into_iter().zip(parts) {
@@ -93,25 +135,26 @@ pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
         }
     }
     written.root = tree;
-    Ok(written)
+    Ok(())
 }
 
 /// Adds the copies of one group.
 fn of_group(
-    entry: &Entry<'_>,
-    group: &Entry<'_>,
-    node: &Node,
+    (entry, copies): (&Entry<'_>, &Node),
+    (group, node): (&Entry<'_>, &Node),
     root: &Node,
     parts: &mut [Parts; 5],
     written: &mut Written,
 ) -> Result<(), LoadError> {
     let owner = format!("group `{}`", group.name);
     Fields::read(group.value, owner, &PARTS)?;
+    check_names(group, node, root)?;
     let (places, names, overrides) = read(entry)?;
     let overrides = match overrides {
         Some(map) => map.map()?,
         None => Vec::new(),
     };
+    let of_copy = |name: &str| copies.get(&entry.name)?.get("overrides")?.get(name);
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     for own in &overrides {
         if !names.contains(&own.name) {
@@ -123,7 +166,7 @@ fn of_group(
     }
     for (placement, name) in places.iter().zip(&names) {
         let own = overrides.iter().find(|own| own.name == *name);
-        let (node, changed) = changed(node, own)?;
+        let (node, changed) = changed(node, own.zip(of_copy(name)))?;
         let copy = Copy::new(&node, root, placement, name);
         let joints = copy.joints(|joint, made| {
             let path = format!("groups.{}.joints.{joint}", group.name);
@@ -208,18 +251,39 @@ fn endings(list: Fragment<'_>, count: usize) -> Result<Vec<String>, LoadError> {
 }
 
 /// A group with the values that a copy has for itself, and the paths of these.
-fn changed(group: &Node, own: Option<&Entry<'_>>) -> Result<(Node, Vec<String>), LoadError> {
+fn changed(
+    group: &Node,
+    own: Option<(&Entry<'_>, &Node)>,
+) -> Result<(Node, Vec<String>), LoadError> {
     let mut node = group.clone();
     let mut changed = Vec::new();
-    let Some(own) = own else {
+    let Some((own, values)) = own else {
         return Ok((node, changed));
     };
-    for value in own.value.map()? {
+    for (value, own) in own.value.map()?.into_iter().zip(values.entries()) {
         let steps = paths::find(group, value.key)?;
-        node.replace(&steps, Node::of(value.value));
+        node.replace(&steps, own.value().clone());
         changed.push(value.name);
     }
     Ok((node, changed))
+}
+
+/// Refuses a point or a body of a group that has the name of one of the mechanism: which of the two is
+/// meant could not be told.
+fn check_names(group: &Entry<'_>, node: &Node, root: &Node) -> Result<(), LoadError> {
+    for (part, what) in [("points", "point"), ("bodies", "body")] {
+        let entries = node.get(part).map_or(&[][..], Node::entries);
+        if let Some(own) = entries.iter().find(|own| {
+            let other = root.get(part).and_then(|part| part.get(own.name()));
+            other.is_some()
+        }) {
+            let name = own.name();
+            let message = format!("the mechanism has a {what} `{name}`, too");
+            let help = format!("give the one of group `{}` another name", group.name);
+            return Err(own.place().error(message).with_help(help));
+        }
+    }
+    Ok(())
 }
 
 /// Entries or items of one field of a mechanism, the file's own first.

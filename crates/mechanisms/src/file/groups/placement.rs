@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use crate::error::LoadError;
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
@@ -140,12 +141,14 @@ fn turned(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
             }
             angles
                 .into_iter()
-                .map(Fragment::number)
+                .map(|own| own.quantity("an angle", Dimension::ANGLE))
                 .collect::<Result<Vec<_>, _>>()?
         }
         None => {
             let count = count(fields.required("count")?)?;
-            let step = fields.optional_number("step")?;
+            let step = (fields.get("step"))
+                .map(|step| step.quantity("`step`", Dimension::ANGLE))
+                .transpose()?;
             let step = step.unwrap_or(std::f64::consts::TAU / count as f64);
             (0..count).map(|k| k as f64 * step).collect()
         }
@@ -168,7 +171,7 @@ fn moved(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
         ..Placement::HERE
     };
     if let Some(number) = fields.get("count") {
-        let (step, count) = (by.vector()?, count(number)?);
+        let (step, count) = (by.vector("`by`", Dimension::LENGTH)?, count(number)?);
         return Ok((0..count).map(|k| moved(k as f64 * step)).collect());
     }
     let list = by.list("a list of vectors, or one vector with a `count` of copies")?;
@@ -176,14 +179,14 @@ fn moved(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
         return Err(by.error("no vectors make no copies"));
     }
     list.into_iter()
-        .map(|own| own.vector().map(moved))
+        .map(|own| own.vector("`by`", Dimension::LENGTH).map(moved))
         .collect()
 }
 
 /// Reads a number of copies.
 fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     let expected = format!("a whole number of copies from 1 to {MOST}");
-    let count = fragment.parse(&expected)?;
+    let count = fragment.count(&expected)?;
     if !(1..=MOST).contains(&count) {
         return Err(fragment.expected(&expected));
     }
@@ -192,6 +195,9 @@ fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
 
 /// The point that an axis or a plane goes through; the origin where none is given.
 fn through(fields: &Fields<'_>) -> Result<Point3<f64>, LoadError> {
-    let point = fields.get("through").map(Fragment::vector).transpose()?;
+    let point = fields.get("through");
+    let point = point
+        .map(|point| point.vector("`through`", Dimension::LENGTH))
+        .transpose()?;
     Ok(point.unwrap_or_default().into())
 }

@@ -2,14 +2,15 @@
 //! tests share.
 //!
 //! A text stands in a [`Folder`] beside all files that the repository's mechanisms name.
-//! [`answer`] reads it as a mechanism or batch, [`table`] as the tables that files name; [`solve`]
-//! takes what was read on: poses, plans, solutions. Each says whether the text was taken.
+//! [`answer`] reads it as a mechanism or batch, [`table`] as the tables that files name, [`expression`]
+//! and [`quantity`] as what may stand in the place of a number; [`solve`] takes what was read on: poses, plans, solutions. Each says whether the text was taken.
 
 // A fuzz target uses a part of this, and the tests use the rest.
 #![allow(dead_code)]
 
 mod folder;
 mod mutator;
+mod numbers;
 mod random;
 mod solve;
 mod table;
@@ -22,6 +23,7 @@ use hyperstat_mechanisms::{
 
 pub use folder::{Folder, jobs_alone, seeds};
 pub use mutator::Mutator;
+pub use numbers::{expression, expressions, quantities, quantity};
 pub use random::Random;
 pub use solve::solve;
 pub use table::{ROLES, table};
