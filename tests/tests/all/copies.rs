@@ -210,3 +210,149 @@ fn three_limbs_written_as_one_are_the_prebuilt_delta() {
         }
     }
 }
+
+fn refused(text: &str) -> String {
+    let files = MemoryFiles::from_iter([
+        ("loop.ron", r#"(include: ["b.ron"])"#),
+        (
+            "steel.ron",
+            r#"(materials: { "steel": (young: 1e11, poisson: 0.3) })"#,
+        ),
+    ]);
+    let found = mechanism_from_str(text, Path::new("b.ron"), &files, &Registry::builtin());
+    let error = found.expect_err("a mistake");
+    format!("{error}; {}", error.help().unwrap_or_default())
+}
+
+/// A bar on the ground in some copies, with more fields.
+fn bar(copies: &str, more: &str) -> String {
+    format!(
+        r#"(name: "bars", materials: {{ "steel": (young: 2.1e11, poisson: 0.3) }}, sections: {{ "rod": Circle(diameter: 0.02) }},
+groups: {{ "bar": (points: {{ "A": (1.0, 0.0, 0.0), "B": (1.0, 0.0, 1.0) }},
+    bodies: {{ "rod": Beam(through: ["A", "B"], section: "rod", material: "steel") }},
+    joints: {{ "A": (at: "A", between: ("ground", "rod"), kind: Fixed) }}) }},
+copies: {{ {copies} }}, {more} output: ("rod2", "B2"))"#
+    )
+}
+
+#[test]
+fn mistakes_in_copies_are_told_where_they_are() {
+    for (copies, more, wanted) in [
+        (
+            r#""bra": Turned(axis: (0.0, 0.0, 1.0), count: 3)"#,
+            "",
+            "b.ron:5:11: unknown group `bra`; did you mean `bar`?",
+        ),
+        (
+            r#""bar": Turnt(axis: (0.0, 0.0, 1.0), count: 3)"#,
+            "",
+            "b.ron:5:18: unknown way of placing copies `Turnt`; did you mean `Turned`?",
+        ),
+        (
+            r#""bar": Turned(axis: (0.0, 0.0, 1.0), count: 0)"#,
+            "",
+            "b.ron:5:55: expected a whole number of copies from 1 to 10000, found `0`; ",
+        ),
+        (
+            r#""bar": Turned(axis: (0.0, 0.0, 1.0), count: "3 mm")"#,
+            "",
+            "b.ron:5:55: expected a whole number of copies from 1 to 10000",
+        ),
+        (
+            r#""bar": Moved(by: ("1 N", 0.0, 0.0), count: 3)"#,
+            "",
+            "b.ron:5:29: `by` is a length, \"1 N\" is a force; give it in m",
+        ),
+        (
+            r#""bar": (places: Moved(by: [(1.0, 0.0, 0.0)]), names: ["a", "b"])"#,
+            "",
+            "b.ron:5:64: there are 1 copies, and 2 endings; give one ending for each copy",
+        ),
+        (
+            r#""bar": (places: Mirrored(normal: (1.0, 0.0, 0.0)), overrides: { "3": {} })"#,
+            "",
+            "b.ron:5:75: group `bar` has no copy `3`; the copies are `1`, `2`",
+        ),
+        (
+            r#""bar": (places: Mirrored(normal: (1.0, 0.0, 0.0)), overrides: { "2": { "points.C.0": 2.0 } })"#,
+            "",
+            "`points` has no `C`",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"points: { "A": (0.0, 0.0, 0.0) },"#,
+            "b.ron:2:29: the mechanism has a point `A`, too; give the one of group `bar` another name",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"points: { "A2": (0.0, 0.0, 0.0) },"#,
+            "b.ron:2:29: a copy makes a second point `A2`; it stands in line 5 already; remove one of the two",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"include: ["steel.ron"],"#,
+            "steel.ron:1:16: the name \"steel\" is given twice; it stands in b.ron:1:33 already; remove one of the two",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"include: ["loop.ron"],"#,
+            "loop.ron:1:12: b.ron includes itself",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"include: ["../b.ron"],"#,
+            "a file that is included lies in the folder",
+        ),
+        (
+            r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
+            r#"include: ["none.ron"],"#,
+            "cannot read none.ron",
+        ),
+    ] {
+        let found = refused(&bar(copies, more));
+        assert!(
+            found.contains(wanted),
+            "{copies} {more}:\n{found}\n{wanted}"
+        );
+    }
+}
+
+#[test]
+fn a_group_is_one_for_whoever_varies_it_and_a_copy_may_differ() {
+    let copies = r#""bar": (places: Moved(by: (0.5, 0.0, 0.0), count: 3), names: ["1", "2", "3"],
+        overrides: { "3": { "points.B.2": "= 2 * B.z", "joints.A.stiffness": (x: 1e7) } })"#;
+    let text = bar(copies, r#"parameters: { "k": 1e6 },"#)
+        .replace("kind: Fixed)", r#"kind: Fixed, stiffness: (x: "= k"))"#);
+    // In the group `B` is its own; in `copies` there is none of this name.
+    assert!(
+        refused(&text).contains("unknown name `B`"),
+        "{}",
+        refused(&text)
+    );
+    let text = text.replace("= 2 * B.z", "= 2 * k / 1e6");
+    let files = MemoryFiles::new();
+    let read = mechanism_from_str(&text, Path::new("b.ron"), &files, &Registry::builtin());
+    let read = read.unwrap_or_else(|error| panic!("{error}"));
+    let height = |model: &Model, name: &str| {
+        let place = model.nodes().iter().position(|node| node.point == name);
+        model.geometry().positions[place.expect("a point")]
+    };
+    assert_eq!(
+        height(&read.model, "B3"),
+        nalgebra::Point3::new(2.0, 0.0, 2.0)
+    );
+    let varied = read
+        .with_values(&[("groups.bar.points.B.2", 1.5)])
+        .expect("a mechanism");
+    for (name, z) in [("B1", 1.5), ("B2", 1.5), ("B3", 2.0)] {
+        assert_eq!(height(&varied.model, name).z, z, "{name}");
+    }
+    let mut named = read.model.clone();
+    read.name_values(&mut named);
+    let names: Vec<_> = named
+        .values()
+        .into_iter()
+        .map(|(place, _)| format!("{place:?}"))
+        .collect();
+    assert!(!names.is_empty());
+}
