@@ -10,16 +10,22 @@
 //! [`Mechanism::place_at`]. SI units; vectors in global axes; a pose is x y z \[m\] and a rotation vector
 //! rx ry rz \[rad\] from the home orientation.
 
+mod begin;
 mod builtin;
 mod error;
 mod file;
 mod job;
+mod layout;
 mod load;
 mod parameters;
 pub mod prebuilt;
+mod schema;
+mod terms;
 mod text;
+mod words;
 mod write;
 
+pub use begin::{begin, beginnings, to_json};
 pub use error::{LoadError, Location};
 pub use file::mechanism::Mechanism;
 pub use file::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
@@ -31,14 +37,16 @@ pub use job::figures::{Along, ColorScale, Figure, Scale};
 pub use job::made::{JobLoad, JobMechanism, JobPoses};
 pub use job::mover::Placing;
 pub use job::vary::Varied;
+pub use layout::{format, format_file};
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };
 pub use prebuilt::PoseError;
+pub use schema::schema;
 pub use text::files;
 #[cfg(feature = "fs")]
 pub use text::files::Disk;
 pub use text::files::{Files, MemoryFiles};
 pub use text::names::nearest;
 pub use text::value::Value;
-pub use write::{WriteError, write};
+pub use write::{WriteError, write, write_json};

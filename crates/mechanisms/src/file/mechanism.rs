@@ -16,6 +16,7 @@ use super::value_names::Given;
 use crate::error::{LoadError, Location};
 use crate::file::{bodies, joints, loads, materials, nodes, value_names};
 use crate::prebuilt::PoseError;
+use crate::terms::mechanism::MECHANISM;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::paths;
@@ -49,20 +50,7 @@ impl Mechanism {
     pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
         let root = Arc::new(root);
         let fragment = Fragment::of_node(&root);
-        let known = [
-            "name",
-            "materials",
-            "sections",
-            "points",
-            "bodies",
-            "joints",
-            "loads",
-            "cases",
-            "gravity",
-            "masses",
-            "output",
-        ];
-        let fields = Fields::read(fragment, "the mechanism", &known)?;
+        let fields = Fields::read(fragment, "the mechanism", &MECHANISM.names())?;
         let mut model = Model::new(fields.required("name")?.string()?);
         let tables = Tables {
             materials: Table::read(fields.get("materials"), "material", |entry, owner| {

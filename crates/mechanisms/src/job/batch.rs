@@ -17,6 +17,7 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
+use crate::terms::job::{BATCH, JOB};
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
 use crate::text::source::Place;
@@ -60,12 +61,12 @@ pub struct Job {
 impl Batch {
     /// Reads the value of a batch file.
     pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
-        let fields = Fields::read(fragment, "the batch", &["jobs"])?;
+        let fields = Fields::read(fragment, "the batch", &BATCH.names())?;
         let list = fields.required("jobs")?;
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
         for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
-            let fields = Fields::read(fragment, "a job", &FIELDS)?;
+            let fields = Fields::read(fragment, "a job", &JOB.names())?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
@@ -88,23 +89,6 @@ impl Batch {
         first.map_or_else(Vec::new, |job| job.place.source.files())
     }
 }
-
-/// The fields of a job.
-pub(super) const FIELDS: [&str; 13] = [
-    "name",
-    "mechanism",
-    "poses",
-    "loads",
-    "cases",
-    "gravity",
-    "masses",
-    "misfits",
-    "preloads",
-    "figures",
-    "vary",
-    "zip",
-    "modes",
-];
 
 /// The error of the name `at`, which makes the same files as the one `first`.
 fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
@@ -176,7 +160,7 @@ impl Job {
             figures,
             figure_places,
             modes,
-            written: fields.places(&FIELDS),
+            written: fields.places(&JOB.names()),
             recipe,
             poses,
             designs,

@@ -1,5 +1,6 @@
 //! Text of files: reading it, places in it, names and paths, tables.
 
+pub(crate) mod as_json;
 pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
@@ -8,9 +9,12 @@ pub(crate) mod disk;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
+pub(crate) mod json;
+pub(crate) mod json_syntax;
 pub(crate) mod named;
 pub(crate) mod names;
 pub(crate) mod paths;
+pub(crate) mod raw;
 pub(crate) mod replace;
 pub(crate) mod slips;
 pub(crate) mod source;

@@ -4,7 +4,7 @@
 //! and lists, by number from 0. A kind has no step of its own: `rod.section.diameter` is the
 //! diameter of `rod: (section: Circle(diameter: 0.014), …)`.
 
-use super::fragment::Fragment;
+use super::fragment::{Fragment, Parts};
 use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
@@ -56,6 +56,11 @@ impl Step<'_> {
     /// Takes the step from `value`: the place of the part it leads to, and how many bytes of the path
     /// it is.
     fn take(&self, value: Fragment<'_>) -> Result<(usize, usize), LoadError> {
+        match value.parts() {
+            Some(Parts::Named(names)) => return self.of_names(&names),
+            Some(Parts::Listed(count)) => return self.of_list(count),
+            None => {}
+        }
         let inside = contents(value);
         let first = inside.text().chars().next();
         match first {

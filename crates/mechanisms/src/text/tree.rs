@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::fragment::Fragment;
+use super::json;
 use super::source::{Place, Source};
 
 /// A value and its parts. A copy shares the parts.
@@ -16,12 +17,12 @@ use super::source::{Place, Source};
 pub(crate) struct Node {
     source: Arc<Source>,
     span: Range<usize>,
-    pub(super) content: Content,
+    pub(crate) content: Content,
 }
 
 /// What a value is made of.
 #[derive(Debug, Clone)]
-pub(super) enum Content {
+pub(crate) enum Content {
     /// A finite number.
     Number(f64),
     /// A text, without its quotes.
@@ -38,12 +39,12 @@ pub(super) enum Content {
 
 /// An entry of a map, or a field.
 #[derive(Debug, Clone)]
-pub(super) struct Named {
+pub(crate) struct Named {
     /// The name, without quotes.
-    pub(super) name: Arc<str>,
+    pub(crate) name: Arc<str>,
     /// Where it stands.
-    pub(super) at: Range<usize>,
-    pub(super) value: Node,
+    pub(crate) at: Range<usize>,
+    pub(crate) value: Node,
 }
 
 /// Way to a value from the outside in: at every step the place among the parts, from 0.
@@ -52,10 +53,26 @@ pub(crate) type Steps = Vec<usize>;
 /// Deepest part that is taken apart: deeper than what ron reads.
 const DEEPEST: usize = 256;
 
+/// Fields that hold names: their objects are told from fields and kinds by this alone in JSON.
+pub(crate) const MAPS: [&str; 9] = [
+    "materials",
+    "sections",
+    "points",
+    "bodies",
+    "joints",
+    "cases",
+    "misfits",
+    "preloads",
+    "vary",
+];
+
 impl Node {
     /// The tree of a value of a file.
     pub(crate) fn of(value: Fragment<'_>) -> Self {
-        Self::at_depth(value, 0)
+        match value.is_json() {
+            true => Self::of_json(value, false, 0),
+            false => Self::at_depth(value, 0),
+        }
     }
 
     /// The tree of what stands at a place.
@@ -114,6 +131,61 @@ impl Node {
             span: value.span(),
             content: content.unwrap_or(Content::Other),
         }
+    }
+
+    /// The tree of a JSON value; `map` says that names stand in it, not fields.
+    fn of_json(value: Fragment<'_>, map: bool, depth: usize) -> Self {
+        let part = |part: Fragment<'_>| Self::of_json(part, false, depth + 1);
+        let content = match value.text().chars().next() {
+            _ if depth > DEEPEST => None,
+            Some('{') if map => value.map().ok().map(|entries| {
+                let named = entries.into_iter().map(|entry| Named {
+                    name: entry.name.into(),
+                    at: entry.key.span(),
+                    value: part(entry.value),
+                });
+                Content::Map(named.collect())
+            }),
+            Some('{') => Self::fields_or_kind(value, depth),
+            Some('[') => (value.list("").ok())
+                .map(|items| Content::List(items.into_iter().map(part).collect())),
+            Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
+            _ => value.number().ok().map(Content::Number),
+        };
+        Self {
+            source: Arc::clone(value.source()),
+            span: value.span(),
+            content: content.unwrap_or(Content::Other),
+        }
+    }
+
+    /// A JSON object that is no map.
+    fn fields_or_kind(value: Fragment<'_>, depth: usize) -> Option<Content> {
+        let pieces = value.pieces()?;
+        let part = |part: Fragment<'_>, map| Self::of_json(part, map, depth + 1);
+        if let ([(kind, inner)], true) = (
+            &pieces[..],
+            json::is_kind(pieces.iter().map(|(name, _)| name.text())),
+        ) {
+            let node = part(*inner, false);
+            // In the place of the parentheses that a kind's one argument has in RON.
+            let inner = match (&node.content, inner.text()) {
+                (_, "null") => None,
+                (Content::Fields(_) | Content::Kind(..), _) => Some(node),
+                _ => Some(Self {
+                    source: Arc::clone(&node.source),
+                    span: node.span.clone(),
+                    content: Content::Tuple([node].into()),
+                }),
+            };
+            return Some(Content::Kind(kind.span(), inner.map(Arc::new)));
+        }
+        let named = pieces.into_iter().map(|(name, value)| Named {
+            name: name.text().into(),
+            at: name.span(),
+            value: part(value, MAPS.contains(&name.text())),
+        });
+        Some(Content::Fields(named.collect()))
     }
 
     pub(crate) fn source(&self) -> &Arc<Source> {
