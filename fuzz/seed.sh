@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p fuzz/corpus/files fuzz/corpus/tables fuzz/corpus/solved
 for folder in tests/reference examples examples/own-joints crates/mechanisms/tests/broken; do
-    for file in "$folder"/*.ron "$folder"/*.csv; do
+    for file in "$folder"/*.ron "$folder"/*.csv "$folder"/json_*.json; do
         [ -f "$file" ] || continue
         name="$(basename "$folder")-$(basename "$file")"
         case "$file" in

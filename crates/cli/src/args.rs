@@ -1,5 +1,7 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
+mod files;
+
 use std::fmt;
 use std::path::PathBuf;
 
@@ -8,6 +10,9 @@ use hyperstat_assembly::BeamMass;
 use hyperstat_mechanisms::{Along, Noted, View};
 use hyperstat_study::Selection;
 use hyperstat_study::table;
+
+use files::{COMPLETIONS_HELP, EXPORT_HELP, FMT_HELP, NEW_HELP, SCHEMA_HELP};
+pub(crate) use files::{Completions, Export, FileFormat, Fmt, New, Shell};
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -30,6 +35,7 @@ Examples:
   hyperstat plot results/map.csv --map k33   A stiffness over the workspace, as SVG and PNG
   hyperstat export paper.ron --job delta > delta.ron
                                              A mechanism of a batch written out, to edit
+  hyperstat new delta > robot.ron            A file to begin with
 
 `hyperstat solve --help` shows a mechanism file, `hyperstat run --help` a batch file.
 
@@ -37,7 +43,7 @@ Units are SI throughout (m, N, rad, kg, s). Vectors are in the global frame, lin
 
 Exit status:
   0  done
-  1  a run finished in which some pose has no result
+  1  a run finished in which some pose has no result; `fmt --check` found a file to change
   2  the input cannot be used, or a figure not be drawn as it was asked for
   3  an output could not be written
  70  a bug in hyperstat: please report it";
@@ -59,6 +65,18 @@ pub(crate) enum Command {
     /// Write a mechanism at one pose of a batch as a mechanism file to edit
     #[command(after_help = EXPORT_HELP)]
     Export(Export),
+    /// Print a commented file to begin with: a small mechanism, or a job of a prebuilt one
+    #[command(after_help = NEW_HELP)]
+    New(New),
+    /// Put the lines of files in order, in place, with their comments
+    #[command(after_help = FMT_HELP)]
+    Fmt(Fmt),
+    /// Print the JSON Schema of files, for editors
+    #[command(after_help = SCHEMA_HELP)]
+    Schema,
+    /// Print what makes a shell complete commands and options
+    #[command(after_help = COMPLETIONS_HELP)]
+    Completions(Completions),
 }
 
 const SOLVE_HELP: &str = concat!(
@@ -138,14 +156,6 @@ Ends with 2 exactly when `hyperstat solve` would.
 Examples:
   hyperstat check portal.ron
   hyperstat check paper.ron --job delta --pose 12";
-
-const EXPORT_HELP: &str = "\
-The file has every point, body and joint of the mechanism in that pose, and the job's loads; it
-solves to the same numbers.
-
-Examples:
-  hyperstat export paper.ron > delta.ron
-  hyperstat export paper.ron --job delta --pose 12 --out delta.ron";
 
 const PLOT_HELP: &str = "\
 Of a table of `run`: --map, --lines, --trajectory. Any column of numbers can be drawn, and what is
@@ -284,7 +294,7 @@ fn along(text: &str) -> Result<Along, String> {
 /// `hyperstat run`
 #[derive(Debug, Args)]
 pub(crate) struct Run {
-    /// Batch file (RON)
+    /// Batch file (RON or JSON)
     #[arg(value_name = "BATCH.ron")]
     pub(crate) file: PathBuf,
     /// Folder for the results; made where it is missing
@@ -323,7 +333,7 @@ pub(crate) struct Check {
 /// `hyperstat plot`
 #[derive(Debug, Args)]
 pub(crate) struct Plot {
-    /// What to draw: a table of `run` (CSV, Parquet), a mechanism or batch file (RON), or the JSON
+    /// What to draw: a table of `run` (CSV, Parquet), a mechanism or batch file (RON or JSON), or the JSON
     /// of `solve --why`
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
@@ -470,20 +480,10 @@ fn axes(text: &str) -> Result<[String; 2], String> {
     }
 }
 
-/// `hyperstat export`
-#[derive(Debug, Args)]
-pub(crate) struct Export {
-    #[command(flatten)]
-    pub(crate) input: Input,
-    /// File to write; standard output without it
-    #[arg(long, value_name = "FILE")]
-    pub(crate) out: Option<PathBuf>,
-}
-
 /// What is to be solved, checked or exported.
 #[derive(Debug, Args)]
 pub(crate) struct Input {
-    /// Mechanism file or batch file (RON)
+    /// Mechanism file or batch file (RON or JSON)
     #[arg(value_name = "FILE.ron")]
     pub(crate) file: PathBuf,
     /// Job of a batch file; may be left out where there is only one

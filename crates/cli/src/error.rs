@@ -59,6 +59,9 @@ pub(crate) enum CliError {
         option: &'static str,
         what: &'static str,
     },
+    /// A file to begin with that there is none of.
+    #[error("there is no file `{kind}` to begin with")]
+    NoBeginning { kind: String, meant: Option<String> },
     /// A direction or a case for a budget that is found already.
     #[error("{} is solved already, along the direction and under the loads that it states", .path.display())]
     Answered { path: PathBuf, option: &'static str },
@@ -109,6 +112,13 @@ impl CliError {
                 "give the mechanism file, or the batch file with `--job`, `--design` and `--pose`"
                     .into(),
             ),
+            Self::NoBeginning {
+                meant: Some(meant), ..
+            } => Some(format!("did you mean `{meant}`?")),
+            Self::NoBeginning { .. } => {
+                let known = hyperstat_study::files::beginnings();
+                Some(format!("give one of `{}`", known.join("`, `")))
+            }
             Self::NoChoice { option, .. } => Some(format!("leave `{option}` out")),
             Self::Answered { option, .. } => Some(format!(
                 "give `{option}` to `hyperstat solve --why`, or draw the mechanism file"

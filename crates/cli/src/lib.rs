@@ -9,6 +9,7 @@ mod destination;
 mod diagnostic;
 mod disk;
 mod error;
+mod files;
 mod json;
 mod outputs;
 mod plot;
@@ -25,7 +26,7 @@ use clap::Parser;
 use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::{Asked, CheckReport, Question, Study};
 
-use args::{Cli, Command, Format};
+use args::{Cli, Command, FileFormat, Format};
 use error::CliError;
 use json::json;
 
@@ -79,6 +80,10 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
         Command::Export(args) => export(args, registry),
+        Command::New(args) => files::new(args).and_then(|text| printed(&text)),
+        Command::Fmt(args) => fmt(args),
+        Command::Schema => printed(&hyperstat_study::files::schema(registry)),
+        Command::Completions(args) => printed(&files::completions(args)),
         Command::Run(args) => run::run(args, registry, tell),
         Command::Plot(args) => plot::run(args, registry, tell),
     };
@@ -158,12 +163,28 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     let study = study(&args.input, registry)?;
     outputs::refuse(args.out.as_deref(), study.files())?;
-    let text = study.mechanism_file(registry)?;
+    let text = match args.format {
+        FileFormat::Ron => study.mechanism_file(registry)?,
+        FileFormat::Json => study.mechanism_file_json(registry)?,
+    };
     match &args.out {
         None => print(&text)?,
         Some(path) => outputs::write(path, text.as_bytes())?,
     }
     Ok(true)
+}
+
+/// `hyperstat fmt`
+fn fmt(args: &args::Fmt) -> Result<bool, CliError> {
+    let changed = files::fmt(args)?;
+    let names = changed.iter().map(|path| format!("{}\n", path.display()));
+    tell(&names.collect::<String>())?;
+    Ok(changed.is_empty() || !args.check)
+}
+
+/// Prints what a command is asked for.
+fn printed(text: &str) -> Result<bool, CliError> {
+    print(text).map(|()| true)
 }
 
 /// Prints what is said of results that are files: who closes standard output, as `head` does, has no

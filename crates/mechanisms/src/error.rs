@@ -5,6 +5,8 @@ use std::{fmt, io};
 
 use thiserror::Error;
 
+use crate::words;
+
 /// A place in a text file: what an error message points at.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Location {
@@ -53,6 +55,8 @@ pub enum LoadError {
         /// Whether it is no value of its kind at all, whatever stands elsewhere: an unknown name, a
         /// text in place of a number, a field that is missing.
         unreadable: bool,
+        /// Whether the place is in a JSON file: what would be right is then said in JSON.
+        json: bool,
     },
 }
 
@@ -101,7 +105,9 @@ impl LoadError {
                 message,
                 help,
                 unreadable,
+                json,
             } => Self::At {
+                json: *json,
                 location: location.clone(),
                 message: message.clone(),
                 help: help.clone(),
@@ -122,8 +128,12 @@ impl LoadError {
     /// The same error with this help; nothing changes for a file that cannot be read.
     #[must_use]
     pub fn with_help(mut self, text: impl Into<String>) -> Self {
-        if let Self::At { help, .. } = &mut self {
-            *help = Some(text.into());
+        if let Self::At { help, json, .. } = &mut self {
+            let text = text.into();
+            *help = Some(match json {
+                true => words::help(&text),
+                false => text,
+            });
         }
         self
     }

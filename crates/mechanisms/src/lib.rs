@@ -10,16 +10,22 @@
 //! [`Mechanism::place_at`]. SI units; vectors in global axes; a pose is x y z \[m\] and a rotation vector
 //! rx ry rz \[rad\] from the home orientation.
 
+mod begin;
 mod builtin;
 mod error;
 mod file;
 mod job;
+mod layout;
 mod load;
 mod parameters;
 pub mod prebuilt;
+mod schema;
+mod terms;
 mod text;
+mod words;
 mod write;
 
+pub use begin::{begin, beginnings, to_json};
 pub use error::{LoadError, Location};
 pub use file::mechanism::Mechanism;
 pub use file::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
@@ -32,10 +38,12 @@ pub use job::look::{Look, Noted, View};
 pub use job::made::{JobLoad, JobMechanism, JobPoses};
 pub use job::mover::Placing;
 pub use job::vary::Varied;
+pub use layout::{format, format_file};
 pub use load::{
     Input, batch_from_str, load, load_batch, load_mechanism, load_str, mechanism_from_str,
 };
 pub use prebuilt::PoseError;
+pub use schema::schema;
 pub use text::dependence::Dependence;
 pub use text::dimension::Dimension;
 pub use text::files;
@@ -44,4 +52,4 @@ pub use text::files::Disk;
 pub use text::files::{Files, MemoryFiles};
 pub use text::names::nearest;
 pub use text::value::Value;
-pub use write::{WriteError, write};
+pub use write::{WriteError, write, write_json};

@@ -17,11 +17,14 @@ use hyperstat_elements::{Material, Section};
 use hyperstat_joints::Dof;
 
 use crate::error::LoadError;
-use crate::file::registry::Registry;
+use crate::file::registry::{Known, Registry};
 use crate::file::{joints, materials, through};
 use crate::prebuilt::{
     Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
 };
+use crate::terms::Type::{Any, Kinds, Number, Numbers, Record as Of, Tuple, Word};
+use crate::terms::parts::{self, LINK, MATERIAL, SECTION, STIFFNESSES};
+use crate::terms::{Field, Type, needed, optional as may};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -30,35 +33,86 @@ use crate::text::fragment::Fragment;
 struct Kind {
     /// Its name.
     name: &'static str,
-    /// Names of its parameters.
-    fields: &'static [&'static str],
+    /// Its parameters.
+    fields: &'static [Field],
     read: fn(&Fields<'_>) -> Result<Box<dyn Prebuilt>, LoadError>,
 }
+
+const JOINT_STIFFNESS: Field = may(
+    "joint_stiffness",
+    Of(&STIFFNESSES),
+    "of every passive joint, in its frame; left out: rigid",
+);
+/// The stiffness of drives that slide, and of those that turn.
+const DRIVE_FORCE: Field = may("drive_stiffness", Number("N/m"), DRIVES);
+const DRIVE_TORQUE: Field = may("drive_stiffness", Number("N·m/rad"), DRIVES);
+const DRIVES: &str = "of the drives; left out: rigid";
+const ELEMENTS: Field = may(
+    "elements",
+    parts::ELEMENTS,
+    "of every segment; changes no result",
+);
+
+/// A stiffness, or none.
+const SPRING: Type = Any(&[Number("N/m"), Word(&["Rigid"])]);
 
 /// The prebuilt mechanisms.
 const KINDS: &[Kind] = &[
     Kind {
         name: "Delta",
         fields: &[
-            "base_radius",
-            "platform_radius",
-            "arm_length",
-            "rod_length",
-            "rod_spacing",
-            "elbow",
-            "rod_ends",
-            "arm",
-            "bar",
-            "rod",
-            "joint_stiffness",
-            "drive_stiffness",
-            "elements",
+            needed(
+                "base_radius",
+                Number("m"),
+                "from the base's centre to each A_i",
+            ),
+            needed(
+                "platform_radius",
+                Number("m"),
+                "from the platform's centre to each C_i",
+            ),
+            needed("arm_length", Number("m"), "A_i B_i"),
+            needed("rod_length", Number("m"), "of the parallelogram's rods"),
+            needed(
+                "rod_spacing",
+                Number("m"),
+                "distance of the two rods of a limb",
+            ),
+            may(
+                "elbow",
+                Word(&["Out", "In"]),
+                "the elbow farther along the limb's outward direction, or the other",
+            ),
+            may(
+                "rod_ends",
+                Word(&["Revolute", "Spherical"]),
+                "the joints of the rods",
+            ),
+            needed("arm", Of(&LINK), "the arms"),
+            needed("bar", Of(&LINK), "both cross links of a limb"),
+            needed("rod", Of(&LINK), "the rods"),
+            JOINT_STIFFNESS,
+            DRIVE_TORQUE,
+            ELEMENTS,
         ],
         read: |fields| Ok(Box::new(delta(fields)?)),
     },
     Kind {
         name: "SingleFreedom",
-        fields: &["lengths", "sections", "material", "joint_stiffness"],
+        fields: &[
+            needed("lengths", Numbers(2, "m"), "of AB and CD"),
+            needed(
+                "sections",
+                Tuple(&[Kinds(&SECTION), Kinds(&SECTION)]),
+                "of AB and CD",
+            ),
+            needed("material", Of(&MATERIAL), "of both"),
+            needed(
+                "joint_stiffness",
+                Tuple(&[SPRING, SPRING]),
+                "along x at B and at C; 0 is free",
+            ),
+        ],
         read: |fields| Ok(Box::new(single_freedom(fields)?)),
     },
     exechon::KIND,
@@ -77,7 +131,7 @@ const KINDS: &[Kind] = &[
 /// Registers the prebuilt mechanisms.
 pub(crate) fn register(registry: &mut Registry) {
     for kind in KINDS {
-        registry.register_prebuilt(kind.name, kind.fields, |arguments| {
+        registry.add_prebuilt(kind.name, Known::Fields(kind.fields), |arguments| {
             (kind.read)(arguments.fields())
         });
     }
@@ -118,7 +172,7 @@ fn single_freedom(fields: &Fields<'_>) -> Result<SingleFreedom, LoadError> {
             fields,
             "joint_stiffness",
             "two stiffnesses along x, each a number or `Rigid`",
-            |value| match value.text() {
+            |value| match value.word() {
                 "Rigid" => Ok(None),
                 _ => joints::spring(value, "`joint_stiffness`", &[Dimension::STIFFNESS]).map(Some),
             },
@@ -188,7 +242,7 @@ fn material(fragment: Fragment<'_>) -> Result<Material, LoadError> {
 
 fn link(fields: &Fields<'_>, name: &str) -> Result<Link, LoadError> {
     let owner = format!("`{name}`");
-    let link = Fields::read(fields.required(name)?, owner, &["section", "material"])?;
+    let link = Fields::read(fields.required(name)?, owner, &LINK.names())?;
     Ok(Link {
         section: section(link.required("section")?)?,
         material: material(link.required("material")?)?,

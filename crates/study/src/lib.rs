@@ -12,6 +12,7 @@ mod entries;
 mod error;
 #[cfg(feature = "figures")]
 pub mod figure;
+pub mod files;
 mod measures;
 #[cfg(feature = "figures")]
 mod plot_error;

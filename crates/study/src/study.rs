@@ -387,6 +387,18 @@ impl Study {
         })
     }
 
+    /// The same in JSON.
+    ///
+    /// # Errors
+    /// As [`Study::mechanism_file`].
+    pub fn mechanism_file_json(&self, registry: &Registry) -> Result<String, StudyError> {
+        let written = hyperstat_mechanisms::write_json(self.model(), registry);
+        written.map_err(|source| StudyError::Export {
+            location: Box::new(self.source().output()),
+            source,
+        })
+    }
+
     pub(crate) fn source(&self) -> Written<'_> {
         match &self.origin {
             Origin::Mechanism(mechanism) => Written::Mechanism(mechanism),

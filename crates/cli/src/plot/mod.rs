@@ -4,12 +4,14 @@
 mod mechanism;
 mod solved;
 
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use hyperstat_figures::{ColorScale, Scale};
-use hyperstat_mechanisms::Registry;
+use hyperstat_mechanisms::{Registry, files as read};
 use hyperstat_study::figure::{self, Choice, Drawing, Lines, Map};
 use hyperstat_study::table::TableReader;
+use serde::de::IgnoredAny;
 
 use crate::args;
 use crate::error::{CliError, MAP, SHAPE};
@@ -21,13 +23,14 @@ struct Plotted {
     stem: PathBuf,
 }
 
-/// What a file is, by its name.
+/// What a file is, by its name, and of JSON by its fields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FileKind {
     Table,
-    Json,
+    /// What `solve` printed.
+    Solved,
     /// Everything else: a mechanism or batch file.
-    Ron,
+    Mechanism,
 }
 
 impl FileKind {
@@ -35,10 +38,21 @@ impl FileKind {
         let extension = path.extension().and_then(|extension| extension.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
             Some("csv" | "parquet") => Self::Table,
-            Some("json") => Self::Json,
-            _ => Self::Ron,
+            Some("json") if !is_mechanism(path) => Self::Solved,
+            _ => Self::Mechanism,
         }
     }
+}
+
+/// Whether a JSON file has the fields of a mechanism or a batch file, as what `solve` prints has not.
+fn is_mechanism(path: &Path) -> bool {
+    let bytes = read::read(path).unwrap_or_default();
+    let fields: Option<HashMap<String, IgnoredAny>> = serde_json::from_slice(&bytes).ok();
+    fields.is_some_and(|fields| {
+        ["jobs", "points"]
+            .iter()
+            .any(|own| fields.contains_key(*own))
+    })
 }
 
 /// Draws what the command line asks for. `tell` gets the files and the caption.
@@ -112,8 +126,8 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
             refuse(args, "a table", [("--job", args.job.is_some())])?;
             of_table(args)
         }
-        (Some(_), FileKind::Ron) => mechanism::figure(args, registry),
-        (Some("--budget"), FileKind::Json) => {
+        (Some(_), FileKind::Mechanism) => mechanism::figure(args, registry),
+        (Some("--budget"), FileKind::Solved) => {
             let chosen = [
                 ("--job", args.job.is_some()),
                 ("--design", args.design.is_some()),

@@ -9,6 +9,7 @@ mod doubts;
 mod everything;
 mod export;
 mod extremes;
+mod files;
 mod floors;
 mod help;
 mod maps;

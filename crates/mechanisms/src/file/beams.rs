@@ -11,6 +11,7 @@ use super::materials::Profile;
 use super::through::{Tables, Through, elements, listed, pairs, through};
 use super::value_names::Given;
 use crate::error::LoadError;
+use crate::terms::bodies::MEMBER;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 
@@ -53,12 +54,11 @@ pub(crate) fn frame(
     let expected = "a list of members, each a list of points or `(through: […], …)`";
     for (k, member) in list.list(expected)?.into_iter().enumerate() {
         let what = format!("member {} of frame `{name}`", k + 1);
-        let (own, through) = if member.text().starts_with('(') {
-            let known = ["through", "section", "material", "y_axis", "elements"];
-            let own = Fields::read(member, &what, &known)?;
+        let (own, through) = if member.has_fields() {
+            let own = Fields::read(member, &what, &MEMBER.names())?;
             let through = own.required("through")?;
             (own, through)
-        } else if member.text().starts_with('[') {
+        } else if member.is_list() {
             (Fields::none(member, &what), member)
         } else {
             return Err(member.expected("a member, a list of points or `(through: […], …)`"));
@@ -187,7 +187,7 @@ impl<'a> Run<'_, 'a> {
         let named = |name: Fragment<'_>| -> Result<(Arc<str>, &Profile), LoadError> {
             Ok((name.string()?.into(), tables.sections.find(name)?))
         };
-        if !given.text().starts_with('[') {
+        if !given.is_list() {
             let (name, profile) = named(given)?;
             let whole: f64 = lengths.iter().sum();
             let mut passed = 0.0;
@@ -230,7 +230,7 @@ impl<'a> Run<'_, 'a> {
             return Ok(vec![(None, None); count]);
         };
         let one = |own: Fragment<'a>| Ok((Some(own.direction()?), Some(own)));
-        if !given.text().starts_with('[') {
+        if !given.is_list() || given.is_direction() {
             return Ok(vec![one(given)?; count]);
         }
         let list = given.list("a direction, or a list of one for each segment")?;

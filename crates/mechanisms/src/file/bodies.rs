@@ -6,6 +6,7 @@ use super::through::{Tables, check_name, pairs, through};
 use super::value_names::Given;
 use crate::error::LoadError;
 use crate::file::{beams, flexible};
+use crate::terms::bodies::BODY;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
@@ -21,7 +22,6 @@ pub(crate) fn read(
     model: &mut Model,
     given: &mut Vec<Given>,
 ) -> Result<BodyId, LoadError> {
-    const KINDS: [&str; 4] = ["Beam", "Rigid", "Frame", "Flexible"];
     check_name(entry, "body")?;
     if entry.name == GROUND {
         return Err(entry
@@ -31,26 +31,22 @@ pub(crate) fn read(
     }
     let expected = "a body, `Beam(…)`, `Rigid(…)`, `Frame(…)` or `Flexible(…)`";
     let (kind, arguments) = entry.value.variant(expected)?;
-    let fields = |known: &[&str]| {
+    let known = BODY.fields(kind.text()).unwrap_or_default();
+    let fields = || {
         let owner = format!("body `{}`", entry.name);
         match arguments {
-            Some(given) => {
-                let temperature: &[&str] = &["temperature"];
-                let known = [known, temperature].concat();
-                Ok(Fields::read(given, owner, &known)?.within(entry.value))
-            }
+            Some(given) => Ok(Fields::read(given, owner, &known)?.within(entry.value)),
             None => Ok(Fields::none(entry.value, owner)),
         }
     };
     let (body, fields) = match kind.text() {
         "Beam" => {
-            let known = ["through", "section", "material", "y_axis", "elements"];
-            let fields = fields(&known)?;
+            let fields = fields()?;
             let body = beams::beam(&entry.name, &fields, tables, model, given)?;
             (body, fields)
         }
         "Rigid" => {
-            let fields = fields(&["points"])?;
+            let fields = fields()?;
             let points = through(&fields, fields.required("points")?, tables)?;
             let body = model
                 .add_rigid(&entry.name, &pairs(&points))
@@ -58,20 +54,19 @@ pub(crate) fn read(
             (body, fields)
         }
         "Frame" => {
-            let known = ["members", "section", "material", "y_axis", "elements"];
-            let fields = fields(&known)?;
+            let fields = fields()?;
             let body = beams::frame(&entry.name, &fields, tables, model, given)?;
             (body, fields)
         }
         "Flexible" => {
-            let fields = fields(&["points", "stiffness"])?;
+            let fields = fields()?;
             (flexible::read(&entry.name, &fields, tables, model)?, fields)
         }
         other => {
             return Err(kind
                 .error(format!("unknown kind of body `{other}`"))
                 .unreadable()
-                .with_help(names::help(other, "kinds of body", KINDS)));
+                .with_help(names::help(other, "kinds of body", BODY.names())));
         }
     };
     if let Some(given) = fields.get("temperature") {

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::LoadError;
+use crate::terms::mechanism::INCLUDED;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
 use crate::text::named::read_named;
@@ -76,8 +77,11 @@ impl Included {
 
     /// Adds the tables of a file.
     fn add_file(&mut self, file: &Node) -> Result<(), LoadError> {
-        let known = ["include", "parameters", "materials", "sections", "groups"];
-        let fields = Fields::read(Fragment::of_node(file), "a file that is included", &known)?;
+        let fields = Fields::read(
+            Fragment::of_node(file),
+            "a file that is included",
+            &INCLUDED.names(),
+        )?;
         if let Some(list) = fields.get("include") {
             self.add(list)?;
         }

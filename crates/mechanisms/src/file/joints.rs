@@ -11,6 +11,7 @@ use super::registry::{Orientation, ParsedJoint, Registry};
 use super::through::check_name;
 use crate::error::LoadError;
 use crate::file::nodes;
+use crate::terms::joints::JOINT;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
@@ -35,17 +36,7 @@ pub(crate) fn read(
 ) -> Result<JointId, LoadError> {
     check_name(entry, "joint")?;
     let owner = format!("joint `{}`", entry.name);
-    let known = [
-        "at",
-        "between",
-        "kind",
-        "x_axis",
-        "locked",
-        "stiffness",
-        "misfit",
-        "preload",
-    ];
-    let fields = Fields::read(entry.value, owner, &known)?;
+    let fields = Fields::read(entry.value, owner, &JOINT.names())?;
 
     let point = fields.required("at")?;
     let point_name = at(point)?;
@@ -200,13 +191,13 @@ fn frame(
 
 /// Reads `true`, `false` or a list of free directions.
 fn locked(fragment: Fragment<'_>, joint: &dyn Joint) -> Result<DofSet, LoadError> {
-    if !fragment.text().starts_with('[') {
+    if !fragment.is_list() {
         let all = fragment.parse::<bool>("`true`, `false` or a list such as `[y]`")?;
         return Ok(if all { joint.free() } else { DofSet::EMPTY });
     }
     let mut locked = DofSet::EMPTY;
     for item in fragment.list("a list of directions, such as `[y]`")? {
-        let dof = Dof::from_str(item.text()).map_err(|error| item.error(error.to_string()))?;
+        let dof = Dof::from_str(item.word()).map_err(|error| item.error(error.to_string()))?;
         if !joint.free().contains(dof) {
             let free = joint.free();
             return Err(item
@@ -229,7 +220,7 @@ fn locked(fragment: Fragment<'_>, joint: &dyn Joint) -> Result<DofSet, LoadError
 
 /// Reads `(x: …, …)` or `Matrix([…])`.
 fn stiffness(fragment: Fragment<'_>) -> Result<JointStiffness, LoadError> {
-    if fragment.text().starts_with('(') {
+    if fragment.has_fields() {
         return directions(fragment).map(JointStiffness::Directions);
     }
     let expected = "a stiffness, `(x: 1e8, …)` or `Matrix([…])`";
@@ -300,9 +291,9 @@ fn matrix(fragment: Fragment<'_>) -> Result<Matrix6<f64>, LoadError> {
     let rows = fragment.list(expected)?;
     let mut entries = Vec::with_capacity(36);
     for row in &rows {
-        if row.text().starts_with('[') {
+        if row.is_list() {
             entries.extend(row.list(expected)?);
-        } else if row.text().starts_with('(') {
+        } else if row.is_tuple() {
             entries.extend(row.tuple(expected)?);
         } else {
             entries.push(*row);

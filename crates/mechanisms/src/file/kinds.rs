@@ -6,20 +6,34 @@ use hyperstat_joints::{
 };
 use nalgebra::Rotation3;
 
-use super::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
+use super::registry::{Argument, Arguments, Known, Orientation, ParsedJoint, Registry};
 use crate::error::LoadError;
+use crate::terms::joints;
 use crate::text::dimension::Dimension;
+
+/// The arguments of a built-in kind.
+fn known(kind: &str) -> Known {
+    Known::Fields(joints::of_kind(kind))
+}
 
 /// Adds all built-in kinds.
 pub(crate) fn register(registry: &mut Registry) {
-    registry.register("Fixed", &["axis"], |a| may_have_axis(a, Fixed));
-    registry.register("Revolute", &["axis"], |a| along(a, "axis", Revolute));
-    registry.register("Prismatic", &["axis"], |a| along(a, "axis", Prismatic));
-    registry.register("Cylindrical", &["axis"], |a| along(a, "axis", Cylindrical));
-    registry.register("Screw", &["axis", "pitch"], screw);
-    registry.register("Universal", &["axes"], universal);
-    registry.register("Spherical", &["axis"], |a| may_have_axis(a, Spherical));
-    registry.register("Planar", &["normal"], |a| along(a, "normal", Planar));
+    registry.add("Fixed", known("Fixed"), |a| may_have_axis(a, Fixed));
+    registry.add("Revolute", known("Revolute"), |a| {
+        along(a, "axis", Revolute)
+    });
+    registry.add("Prismatic", known("Prismatic"), |a| {
+        along(a, "axis", Prismatic)
+    });
+    registry.add("Cylindrical", known("Cylindrical"), |a| {
+        along(a, "axis", Cylindrical)
+    });
+    registry.add("Screw", known("Screw"), screw);
+    registry.add("Universal", known("Universal"), universal);
+    registry.add("Spherical", known("Spherical"), |a| {
+        may_have_axis(a, Spherical)
+    });
+    registry.add("Planar", known("Planar"), |a| along(a, "normal", Planar));
 
     for kind in ["Revolute", "Prismatic", "Cylindrical"] {
         registry.register_writer(kind, |_, frame| vec![axis("axis", frame)]);

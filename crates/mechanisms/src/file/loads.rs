@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 use super::home::{Home, NO_HOME};
 use crate::error::LoadError;
 use crate::file::{joints, nodes};
+use crate::terms::acting::{ALONG, LOAD, MASS};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -138,7 +139,7 @@ fn check_case_name(name: &str, key: Fragment<'_>) -> Result<(), LoadError> {
 }
 
 fn read_mass(fragment: Fragment<'_>, model: &mut Model, home: &Home) -> Result<(), LoadError> {
-    let fields = Fields::read(fragment, "a mass", &["on", "mass", "inertia"])?;
+    let fields = Fields::read(fragment, "a mass", &MASS.names())?;
     let node = nodes::on(model, fields.required("on")?, "a mass")?;
     let mass = fields.required("mass")?.acting("`mass`", Dimension::MASS)?;
     let made = match fields.get("inertia") {
@@ -189,19 +190,9 @@ fn read_set(
     let mut set = LoadSet::default();
     let mut places = Vec::new();
     for load in list.list("a list of loads, `[(on: …, force: …)]`")? {
-        let known = [
-            "on",
-            "force",
-            "moment",
-            "per_length",
-            "moment_per_length",
-            "from",
-            "to",
-            "frame",
-        ];
-        let fields = Fields::read(load, "a load", &known)?;
+        let fields = Fields::read(load, "a load", &LOAD.names())?;
         let on = fields.required("on")?;
-        if known[3..7].iter().any(|name| fields.get(name).is_some()) {
+        if ALONG.iter().any(|name| fields.get(name).is_some()) {
             if let Some(point) = fields.get("force").or(fields.get("moment")) {
                 return Err(point
                     .error("a load is either on a point or along a beam")
@@ -248,7 +239,7 @@ fn read_along(
 ) -> Result<(), LoadError> {
     let expected = "a body of beams, `\"body\"`, or two neighbouring points of one, \
                     `(\"body\", \"A\", \"B\")`";
-    let (name, points) = if on.text().starts_with('(') {
+    let (name, points) = if on.is_tuple() {
         let [body, first, second] = on.array(expected)?;
         (body, Some([first, second]))
     } else {
@@ -326,7 +317,7 @@ fn axes(fields: &Fields<'_>, body: BodyId, model: &Model, home: &Home) -> Result
         return Ok(Axes::Global);
     };
     let output = model.output().map(|node| model.nodes()[node.0].body);
-    let body = match (frame.text(), output) {
+    let body = match (frame.word(), output) {
         ("Global", _) => return Ok(Axes::Global),
         ("Body", _) => body,
         ("Output", Some(output)) => output,

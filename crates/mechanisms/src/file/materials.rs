@@ -4,6 +4,7 @@ use hyperstat_elements::{Elasticity, ElementError, Material, Section, SectionSha
 use hyperstat_model::Tapering;
 
 use crate::error::LoadError;
+use crate::terms::parts::{MATERIAL, PROFILE, SECTION};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
@@ -32,8 +33,7 @@ impl Profile {
 
 /// Reads `(young: …, poisson: …, density: …)`; `owner` is what errors call it.
 pub(crate) fn material(fragment: Fragment<'_>, owner: &str) -> Result<Material, LoadError> {
-    let known = ["young", "poisson", "shear", "density", "expansion", "yield"];
-    let fields = Fields::read(fragment, owner, &known)?;
+    let fields = Fields::read(fragment, owner, &MATERIAL.names())?;
     let young = fields.number("young")?;
     let poisson = fields.optional_number("poisson")?;
     let shear = fields.optional_number("shear")?;
@@ -74,7 +74,10 @@ pub(crate) fn profile(fragment: Fragment<'_>, owner: &str) -> Result<Profile, Lo
         _ => return section(fragment, owner).map(Profile::Uniform),
     };
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, &["from", "to"])?.within(fragment),
+        Some(given) => {
+            let known = PROFILE.fields("Tapered").unwrap_or_default();
+            Fields::read(given, owner, &known)?.within(fragment)
+        }
         None => Fields::none(fragment, owner),
     };
     let end = |name: &str| section(fields.required(name)?, &format!("`{name}` of {owner}"));
@@ -97,38 +100,24 @@ pub(crate) fn profile(fragment: Fragment<'_>, owner: &str) -> Result<Profile, Lo
 
 /// Reads `Circle(…)`, `Tube(…)`, `Rectangle(…)` or `General(…)`.
 pub(crate) fn section(fragment: Fragment<'_>, owner: &str) -> Result<Section, LoadError> {
-    const KINDS: [&str; 5] = ["Circle", "Tube", "Rectangle", "General", "Tapered"];
     let (kind, arguments) = fragment.variant("a section, such as `Circle(diameter: 0.02)`")?;
-    let known: &[&str] = match kind.text() {
-        "Circle" => &["diameter", "shear_y", "shear_z"],
-        "Tube" => &["outer", "inner", "shear_y", "shear_z"],
-        "Rectangle" => &["width", "height", "shear_y", "shear_z"],
-        "General" => &[
-            "area",
-            "iy",
-            "iz",
-            "torsion",
-            "shear_y",
-            "shear_z",
-            "y_max",
-            "z_max",
-            "torsion_modulus",
-        ],
-        "Tapered" => {
+    let known = match (SECTION.fields(kind.text()), kind.text()) {
+        (Some(known), _) => known,
+        (None, "Tapered") => {
             return Err(kind.error(format!("{owner} cannot taper")).with_help(
                 "give one section; a section of the table `sections` can be \
                      `Tapered(from: …, to: …)`, between two that do not taper",
             ));
         }
-        other => {
+        (None, other) => {
             return Err(kind
                 .error(format!("unknown kind of section `{other}`"))
                 .unreadable()
-                .with_help(names::help(other, "kinds of section", KINDS)));
+                .with_help(names::help(other, "kinds of section", PROFILE.names())));
         }
     };
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, known)?.within(fragment),
+        Some(given) => Fields::read(given, owner, &known)?.within(fragment),
         None => Fields::none(fragment, owner),
     };
     let shape = match kind.text() {

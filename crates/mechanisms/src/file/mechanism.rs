@@ -17,6 +17,7 @@ use super::value_names::Given;
 use crate::error::{LoadError, Location};
 use crate::file::{bodies, joints, loads, materials, nodes, value_names};
 use crate::prebuilt::PoseError;
+use crate::terms::mechanism::MECHANISM;
 use crate::text::dependence::{self, Dependence};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
@@ -55,24 +56,7 @@ impl Mechanism {
         let written = groups::write_out(&root)?;
         let root = Arc::new(root);
         let fragment = Fragment::of_node(&written.root);
-        let known = [
-            "name",
-            "parameters",
-            "materials",
-            "sections",
-            "points",
-            "bodies",
-            "joints",
-            "loads",
-            "cases",
-            "gravity",
-            "masses",
-            "output",
-            "groups",
-            "copies",
-            "include",
-        ];
-        let fields = Fields::read(fragment, "the mechanism", &known)?;
+        let fields = Fields::read(fragment, "the mechanism", &MECHANISM.names())?;
         let mut model = Model::new(fields.required("name")?.string()?);
         let tables = Tables {
             materials: Table::read(fields.get("materials"), "material", |entry, owner| {

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::error::LoadError;
 use crate::prebuilt::Prebuilt;
+use crate::terms::{self, Field};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -30,16 +31,35 @@ type Builder = dyn Fn(&Arguments<'_>) -> Result<Box<dyn Prebuilt>, LoadError> + 
 #[derive(Clone)]
 pub(crate) struct PrebuiltKind {
     name: String,
-    parameters: &'static [&'static str],
+    parameters: Known,
     reader: Arc<Builder>,
 }
 
 #[derive(Clone)]
 struct Kind {
     name: String,
-    arguments: &'static [&'static str],
+    arguments: Known,
     reader: Arc<Reader>,
     writer: Option<Arc<Writer>>,
+}
+
+/// What is known of the fields of a kind.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Known {
+    /// Their names.
+    Names(&'static [&'static str]),
+    /// All that the table of terms says.
+    Fields(&'static [Field]),
+}
+
+impl Known {
+    /// Their names.
+    pub(crate) fn names(self) -> Vec<&'static str> {
+        match self {
+            Self::Names(names) => names.to_vec(),
+            Self::Fields(fields) => terms::names(fields),
+        }
+    }
 }
 
 impl Registry {
@@ -54,6 +74,16 @@ impl Registry {
         &mut self,
         name: &str,
         arguments: &'static [&'static str],
+        reader: impl Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync + 'static,
+    ) {
+        self.add(name, Known::Names(arguments), reader);
+    }
+
+    /// The same of a kind whose arguments are known.
+    pub(crate) fn add(
+        &mut self,
+        name: &str,
+        arguments: Known,
         reader: impl Fn(&Arguments<'_>) -> Result<ParsedJoint, LoadError> + Send + Sync + 'static,
     ) {
         self.kinds.retain(|kind| kind.name != name);
@@ -92,6 +122,16 @@ impl Registry {
         parameters: &'static [&'static str],
         reader: impl Fn(&Arguments<'_>) -> Result<Box<dyn Prebuilt>, LoadError> + Send + Sync + 'static,
     ) {
+        self.add_prebuilt(name, Known::Names(parameters), reader);
+    }
+
+    /// The same of a kind whose parameters are known.
+    pub(crate) fn add_prebuilt(
+        &mut self,
+        name: &str,
+        parameters: Known,
+        reader: impl Fn(&Arguments<'_>) -> Result<Box<dyn Prebuilt>, LoadError> + Send + Sync + 'static,
+    ) {
         self.prebuilts.retain(|kind| kind.name != name);
         self.prebuilts.push(PrebuiltKind {
             name: name.into(),
@@ -120,6 +160,18 @@ impl Registry {
         kind.writer.as_ref().map(|writer| writer(joint, frame))
     }
 
+    /// All kinds of joints, and what is known of their arguments.
+    pub(crate) fn known_kinds(&self) -> impl Iterator<Item = (&str, Known)> {
+        let kinds = self.kinds.iter();
+        kinds.map(|kind| (kind.name.as_str(), kind.arguments))
+    }
+
+    /// All kinds of prebuilt mechanisms, and what is known of their parameters.
+    pub(crate) fn known_prebuilts(&self) -> impl Iterator<Item = (&str, Known)> {
+        let kinds = self.prebuilts.iter();
+        kinds.map(|kind| (kind.name.as_str(), kind.parameters))
+    }
+
     /// Names of all kinds of joints.
     pub fn kinds(&self) -> impl Iterator<Item = &str> {
         self.kinds.iter().map(|kind| kind.name.as_str())
@@ -139,7 +191,7 @@ impl Registry {
             None => Fields::none(fragment, owner),
             Some(given) => {
                 check_x_axis(given, kind)?;
-                Fields::read(given, owner, kind.arguments)?.within(fragment)
+                Fields::read(given, owner, &kind.arguments.names())?.within(fragment)
             }
         };
         (kind.reader)(&Arguments { fields })
@@ -150,7 +202,7 @@ impl Registry {
 fn check_x_axis(given: Fragment<'_>, kind: &Kind) -> Result<(), LoadError> {
     let fields = given.named("arguments in parentheses")?;
     match fields.iter().find(|(name, _)| name.text() == "x_axis") {
-        Some((name, _)) if !kind.arguments.contains(&"x_axis") => Err(name
+        Some((name, _)) if !kind.arguments.names().contains(&"x_axis") => Err(name
             .error("`x_axis` is a field of the joint, not of its kind")
             .with_help(format!("write `kind: {}(…), x_axis: (…)`", kind.name))),
         _ => Ok(()),
@@ -163,7 +215,7 @@ impl PrebuiltKind {
         let (_, arguments) = whole.variant("a prebuilt mechanism")?;
         let owner = format!("`{}`", self.name);
         let fields = match arguments {
-            Some(given) => Fields::read(given, owner, self.parameters)?.within(whole),
+            Some(given) => Fields::read(given, owner, &self.parameters.names())?.within(whole),
             None => Fields::none(whole, owner),
         };
         (self.reader)(&Arguments { fields })

@@ -17,6 +17,7 @@ use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
 use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
+use crate::terms::job::{BATCH, JOB};
 use crate::text::dependence::Dependence;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
@@ -63,13 +64,13 @@ pub struct Job {
 impl Batch {
     /// Reads the value of a batch file.
     pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
-        let fields = Fields::read(fragment, "the batch", &["jobs", PARAMETERS])?;
+        let fields = Fields::read(fragment, "the batch", &BATCH.names())?;
         let shared = fields.get(PARAMETERS).map(Node::of);
         let list = fields.required("jobs")?;
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();
         for fragment in list.list("a list of jobs, `[(name: …, mechanism: …)]`")? {
-            let fields = Fields::read(fragment, "a job", &FIELDS)?;
+            let fields = Fields::read(fragment, "a job", &JOB.names())?;
             let at = fields.required("name")?;
             let name = job_name(at)?;
             if let Some((first, other)) = seen.insert(name.to_lowercase(), (at, name.clone())) {
@@ -92,24 +93,6 @@ impl Batch {
         first.map_or_else(Vec::new, |job| job.place.source.files())
     }
 }
-
-/// The fields of a job.
-pub(super) const FIELDS: [&str; 14] = [
-    "name",
-    "mechanism",
-    PARAMETERS,
-    "poses",
-    "loads",
-    "cases",
-    "gravity",
-    "masses",
-    "misfits",
-    "preloads",
-    "figures",
-    "vary",
-    "zip",
-    "modes",
-];
 
 /// The error of the name `at`, which makes the same files as the one `first`.
 fn same_name(at: Fragment<'_>, name: &str, first: Fragment<'_>, other: &str) -> LoadError {
@@ -148,7 +131,7 @@ impl Job {
         recipe: Recipe,
         poses: Option<Arc<Poses>>,
     ) -> Result<Self, LoadError> {
-        let nodes = fields.written(&FIELDS);
+        let nodes = fields.written(&JOB.names());
         recipe.check_parameters(&nodes)?;
         let values = recipe.valued(&nodes)?;
         let given = values.as_ref().unwrap_or(&nodes).iter();

@@ -3,6 +3,7 @@
 use super::look::{self, Look};
 use crate::error::LoadError;
 use crate::job::modes;
+use crate::terms::figures::FIGURE;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -137,15 +138,6 @@ pub(crate) struct Known<'a> {
     pub(crate) cases: &'a [String],
 }
 
-/// Kinds of figures with their fields.
-const KINDS: [(&str, &[&str]); 5] = [
-    ("Trajectory", &["scale"]),
-    ("Deformed", &["pose", "case", "scale", "view", "show"]),
-    ("Mode", &["number", "pose", "scale", "view", "show"]),
-    ("Budget", &["along", "pose", "case"]),
-    ("Map", &["value", "plane", "axes", "limits", "scale"]),
-];
-
 /// Reads the figures of a job, each with its place: that of the quantity, of a map.
 pub(crate) fn read(
     list: Fragment<'_>,
@@ -157,15 +149,14 @@ pub(crate) fn read(
 
 fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), LoadError> {
     let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
-    let found = KINDS.into_iter().find(|(kind, _)| *kind == word.text());
-    let (kind, names) = found.ok_or_else(|| {
-        let kinds = KINDS.into_iter().map(|(kind, _)| kind);
-        word.error(format!("unknown figure `{}`", word.text()))
-            .with_help(names::help(word.text(), "figures", kinds))
+    let kind = word.text();
+    let names = FIGURE.fields(kind).ok_or_else(|| {
+        word.error(format!("unknown figure `{kind}`"))
+            .with_help(names::help(kind, "figures", FIGURE.names()))
     })?;
     let owner = format!("`{kind}`");
     let fields = match arguments {
-        Some(given) => Fields::read(given, owner, names)?,
+        Some(given) => Fields::read(given, owner, &names)?,
         None => Fields::none(whole, owner),
     };
     let pose = || {
@@ -245,7 +236,7 @@ fn number(fragment: Fragment<'_>) -> Result<usize, LoadError> {
 
 /// Reads a direction such as `z` or `(0.0, 1.0, -1.0)`.
 fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
-    if fragment.text().starts_with('(') {
+    if fragment.is_tuple() {
         let numbers = fragment.array("a direction of three numbers, such as `(0.0, 1.0, -1.0)`")?;
         let [a, b, c] = numbers;
         let part = |part: Fragment<'_>| part.quantity("a part of a direction", Dimension::NUMBER);
@@ -256,7 +247,7 @@ fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
                 .with_help("give three numbers that are not all zero, such as `(0.0, 1.0, -1.0)`")
         });
     }
-    let word = fragment.text();
+    let word = fragment.word();
     Along::named(word).ok_or_else(|| {
         fragment
             .error(format!("`{word}` is no direction"))
@@ -269,7 +260,13 @@ fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
 
 /// Reads a plane such as `z(0.5)`, or a list of them.
 fn planes(fragment: Fragment<'_>) -> Result<Vec<(String, f64)>, LoadError> {
-    match fragment.text().starts_with('[') {
+    // A drive of JSON is a list, too.
+    let drive = fragment.is_json()
+        && (fragment.list(PLANE).ok()).is_some_and(|items| {
+            let first = items.first();
+            first.is_some_and(|first| first.string().is_ok())
+        });
+    match fragment.is_list() && !drive {
         true => (fragment.list(PLANE)?.into_iter()).map(plane).collect(),
         false => plane(fragment).map(|plane| vec![plane]),
     }
@@ -279,7 +276,7 @@ const PLANE: &str = "a plane, such as `z(0.5)`, or of a drive `(\"A1.v\", 0.5)`"
 
 /// Reads `z(0.5)` or `("A1.v", 0.5)`.
 fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
-    if fragment.text().starts_with('(') {
+    if fragment.is_tuple() {
         let [drive, value] = fragment.array(PLANE)?;
         return Ok((drive.string()?, value.number()?));
     }
@@ -297,9 +294,10 @@ fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
 /// Reads `(rx, ry)`, or of drives `("A1.v", "A2.v")`.
 fn axes(fragment: Fragment<'_>) -> Result<[String; 2], LoadError> {
     let expected = "two coordinates, such as `(x, z)`, or drives, `(\"A1.v\", \"A2.v\")`";
-    let read = |axis: Fragment<'_>| match axis.text().starts_with('"') {
-        true => axis.string(),
-        false => coordinate(axis),
+    let read = |axis: Fragment<'_>| match axis.variant("") {
+        Ok((word, None)) if csv::COLUMNS.contains(&word.text()) => coordinate(word),
+        _ if axis.text().starts_with('"') => axis.string(),
+        _ => coordinate(axis),
     };
     let [right, up] = fragment.array(expected)?;
     let axes = [read(right)?, read(up)?];
@@ -341,7 +339,7 @@ fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadErr
 
 /// Reads how colours go with values.
 fn color_scale(fragment: Fragment<'_>) -> Result<ColorScale, LoadError> {
-    match fragment.text() {
+    match fragment.word() {
         "Auto" => Ok(ColorScale::Auto),
         "Linear" => Ok(ColorScale::Linear),
         "Log" => Ok(ColorScale::Log),
@@ -350,7 +348,7 @@ fn color_scale(fragment: Fragment<'_>) -> Result<ColorScale, LoadError> {
 }
 
 fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
-    if fragment.text() == "Auto" {
+    if fragment.word() == "Auto" {
         return Ok(Scale::Auto);
     }
     let expected = "`Auto` or a factor above zero, such as `50.0`";

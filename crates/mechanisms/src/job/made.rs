@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use super::batch::{FIELDS, Job, job_name};
+use super::batch::{Job, job_name};
 use super::subject::Recipe;
 use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
+use crate::terms::job::JOB;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::scope::Scope;
@@ -246,14 +247,13 @@ impl Job {
         let mut written = self.written.clone();
         let near = Arc::clone(self.recipe.root().source());
         for (field, text) in values {
-            let known = FIELDS
-                .iter()
-                .filter(|known| !["name", "mechanism", "poses"].contains(known));
-            let Some(&name) = known.clone().find(|known| *known == field) else {
+            let mut known = JOB.names();
+            known.retain(|known| !["name", "mechanism", "poses"].contains(known));
+            let Some(&name) = known.iter().find(|known| *known == field) else {
                 let whole = Place::whole(&Source::argument("field", String::new(), None));
                 return Err(whole
                     .error(format!("unknown field `{field}` of a job"))
-                    .with_help(names::help(field, "fields", known.copied())));
+                    .with_help(names::help(field, "fields", known)));
             };
             written.retain(|(other, _)| *other != name);
             if !text.is_empty() {

@@ -4,6 +4,7 @@ use hyperstat_elements::{MassShape, RotaryInertia};
 use hyperstat_model::{BeamMass, ModalOptions};
 
 use crate::error::LoadError;
+use crate::terms::job::MODES;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
@@ -13,11 +14,10 @@ pub(crate) const MOST: usize = 1000;
 
 /// Reads `6` or `(count: 6, mass: Lumped)`.
 pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
-    if !fragment.text().starts_with('(') {
+    if !fragment.has_fields() {
         return count(fragment).map(ModalOptions::lowest);
     }
-    let known = ["count", "mass", "shape", "rotary_inertia"];
-    let fields = Fields::read(fragment, "`modes`", &known)?;
+    let fields = Fields::read(fragment, "`modes`", &MODES.names())?;
     let mut options = ModalOptions::lowest(count(fields.required("count")?)?);
     if let Some(mass) = fields.get("mass") {
         options.mass = match word(mass, "kinds of mass", ["Exact", "Consistent", "Lumped"])? {
@@ -67,10 +67,10 @@ fn word<const N: usize>(
     kinds: &str,
     known: [&'static str; N],
 ) -> Result<&'static str, LoadError> {
-    let found = known.into_iter().find(|word| *word == fragment.text());
+    let found = known.into_iter().find(|word| *word == fragment.word());
     found.ok_or_else(|| {
         fragment
-            .error(format!("unknown `{}`", fragment.text()))
-            .with_help(names::help(fragment.text(), kinds, known))
+            .error(format!("unknown `{}`", fragment.word()))
+            .with_help(names::help(fragment.word(), kinds, known))
     })
 }

@@ -238,7 +238,7 @@ fn replacing(fields: &Fields<'_>, path: &str) -> Option<&'static str> {
 impl AxisValues {
     fn read(fragment: Fragment<'_>) -> Result<Self, LoadError> {
         let expected = "values, `Range(first, last, count)` or a list `[value, …]`";
-        if fragment.text().starts_with('[') {
+        if fragment.is_list() {
             let items = fragment.list(expected)?;
             if items.is_empty() {
                 return Err(fragment

@@ -65,7 +65,7 @@ pub(crate) fn imbalance(text: &str, noticed: usize) -> Option<Imbalance> {
 }
 
 /// Number of `#` before the quote at `start` where it opens a raw text, `r"…"` or `r#"…"#`.
-fn raw_hashes(bytes: &[u8], start: usize) -> Option<usize> {
+pub(crate) fn raw_hashes(bytes: &[u8], start: usize) -> Option<usize> {
     let before = &bytes[..start];
     let hashes = before.iter().rev().take_while(|&&b| b == b'#').count();
     let before = before[..start - hashes].strip_suffix(b"r")?;
@@ -76,7 +76,7 @@ fn raw_hashes(bytes: &[u8], start: usize) -> Option<usize> {
 
 /// The last byte of the text that opens at `start`, if it is closed; `raw` is the number of
 /// hashes of a raw one.
-fn text_end(bytes: &[u8], start: usize, raw: Option<usize>) -> Option<usize> {
+pub(crate) fn text_end(bytes: &[u8], start: usize, raw: Option<usize>) -> Option<usize> {
     let mut k = start + 1;
     loop {
         match (*bytes.get(k)?, raw) {
@@ -95,7 +95,7 @@ fn text_end(bytes: &[u8], start: usize, raw: Option<usize>) -> Option<usize> {
 }
 
 /// The last byte of the character `'…'` that opens at `start`; `start` where none does.
-fn character_end(bytes: &[u8], start: usize) -> usize {
+pub(crate) fn character_end(bytes: &[u8], start: usize) -> usize {
     /// Bytes of `'\u{10ffff}'` between its quotes.
     const LONGEST: usize = 10;
     let from = match bytes.get(start + 1) {
@@ -106,13 +106,13 @@ fn character_end(bytes: &[u8], start: usize) -> usize {
     quote.unwrap_or(start)
 }
 
-fn line_end(bytes: &[u8], start: usize) -> usize {
+pub(crate) fn line_end(bytes: &[u8], start: usize) -> usize {
     let length = bytes[start..].iter().position(|&b| b == b'\n');
     length.map_or(bytes.len(), |length| start + length)
 }
 
 /// The last byte of the comment, which may hold others, that opens at `start`, if it is closed.
-fn comment_end(bytes: &[u8], start: usize) -> Option<usize> {
+pub(crate) fn comment_end(bytes: &[u8], start: usize) -> Option<usize> {
     let (mut depth, mut k) = (0, start);
     while k + 1 < bytes.len() {
         match &bytes[k..k + 2] {

@@ -8,6 +8,9 @@ use super::tree::Node;
 use crate::error::LoadError;
 use crate::text::{names, quantities};
 
+/// The field of a JSON file that names its schema.
+pub(crate) const SCHEMA: &str = "$schema";
+
 /// The fields of `(name: value, …)`: each known, and none given twice.
 #[derive(Debug)]
 pub(crate) struct Fields<'a> {
@@ -34,6 +37,10 @@ impl<'a> Fields<'a> {
         let mut names = Vec::<Fragment>::new();
         for (name, value) in fragment.named(&expected)? {
             let owner = &fields.owner;
+            // It is the editor's.
+            if name.text() == SCHEMA && fragment.is_json() {
+                continue;
+            }
             if !known.contains(&name.text()) {
                 return Err(name
                     .error(format!("unknown field `{}` of {owner}", name.text()))

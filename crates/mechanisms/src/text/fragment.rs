@@ -1,34 +1,43 @@
-//! One RON value as it stands in a file, and the ways to read it.
+//! One value as it stands in a file, RON or JSON, and the ways to read it.
 //!
 //! A file is read value by value from the outside in. ron checks the grammar of the whole text
 //! once; after that every value is a [`Fragment`], a piece of the file's own text (ron's
-//! `RawValue` borrows it), so that its place is known to every error about it.
+//! `RawValue` borrows it), so that its place is known to every error about it. Of JSON serde_json does
+//! the same. JSON has fewer forms: an array is a tuple and a list, an object is fields, a map, or a kind
+//! with its arguments, a text is a text or a kind; each answers to whatever of these is asked for.
 
 use std::collections::HashMap;
-use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
 use nalgebra::Vector3;
-use ron::extensions::Extensions;
-use ron::value::RawValue;
-use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::Deserialize;
 
 use super::dimension::Dimension;
 use super::expression::Expression;
 use super::source::{Place, Source};
 use super::tree::{Content, Named, Node};
 use super::units::Wrong;
+use super::{json, raw};
 use crate::error::LoadError;
-use crate::text::{slips, syntax, units};
+use crate::text::{json_syntax, slips, syntax};
+use crate::text::units;
+use crate::words;
 
-/// The text of one RON value, without the white space and comments around it.
+/// The text of one value, without the white space and comments around it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fragment<'a> {
     source: &'a Arc<Source>,
     text: &'a str,
     /// The value, taken apart.
     node: Option<&'a Node>,
+}
+
+/// What a value that is taken apart has.
+pub(super) enum Parts {
+    Named(Vec<String>),
+    /// So many.
+    Listed(usize),
 }
 
 /// An entry `"name": value` of a map.
@@ -39,13 +48,6 @@ pub(crate) struct Entry<'a> {
     /// The name as it stands in the file.
     pub(crate) key: Fragment<'a>,
     pub(crate) value: Fragment<'a>,
-}
-
-/// ron, with the extensions of the file format.
-pub(crate) fn options() -> ron::Options {
-    ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME)
-        .with_default_extension(Extensions::UNWRAP_VARIANT_NEWTYPES)
 }
 
 impl<'a> Entry<'a> {
@@ -62,18 +64,25 @@ impl<'a> Entry<'a> {
 impl<'a> Fragment<'a> {
     /// The value that a whole file holds.
     pub(crate) fn of_file(source: &'a Arc<Source>) -> Result<Self, LoadError> {
-        match options().from_str::<&RawValue>(source.text()) {
-            Ok(raw) => Ok(Self::of_raw(source, raw)),
-            Err(error) => Err(syntax::error(source, &error)),
+        if source.is_json() {
+            let whole = json::whole(source.text());
+            let text = whole.map_err(|error| json_syntax::error(source, &error))?;
+            return match json_syntax::depth(source) {
+                Some(error) => Err(error),
+                None => Ok(Self {
+                    source,
+                    text,
+                    node: None,
+                }),
+            };
         }
-    }
-
-    fn of_raw(source: &'a Arc<Source>, raw: &'a RawValue) -> Self {
-        Self {
+        let whole = raw::whole(source.text());
+        let text = whole.map_err(|error| syntax::error(source, &error))?;
+        Ok(Self {
             source,
-            text: text_of(raw),
+            text,
             node: None,
-        }
+        })
     }
 
     /// The value that stands at a place.
@@ -120,6 +129,52 @@ impl<'a> Fragment<'a> {
         self.text
     }
 
+    /// The text of a word, such as `Auto`: in JSON without its quotes.
+    pub(crate) fn word(self) -> &'a str {
+        match self.is_json() {
+            true => json::inner(self.text).unwrap_or(self.text),
+            false => self.text,
+        }
+    }
+
+    pub(crate) fn is_json(self) -> bool {
+        self.source.is_json()
+    }
+
+    /// Whether these items are what a kind of JSON has as its one argument.
+    fn is_argument(self, items: &[Node]) -> bool {
+        let is_whole = |only: &Node| std::ptr::eq(only.text(), self.text);
+        self.is_json() && matches!(items, [only] if is_whole(only))
+    }
+
+    /// Whether it is a list, `[…]`; in JSON any array.
+    pub(crate) fn is_list(self) -> bool {
+        self.text.starts_with('[')
+    }
+
+    /// Whether it is three numbers, which in JSON are a list, too.
+    pub(crate) fn is_direction(self) -> bool {
+        self.is_json() && self.direction().is_ok()
+    }
+
+    /// Whether it is a tuple, or fields, and no kind or word: `(…)`; in JSON any array.
+    pub(crate) fn is_tuple(self) -> bool {
+        self.text
+            .starts_with(if self.is_json() { '[' } else { '(' })
+    }
+
+    /// Whether it is fields, or a tuple, and no kind or word: `(…)`; in JSON an object, unless it has the
+    /// form of a kind.
+    pub(crate) fn has_fields(self) -> bool {
+        if !self.is_json() {
+            return self.text.starts_with('(');
+        }
+        let pairs = json::pairs(self.text);
+        pairs.is_some_and(|pairs| {
+            !json::is_kind(pairs.iter().filter_map(|(key, _)| json::inner(key)))
+        })
+    }
+
     pub(crate) fn source(self) -> &'a Arc<Source> {
         self.source
     }
@@ -150,11 +205,18 @@ impl<'a> Fragment<'a> {
         if found.len() < self.text.len() {
             found.push('…');
         }
+        let expected = match self.is_json() {
+            true => words::expected(expected),
+            false => expected.into(),
+        };
         let error = self
             .error(format!("expected {expected}, found `{found}`"))
             .unreadable();
         // What is right instead shows what is wrong.
-        let right = slips::in_value(self.text, expected).filter(|_| self.source.is_shown());
+        let right = match self.text {
+            "null" if self.is_json() => Some(NULL.into()),
+            text => slips::in_value(text, &expected).filter(|_| self.source.is_shown()),
+        };
         match right {
             Some(help) => error.with_help(help),
             None => error,
@@ -163,14 +225,19 @@ impl<'a> Fragment<'a> {
 
     /// Any type that serde can read; `expected` says in words what it is.
     pub(crate) fn parse<T: Deserialize<'a>>(self, expected: &str) -> Result<T, LoadError> {
-        options()
-            .from_str(self.text)
-            .map_err(|_| self.expected(expected))
+        let read = match self.is_json() {
+            true => serde_json::from_str(self.text).ok(),
+            false => raw::options().from_str(self.text).ok(),
+        };
+        read.ok_or_else(|| self.expected(expected))
     }
 
     /// A finite number without a unit.
     pub(super) fn plain_number(self) -> Result<f64, LoadError> {
-        let number: f64 = self.parse("a number")?;
+        let number = match self.is_json() {
+            true => json::number(self.text).ok_or_else(|| self.expected("a number"))?,
+            false => self.parse("a number")?,
+        };
         if !number.is_finite() {
             return Err(self
                 .error(format!("`{}` is not a finite number", self.text))
@@ -317,6 +384,9 @@ impl<'a> Fragment<'a> {
     /// A tuple `(…, …)` of any length; `expected` says in words what it is.
     pub(crate) fn tuple(self, expected: &str) -> Result<Vec<Self>, LoadError> {
         match self.content() {
+            Some(Content::Tuple(items)) if self.is_argument(items) => {
+                return Self::of_node(&items[0]).tuple(expected);
+            }
             Some(Content::Tuple(items)) => return Ok(items.iter().map(Self::of_node).collect()),
             Some(Content::Failed(error)) => return Err(error.again()),
             Some(Content::Number(_)) if Expression::begins(self.text) => {
@@ -324,17 +394,23 @@ impl<'a> Fragment<'a> {
                 let help = "points give three: `= midpoint(A, B)`, `= A + 0.5 * (B - A)`";
                 return Err(error.unreadable().with_help(help));
             }
+            _ if self.is_json() => return self.list(expected),
             _ => {}
         }
-        let Tuple(items) = self.parse(expected)?;
-        Ok((items.into_iter())
-            .map(|raw| self.part(text_of(raw)))
-            .collect())
+        let items = raw::tuple(self.text).ok_or_else(|| self.expected(expected))?;
+        Ok(items.into_iter().map(|item| self.part(item)).collect())
     }
 
     /// A tuple of `N` values.
     pub(crate) fn array<const N: usize>(self, expected: &str) -> Result<[Self; N], LoadError> {
-        let items = self.tuple(expected)?;
+        let items = match self.content() {
+            // One value stands for itself in JSON.
+            Some(Content::Tuple(items)) if self.is_json() && N == 1 => {
+                items.iter().map(Self::of_node).collect()
+            }
+            _ if self.is_json() && N == 1 => vec![self],
+            _ => self.tuple(expected)?,
+        };
         self.no_decimal_commas(&items, N, expected)?;
         items.try_into().map_err(|_| self.expected(expected))
     }
@@ -364,10 +440,12 @@ impl<'a> Fragment<'a> {
         if let Some(Content::List(items)) = self.content() {
             return Ok(items.iter().map(Self::of_node).collect());
         }
-        let items: Vec<&RawValue> = self.parse(expected)?;
-        Ok((items.into_iter())
-            .map(|raw| self.part(text_of(raw)))
-            .collect())
+        let items = match self.is_json() {
+            true => json::items(self.text),
+            false => raw::items(self.text),
+        };
+        let items = items.ok_or_else(|| self.expected(expected))?;
+        Ok(items.into_iter().map(|item| self.part(item)).collect())
     }
 
     /// Three finite numbers of this dimension.
@@ -393,22 +471,22 @@ impl<'a> Fragment<'a> {
         if let Some(Content::Map(named)) = self.content() {
             return Ok(named.iter().map(Entry::of).collect());
         }
-        let Pairs(pairs) = self.parse("a map `{ \"name\": …, }`")?;
+        let expected = "a map `{ \"name\": …, }`";
+        let pairs = match self.is_json() {
+            true => self.object(),
+            false => raw::pairs(self.text).map(|pairs| self.each(pairs)),
+        };
+        let pairs = pairs.ok_or_else(|| self.expected(expected))?;
         let mut seen = HashMap::new();
         let mut entries = Vec::with_capacity(pairs.len());
         for (key, value) in pairs {
-            let key = self.part(text_of(key));
             let name = key.unquoted(NAME)?;
             if let Some(first) = seen.insert(name.clone(), key) {
                 return Err(key
                     .error(format!("the name \"{name}\" is given twice"))
                     .with_help(first_at(first)));
             }
-            entries.push(Entry {
-                name,
-                key,
-                value: self.part(text_of(value)),
-            });
+            entries.push(Entry { name, key, value });
         }
         Ok(entries)
     }
@@ -429,9 +507,17 @@ impl<'a> Fragment<'a> {
 
     /// The fields of a struct as its text has them; `None` of anything else, a tuple too.
     pub(super) fn pieces(self) -> Option<Vec<(Self, Self)>> {
-        let Pieces(fields) = options().from_str(self.text).ok()?;
-        let pair = |(name, raw)| (self.part(name), self.part(text_of(raw)));
-        Some(fields.into_iter().map(pair).collect())
+        if self.is_json() {
+            let pair = |(key, value): (Self, Self)| Some((key.unescaped()?, value));
+            return self.object()?.into_iter().map(pair).collect();
+        }
+        Some(self.each(raw::pieces(self.text)?))
+    }
+
+    /// Names and values of its text.
+    fn each(self, pairs: Vec<(&'a str, &'a str)>) -> Vec<(Self, Self)> {
+        let pair = |(name, value)| (self.part(name), self.part(value));
+        pairs.into_iter().map(pair).collect()
     }
 
     /// A kind and its arguments: `Kind(…)` or `Kind`, whose arguments are `None`.
@@ -440,15 +526,76 @@ impl<'a> Fragment<'a> {
             let inner = inner.as_deref().map(Self::of_node);
             return Ok((Self::between(self.source, kind), inner));
         }
-        let wrong = |_| self.expected(expected);
-        let mut deserializer = ron::Deserializer::from_str(self.text).map_err(wrong)?;
-        let Identifier(kind) =
-            Identifier::deserialize(&mut deserializer).map_err(|_| self.expected(expected))?;
-        let rest = deserializer.remainder().trim();
-        let inner = (!rest.is_empty()).then(|| self.part(rest));
-        Ok((self.part(kind), inner))
+        if self.is_json() {
+            return self.json_variant().ok_or_else(|| self.expected(expected));
+        }
+        let (kind, inner) = raw::variant(self.text).ok_or_else(|| self.expected(expected))?;
+        Ok((self.part(kind), inner.map(|inner| self.part(inner))))
+    }
+
+    /// The parts of a value that is taken apart, or of a kind's arguments; `None` where it has none, or
+    /// is not.
+    pub(super) fn parts(self) -> Option<Parts> {
+        match self.content()? {
+            Content::Kind(_, Some(inner)) => Self::of_node(inner).parts(),
+            Content::Map(named) | Content::Fields(named) => {
+                let names = named.iter().map(|own| own.name.to_string());
+                Some(Parts::Named(names.collect()))
+            }
+            Content::Tuple(items) | Content::List(items) => Some(Parts::Listed(items.len())),
+            _ => None,
+        }
+    }
+
+    /// The names, with their quotes, and the values of a JSON object.
+    pub(super) fn object(self) -> Option<Vec<(Self, Self)>> {
+        // With its quotes.
+        let key = |source: &'a Arc<Source>, at: &Range<usize>| {
+            Self::between(source, &(at.start.saturating_sub(1)..at.end + 1))
+        };
+        match self.content() {
+            Some(Content::Map(named)) => {
+                let pair = |own: &'a Named| {
+                    let key = Self::between(&own.source, &own.at);
+                    (key, Self::of_node(&own.value))
+                };
+                Some(named.iter().map(pair).collect())
+            }
+            Some(Content::Fields(named)) => {
+                let pair = |own: &'a Named| (key(&own.source, &own.at), Self::of_node(&own.value));
+                Some(named.iter().map(pair).collect())
+            }
+            Some(Content::Kind(kind, Some(inner))) => {
+                let inner = Self::of_node(inner);
+                let [value] = inner.array("").unwrap_or([inner]);
+                Some(vec![(key(self.source, kind), value)])
+            }
+            _ => Some(self.each(json::pairs(self.text)?)),
+        }
+    }
+
+    /// What stands between the quotes of a JSON text.
+    fn unescaped(self) -> Option<Self> {
+        json::inner(self.text).map(|inner| self.part(inner))
+    }
+
+    /// A JSON text, or an object of one name, as a kind.
+    fn json_variant(self) -> Option<(Self, Option<Self>)> {
+        if let Some(kind) = self.unescaped() {
+            return Some((kind, None));
+        }
+        match &self.object()?[..] {
+            [(key, value)] => {
+                let value = (value.text != "null").then_some(*value);
+                Some((key.unescaped()?, value))
+            }
+            _ => None,
+        }
     }
 }
+
+/// What is right in the place of `null`.
+const NULL: &str = "leave the field out where there is nothing to say";
 
 /// Largest number of what acts, in SI units: the squares of larger ones, and their products with
 /// stiffnesses and lever arms, overflow.
@@ -457,97 +604,8 @@ const MOST: f64 = 1e50;
 /// What a key of a map is.
 const NAME: &str = "a name in quotes";
 
-/// The text of a value without the white space and comments around it.
-fn text_of(raw: &RawValue) -> &str {
-    raw.trim().get_ron()
-}
-
 /// Where something stood first that is given twice.
 pub(crate) fn first_at(first: Fragment<'_>) -> String {
     let line = first.place().location().line;
     format!("it stands in line {line} already; remove one of the two")
-}
-
-struct Tuple<'a>(Vec<&'a RawValue>);
-
-impl<'de> Deserialize<'de> for Tuple<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Items;
-        impl<'de> Visitor<'de> for Items {
-            type Value = Tuple<'de>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a tuple")
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Tuple<'de>, A::Error> {
-                let mut items = Vec::new();
-                while let Some(item) = seq.next_element()? {
-                    items.push(item);
-                }
-                Ok(Tuple(items))
-            }
-        }
-        deserializer.deserialize_tuple(0, Items)
-    }
-}
-
-struct Pairs<'a>(Vec<(&'a RawValue, &'a RawValue)>);
-
-impl<'de> Deserialize<'de> for Pairs<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Pairs<'de>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a map")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<'de>, A::Error> {
-                let mut pairs = Vec::new();
-                while let Some(pair) = map.next_entry()? {
-                    pairs.push(pair);
-                }
-                Ok(Pairs(pairs))
-            }
-        }
-        deserializer.deserialize_map(Entries)
-    }
-}
-
-struct Pieces<'a>(Vec<(&'a str, &'a RawValue)>);
-
-impl<'de> Deserialize<'de> for Pieces<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Fields;
-        impl<'de> Visitor<'de> for Fields {
-            type Value = Pieces<'de>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("named fields")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pieces<'de>, A::Error> {
-                let mut fields = Vec::new();
-                while let Some((Identifier(name), value)) = map.next_entry()? {
-                    fields.push((name, value));
-                }
-                Ok(Pieces(fields))
-            }
-        }
-        deserializer.deserialize_struct("", &[], Fields)
-    }
-}
-
-struct Identifier<'a>(&'a str);
-
-impl<'de> Deserialize<'de> for Identifier<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Name;
-        impl<'de> Visitor<'de> for Name {
-            type Value = Identifier<'de>;
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("an identifier")
-            }
-            fn visit_borrowed_str<E>(self, name: &'de str) -> Result<Identifier<'de>, E> {
-                Ok(Identifier(name))
-            }
-        }
-        deserializer.deserialize_identifier(Name)
-    }
 }

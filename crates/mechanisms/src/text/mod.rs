@@ -1,5 +1,6 @@
 //! Text of files: reading it, places in it, names and paths, tables.
 
+pub(crate) mod as_json;
 pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
@@ -11,11 +12,14 @@ pub(crate) mod expression;
 pub(crate) mod fields;
 pub mod files;
 pub(crate) mod fragment;
+pub(crate) mod json;
+pub(crate) mod json_syntax;
 pub(crate) mod made;
 pub(crate) mod named;
 pub(crate) mod names;
 pub(crate) mod paths;
 pub(crate) mod quantities;
+pub(crate) mod raw;
 pub(crate) mod replace;
 pub(crate) mod scope;
 pub(crate) mod slips;

@@ -5,7 +5,7 @@
 //! diameter of `rod: (section: Circle(diameter: 0.014), …)`. A parameter may be named alone: `R` is
 //! `parameters.R`, unless the mechanism has a field of that name.
 
-use super::fragment::Fragment;
+use super::fragment::{Fragment, Parts};
 use super::scope::PARAMETERS;
 use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
@@ -93,6 +93,11 @@ impl Step<'_> {
     /// Takes the step from `value`: the place of the part it leads to, and how many bytes of the path
     /// it is.
     fn take(&self, value: Fragment<'_>) -> Result<(usize, usize), LoadError> {
+        match value.parts() {
+            Some(Parts::Named(names)) => return self.of_names(&names),
+            Some(Parts::Listed(count)) => return self.of_list(count),
+            None => {}
+        }
         let inside = contents(value);
         let first = inside.text().chars().next();
         match first {

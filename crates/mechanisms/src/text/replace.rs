@@ -52,6 +52,7 @@ impl Changed<'_> {
             message,
             help,
             unreadable,
+            json,
         } = error
         else {
             return error;
@@ -66,6 +67,7 @@ impl Changed<'_> {
                 message: format!("{}{message}", after(": ")),
                 help,
                 unreadable,
+                json,
             };
         }
         let alone = |k: &usize| !reads(&self.tree_with(|other| other == *k));
@@ -80,6 +82,7 @@ impl Changed<'_> {
             location: Box::new(place.location()),
             help,
             unreadable,
+            json,
         }
     }
 }

@@ -8,12 +8,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::error::{LoadError, Location};
 use crate::text::files::{self, Files, MemoryFiles};
+use crate::text::json;
 
 /// A text file: its name in messages and its text.
 #[derive(Debug)]
 pub(crate) struct Source {
     path: PathBuf,
     text: String,
+    /// Whether it is JSON; else it is RON.
+    json: bool,
     /// Where the whole text is asked for, if it stands in no file as it is.
     origin: Option<Place>,
     /// Name of the argument that it is, if a program hands it in.
@@ -72,6 +75,7 @@ impl Source {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Arc::new(Self {
             path: path.into(),
+            json: json::is_json(text),
             text: match text.contains('\n') {
                 true => text.into(),
                 false => text.replace('\r', "\n"),
@@ -89,6 +93,7 @@ impl Source {
         Arc::new(Self {
             path: origin.source.path.clone(),
             text,
+            json: false,
             family: Arc::clone(&origin.source.family),
             shown: AtomicBool::new(true),
             argument: None,
@@ -97,10 +102,11 @@ impl Source {
     }
 
     /// What a program hands in under this name, as it would stand in a file: in that of `near`, whose
-    /// files it may name, or in none.
+    /// files it may name, or in none. Near a JSON file it is JSON where it can be, else RON.
     pub(crate) fn argument(name: &str, text: String, near: Option<&Arc<Self>>) -> Arc<Self> {
         Arc::new(Self {
             path: near.map_or_else(PathBuf::new, |near| near.path.clone()),
+            json: near.is_some_and(|near| near.json) && json::is_value(&text),
             text,
             origin: None,
             argument: Some(name.into()),
@@ -167,6 +173,11 @@ impl Source {
 
     pub(crate) fn text(&self) -> &str {
         &self.text
+    }
+
+    /// Whether it is JSON; else it is RON.
+    pub(crate) fn is_json(&self) -> bool {
+        self.json
     }
 
     /// `path` as seen from the folder of this file.
@@ -263,6 +274,7 @@ impl Place {
             },
             help: None,
             unreadable: false,
+            json: self.source.is_json(),
         }
     }
 }

@@ -14,6 +14,7 @@ use std::sync::Arc;
 use super::dimension::Dimension;
 use super::expression::Expression;
 use super::fragment::Fragment;
+use super::json;
 use super::source::{Place, Source};
 use super::units;
 use crate::error::LoadError;
@@ -23,12 +24,12 @@ use crate::error::LoadError;
 pub(crate) struct Node {
     pub(super) source: Arc<Source>,
     pub(super) span: Range<usize>,
-    pub(super) content: Content,
+    pub(crate) content: Content,
 }
 
 /// What a value is made of.
 #[derive(Debug, Clone)]
-pub(super) enum Content {
+pub(crate) enum Content {
     /// A finite number.
     Number(f64),
     /// A number of this dimension.
@@ -53,11 +54,11 @@ pub(super) enum Content {
 #[derive(Debug, Clone)]
 pub(crate) struct Named {
     /// The name, without quotes.
-    pub(super) name: Arc<str>,
+    pub(crate) name: Arc<str>,
     /// Where it stands.
-    pub(super) source: Arc<Source>,
-    pub(super) at: Range<usize>,
-    pub(super) value: Node,
+    pub(crate) source: Arc<Source>,
+    pub(crate) at: Range<usize>,
+    pub(crate) value: Node,
 }
 
 /// Way to a value from the outside in: at every step the place among the parts, from 0.
@@ -66,10 +67,30 @@ pub(crate) type Steps = Vec<usize>;
 /// Deepest part that is taken apart: deeper than what ron reads.
 const DEEPEST: usize = 256;
 
+/// Fields that hold names: their objects are told from fields and kinds by this alone in JSON.
+pub(crate) const MAPS: [&str; 13] = [
+    "parameters",
+    "groups",
+    "copies",
+    "overrides",
+    "materials",
+    "sections",
+    "points",
+    "bodies",
+    "joints",
+    "cases",
+    "misfits",
+    "preloads",
+    "vary",
+];
+
 impl Node {
     /// The tree of a value of a file.
     pub(crate) fn of(value: Fragment<'_>) -> Self {
-        Self::at_depth(value, 0)
+        match value.is_json() {
+            true => Self::of_json(value, false, 0),
+            false => Self::at_depth(value, 0),
+        }
     }
 
     /// The tree of what stands at a place.
@@ -259,6 +280,67 @@ impl Node {
             span: value.span(),
             content: content.unwrap_or(Content::Other),
         }
+    }
+
+    /// The tree of a JSON value; `map` says that names stand in it, not fields.
+    fn of_json(value: Fragment<'_>, map: bool, depth: usize) -> Self {
+        let part = |part: Fragment<'_>| Self::of_json(part, false, depth + 1);
+        let content = match value.text().chars().next() {
+            _ if depth > DEEPEST => None,
+            Some('{') if map => value.map().ok().map(|entries| {
+                let named = entries.into_iter().map(|entry| Named {
+                    name: entry.name.into(),
+                    source: Arc::clone(entry.key.source()),
+                    at: entry.key.span(),
+                    value: part(entry.value),
+                });
+                Content::Map(named.collect())
+            }),
+            Some('{') => Self::fields_or_kind(value, depth),
+            Some('[') => (value.list("").ok())
+                .map(|items| Content::List(items.into_iter().map(part).collect())),
+            Some('"') if Expression::begins(value.text()) => {
+                let expression = Expression::read(value.text());
+                Some(Content::Expression(Arc::new(expression)))
+            }
+            Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
+            _ => value.plain_number().ok().map(Content::Number),
+        };
+        Self {
+            source: Arc::clone(value.source()),
+            span: value.span(),
+            content: content.unwrap_or(Content::Other),
+        }
+    }
+
+    /// A JSON object that is no map.
+    fn fields_or_kind(value: Fragment<'_>, depth: usize) -> Option<Content> {
+        let pieces = value.pieces()?;
+        let part = |part: Fragment<'_>, map| Self::of_json(part, map, depth + 1);
+        if let ([(kind, inner)], true) = (
+            &pieces[..],
+            json::is_kind(pieces.iter().map(|(name, _)| name.text())),
+        ) {
+            let node = part(*inner, false);
+            // In the place of the parentheses that a kind's one argument has in RON.
+            let inner = match (&node.content, inner.text()) {
+                (_, "null") => None,
+                (Content::Fields(_) | Content::Kind(..), _) => Some(node),
+                _ => Some(Self {
+                    source: Arc::clone(&node.source),
+                    span: node.span.clone(),
+                    content: Content::Tuple([node].into()),
+                }),
+            };
+            return Some(Content::Kind(kind.span(), inner.map(Arc::new)));
+        }
+        let named = pieces.into_iter().map(|(name, value)| Named {
+            name: name.text().into(),
+            source: Arc::clone(name.source()),
+            at: name.span(),
+            value: part(value, MAPS.contains(&name.text())),
+        });
+        Some(Content::Fields(named.collect()))
     }
 
     pub(crate) fn source(&self) -> &Arc<Source> {

@@ -52,9 +52,17 @@ impl Value {
             Self::Number(number) => written(*number),
             Self::Text(text) => {
                 let quoted = |text: &str| text.trim_start().starts_with('"');
+                // A text of JSON may be a kind, too, in whose place another stands with its arguments.
+                let kind = |old: &Node| {
+                    let capital = |text: &str| text.starts_with(char::is_uppercase);
+                    old.source().is_json()
+                        && old.text().get(1..).is_some_and(capital)
+                        && capital(text)
+                        && text.ends_with(')')
+                };
                 let number = text.starts_with('=') || units::read(text, None).is_ok();
-                let of_text = old.is_some_and(|old| quoted(old.text()));
-                match (of_text || number) && !quoted(text) {
+                let wants_quotes = |old: &Node| quoted(old.text()) && !kind(old);
+                match (old.is_some_and(wants_quotes) || number) && !quoted(text) {
                     true => format!("{text:?}"),
                     false => text.clone(),
                 }

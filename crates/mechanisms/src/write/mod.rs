@@ -1,4 +1,4 @@
-//! A model as a mechanism file: the text that loads as the same model.
+//! A model as a mechanism file, RON or JSON: the text that loads as the same model.
 
 mod acting;
 mod bodies;
@@ -8,11 +8,16 @@ mod numbers;
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
+use std::path::Path;
 
 use hyperstat_model::{JointId, Model, NodeId};
 use nalgebra::Point3;
 
 use crate::file::registry::Registry;
+use crate::layout;
+use crate::text::as_json::as_json;
+use crate::text::files::MemoryFiles;
+use crate::text::source::Source;
 use crate::write::bodies::Shared;
 pub use crate::write::error::WriteError;
 use crate::write::numbers::vector;
@@ -48,6 +53,16 @@ pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
     acting::acting(model, &mut text)?;
     let _ = writeln!(text, "    output: {},\n)", place(model, output));
     Ok(text)
+}
+
+/// [`write`], in JSON: the same names and the same numbers.
+///
+/// # Errors
+/// As there.
+pub fn write_json(model: &Model, registry: &Registry) -> Result<String, WriteError> {
+    let text = write(model, registry)?;
+    let source = Source::new(Path::new(""), &text, &MemoryFiles::new());
+    Ok(layout::laid_out(&as_json(&source), true))
 }
 
 /// Writes the map `field`, an entry a line; nothing where it is empty and may be left out.

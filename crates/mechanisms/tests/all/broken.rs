@@ -1,6 +1,6 @@
 //! Broken files, each with the message that its writer reads.
 //!
-//! Every `broken/NAME.ron` has its message in `broken/NAME.txt`. With `BLESS=1` in the
+//! Every `broken/NAME.ron`, and `NAME.json`, has its message in `broken/NAME.txt`. With `BLESS=1` in the
 //! environment the messages are written instead of compared: read every change before keeping it.
 
 use std::fmt::Write;
@@ -29,7 +29,7 @@ fn every_broken_file_gets_its_message() {
         .read_dir()
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter(|name| name.ends_with(".ron"))
+        .filter(|name| name.ends_with(".ron") || name.ends_with(".json"))
         .collect();
     names.sort();
     assert!(names.len() > 100, "the corpus has gone");

@@ -10,6 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use hyperstat_mechanisms::to_json;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
@@ -90,6 +91,14 @@ fn files_are_answered() {
 }
 
 #[test]
+fn files_in_json_are_answered() {
+    let path = folder().text().with_extension("json");
+    let texts = mechanisms_and_batches().into_iter();
+    let texts = texts.filter_map(|text| to_json(&text, &path).ok());
+    change("json", texts.collect(), |text| fuzzing::answer(text, &path));
+}
+
+#[test]
 fn what_is_taken_is_solved_or_refused() {
     let path = folder().text();
     let texts = mechanisms_and_batches().into_iter();
@@ -139,6 +148,7 @@ proptest! {
         answer(&format!("(name: {text}"));
         fuzzing::expression(&text);
         fuzzing::quantity(&text);
+        answer(&format!("{{\"name\": {text}"));
     }
 }
 
@@ -180,7 +190,10 @@ fn deeply_nested_expressions_are_answered() {
 #[test]
 fn every_beginning_of_a_file_is_answered() {
     let text = include_str!("../../../../examples/portal.ron");
-    for (end, _) in text.char_indices() {
-        answer(&text[..end]);
+    let json = to_json(text, Path::new("portal.ron")).unwrap();
+    for text in [text, &json] {
+        for (end, _) in text.char_indices() {
+            answer(&text[..end]);
+        }
     }
 }

@@ -16,6 +16,7 @@ use copy::Copy;
 
 use crate::error::LoadError;
 use crate::file::through::check_name;
+use crate::terms::mechanism::{COPIED, GROUP};
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment, first_at};
 use crate::text::names;
@@ -147,7 +148,7 @@ fn of_group(
     written: &mut Written,
 ) -> Result<(), LoadError> {
     let owner = format!("group `{}`", group.name);
-    Fields::read(group.value, owner, &PARTS)?;
+    Fields::read(group.value, owner, &GROUP.names())?;
     check_names(group, node, root)?;
     let (places, names, overrides) = read(entry)?;
     let overrides = match overrides {
@@ -219,7 +220,7 @@ fn read<'a>(entry: &Entry<'a>) -> Result<Asked<'a>, LoadError> {
         return Ok((places, names, None));
     }
     let owner = format!("the copies of `{}`", entry.name);
-    let fields = Fields::read(given, owner, &["places", "names", "overrides"])?;
+    let fields = Fields::read(given, owner, &COPIED.names())?;
     let places = placement::read(fields.required("places")?)?;
     let names = match fields.get("names") {
         None => (1..=places.len()).map(|k| k.to_string()).collect(),

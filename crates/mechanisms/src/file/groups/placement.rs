@@ -3,13 +3,14 @@
 use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use crate::error::LoadError;
+use crate::terms::mechanism::{MOST_COPIES, PLACING};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
 
 /// Most copies of a group.
-const MOST: usize = 10_000;
+const MOST: usize = MOST_COPIES as usize;
 
 /// A motion of a group, or its mirror image: p → `linear` p + `shift`, `linear` orthogonal.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,27 +101,32 @@ pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> 
 
 /// Reads one kind of placing.
 fn one(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
-    const KINDS: [&str; 3] = ["Turned", "Moved", "Mirrored"];
     let (kind, arguments) = fragment.variant("`Turned(…)`, `Moved(…)` or `Mirrored(…)`")?;
     let owner = format!("`{}`", kind.text());
-    let fields = |known: &[&str]| match arguments {
-        Some(given) => Ok(Fields::read(given, owner.clone(), known)?.within(fragment)),
-        None => Ok(Fields::none(fragment, owner.clone())),
+    let Some(known) = PLACING.fields(kind.text()) else {
+        let other = kind.text();
+        return Err(kind
+            .error(format!("unknown way of placing copies `{other}`"))
+            .unreadable()
+            .with_help(names::help(
+                other,
+                "ways of placing copies",
+                PLACING.names(),
+            )));
+    };
+    let fields = match arguments {
+        Some(given) => Fields::read(given, owner, &known)?.within(fragment),
+        None => Fields::none(fragment, owner),
     };
     match kind.text() {
-        "Turned" => turned(&fields(&["axis", "through", "count", "step", "angles"])?),
-        "Moved" => moved(&fields(&["by", "count"])?),
-        "Mirrored" => {
-            let fields = fields(&["normal", "through"])?;
+        "Turned" => turned(&fields),
+        "Moved" => moved(&fields),
+        _ => {
             let normal = fields.required("normal")?.direction()?.normalize();
             let reflection = Matrix3::identity() - 2.0 * normal * normal.transpose();
             let mirrored = Placement::about(&through(&fields)?, reflection);
             Ok(vec![Placement::HERE, mirrored])
         }
-        other => Err(kind
-            .error(format!("unknown way of placing copies `{other}`"))
-            .unreadable()
-            .with_help(names::help(other, "ways of placing copies", KINDS))),
     }
 }
 

@@ -18,7 +18,7 @@ mod table;
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Disk, Input, LoadError, Registry, WriteError, load_str, mechanism_from_str, write,
+    Disk, Input, LoadError, Registry, WriteError, format, load_str, mechanism_from_str, write,
 };
 
 pub use folder::{Folder, jobs_alone, seeds};
@@ -30,9 +30,13 @@ pub use table::{ROLES, table};
 
 /// Reads a text that stands at `path`. The loader must answer with a mechanism or batch, or with an
 /// error that points into the text or into a file that it names; a mechanism must be the same after
-/// it is written and read again.
+/// it is written and read again. A text that has been put in order stays as it is.
 pub fn answer(text: &str, path: &Path) -> bool {
     let registry = Registry::builtin();
+    if let Ok(even) = format(text, path) {
+        let again = format(&even, path).unwrap_or_else(|error| panic!("{error}\n{even}"));
+        assert_eq!(again, even, "of {text}");
+    }
     match load_str(text, path, &Disk, &registry) {
         Ok(Input::Batch(_)) => true,
         Ok(Input::Mechanism(mechanism)) => {
