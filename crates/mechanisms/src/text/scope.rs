@@ -188,37 +188,36 @@ impl<'t> Scope<'t> {
         Some(node.with(content))
     }
 
+    /// What is before the first change, and where nothing changes, is not looked at twice.
     fn all(&self, items: &[Node]) -> Option<Arc<[Node]>> {
-        let changed: Vec<_> = items.iter().map(|item| self.changed(item)).collect();
-        if changed.iter().all(Option::is_none) {
-            return None;
-        }
-        let items = changed.into_iter().zip(items);
-        Some(
-            items
-                .map(|(new, old)| new.unwrap_or_else(|| old.clone()))
-                .collect(),
-        )
+        let mut new = items.iter().map(|item| self.changed(item)).enumerate();
+        let (first, changed) = new.find_map(|(k, item)| Some((k, item?)))?;
+        let rest = new.map(|(k, item)| item.unwrap_or_else(|| items[k].clone()));
+        let before = items[..first].iter().cloned();
+        Some(before.chain([changed]).chain(rest).collect())
     }
 
     /// The parameters themselves, among the outermost fields, stay as they are.
     fn all_named(&self, named: &[Named], outermost: bool) -> Option<Arc<[Named]>> {
         let kept = |own: &Named| outermost && &*own.name == PARAMETERS;
-        let changed: Vec<_> = (named.iter())
-            .map(|own| (!kept(own)).then(|| self.changed(&own.value)).flatten())
-            .collect();
-        if changed.iter().all(Option::is_none) {
-            return None;
-        }
-        let named = changed.into_iter().zip(named);
-        Some(
-            named
-                .map(|(new, old)| Named {
-                    value: new.unwrap_or_else(|| old.value.clone()),
-                    ..old.clone()
-                })
-                .collect(),
-        )
+        let with = |own: &Named, value: Node| Named {
+            value,
+            ..own.clone()
+        };
+        let mut new = (named.iter())
+            .map(|own| match kept(own) {
+                true => None,
+                false => self.changed(&own.value),
+            })
+            .enumerate();
+        let (first, changed) = new.find_map(|(k, value)| Some((k, value?)))?;
+        let rest = new.map(|(k, value)| match value {
+            Some(value) => with(&named[k], value),
+            None => named[k].clone(),
+        });
+        let before = named[..first].iter().cloned();
+        let changed = with(&named[first], changed);
+        Some(before.chain([changed]).chain(rest).collect())
     }
 
     /// What stands in the place of an expression.

@@ -298,3 +298,82 @@ fn a_parameter_varies_as_a_value_does() {
     let batch = delta("parameters: { \"R\": 1 },", "\"= R\"", &varied).unwrap();
     assert_eq!(models(&batch), expected);
 }
+
+/// Derivatives of the expressions, beside differences of their values.
+#[test]
+fn what_depends_on_a_parameter_is_known_with_its_derivative() {
+    let expressions = [
+        "a",
+        "2 * a - 3 / a",
+        "-a ^ 3 + b ^ a",
+        "sin(a) * cos(2 * a) / tan(a + 1)",
+        "asin(a) - acos(a / 2) + atan(3 * a)",
+        "sinh(a) + cosh(a) * tanh(a)",
+        "sqrt(a) + cbrt(a) + exp(-a) * ln(a) + log10(a)",
+        "abs(a - 2) + pow(a, b) + pow(b, a)",
+        "atan2(a, 1 - a) + hypot(a, b)",
+        "min(a, b, 9) * max(a, 0.1)",
+        "distance(A, P) * P.y + midpoint(P, A).x",
+        "c * c",
+    ];
+    let value = |mechanism: &Mechanism| mechanism.model.loads()[0].wrench[0];
+    for expression in expressions {
+        let text = with(&[
+            (
+                "PARAMETERS",
+                "parameters: { \"a\": 0.4, \"b\": 2.5, \"c\": \"= a * b\" },",
+            ),
+            ("FORCE", &format!("\"= {expression}\"")),
+        ]);
+        // A point that no body runs through.
+        let text = text.replace(
+            "points: {",
+            "points: { \"P\": (\"= a * a\", \"= 1 / a\", \"10 mm\"),",
+        );
+        let mechanism = read(&text).unwrap_or_else(|error| panic!("{expression}: {error}"));
+        let dependences = mechanism.dependences();
+        let names: Vec<&str> = dependences.iter().map(|own| own.path.as_str()).collect();
+        assert_eq!(names, ["parameters.a", "parameters.b", "parameters.c"]);
+        for own in dependences {
+            let step = 1e-5 * own.value;
+            let beside = [own.value + step, own.value - step];
+            let [more, less] =
+                beside.map(|at| value(&mechanism.with_values(&[(&own.path, at)]).unwrap()));
+            let expected = (more - less) / (beside[0] - beside[1]);
+            let mut found = own
+                .slopes
+                .iter()
+                .filter(|(path, _)| path == "loads.0.force.0");
+            let found = found.next().map_or(0.0, |(_, slope)| *slope);
+            // Of the step, by its square, and of rounding.
+            let precision = 1e-8 * (1.0 + expected.abs());
+            assert!(
+                (found - expected).abs() < precision,
+                "{expression}, {}: {found} {expected}",
+                own.path
+            );
+        }
+    }
+    // What an expression of a whole point reaches.
+    let mechanism = read(&with(&EXPRESSIONS)).unwrap();
+    let radius = mechanism
+        .dependences()
+        .into_iter()
+        .find(|own| own.path == "parameters.R")
+        .unwrap();
+    let paths: Vec<&str> = radius
+        .slopes
+        .iter()
+        .map(|(path, _)| path.as_str())
+        .collect();
+    let expected = [
+        "points.A.0",
+        "points.B.0",
+        "points.B.1",
+        "points.M",
+        "joints.elbow.kind.axis.0",
+        "joints.elbow.kind.axis.1",
+        "loads.0.force.0",
+    ];
+    assert_eq!(paths, expected);
+}

@@ -45,8 +45,10 @@ impl Expression {
                 What::Name(name) => named(name, None, at)?,
                 What::CoordinateOf(name, k) => named(name, Some(*k), at)?,
                 What::Call(rule, count) => {
-                    let arguments = stack.split_off(stack.len().saturating_sub(*count));
-                    call(rule, &arguments, at)?
+                    let first = stack.len().saturating_sub(*count);
+                    let found = call(rule, &stack[first..], at)?;
+                    stack.truncate(first);
+                    found
                 }
                 What::Coordinate(k) => coordinate(pop(&mut stack), *k, at)?,
                 What::Negate => negated(pop(&mut stack)),
@@ -129,32 +131,37 @@ fn both(what: &What, left: Operand, right: Operand, at: &Range<usize>) -> Result
 }
 
 fn call(rule: &Rule, arguments: &[Operand], at: &Range<usize>) -> Result<Operand, Mistake> {
-    let numbers: Option<Vec<Dual>> = (arguments.iter())
-        .map(|argument| match argument {
-            Operand::Number(number) => Some(*number),
-            Operand::Point(_) => None,
-        })
-        .collect();
-    Ok(match (&rule.by, numbers.as_deref(), arguments) {
-        (By::One(of), Some([x]), _) => Operand::Number(of(*x)),
-        (By::Two(of), Some([x, y]), _) => Operand::Number(of(*x, *y)),
-        (By::Fold(of), Some([first, rest @ ..]), _) => {
-            Operand::Number(rest.iter().fold(*first, |found, next| of(found, *next)))
+    use Operand::Number;
+    Ok(match (&rule.by, arguments) {
+        (By::One(of), [Number(x)]) => Number(of(*x)),
+        (By::Two(of), [Number(x), Number(y)]) => Number(of(*x, *y)),
+        (By::Fold(of), [Number(first), rest @ ..]) => {
+            let mut found = *first;
+            for next in rest {
+                match next {
+                    Number(next) => found = of(found, *next),
+                    Operand::Point(_) => return Err(arguments_of(rule, at)),
+                }
+            }
+            Number(found)
         }
-        (By::Distance, _, [Operand::Point(a), Operand::Point(b)]) => {
+        (By::Distance, [Operand::Point(a), Operand::Point(b)]) => {
             let [x, y, z] = std::array::from_fn(|k| b[k] - a[k]);
             Operand::Number(x.hypot(y).hypot(z))
         }
-        (By::Midpoint, _, [Operand::Point(a), Operand::Point(b)]) => {
+        (By::Midpoint, [Operand::Point(a), Operand::Point(b)]) => {
             let half = Dual::constant(0.5);
             Operand::Point(std::array::from_fn(|k| half * (a[k] + b[k])))
         }
-        _ => {
-            let message = format!("`{}` takes {}", rule.name, rule.arguments());
-            let help = "a point is given by its name, a number of it by `.x`, `.y` or `.z`";
-            return Err(mistake(at, message, help));
-        }
+        _ => return Err(arguments_of(rule, at)),
     })
+}
+
+/// The error of arguments of another kind than a function takes.
+fn arguments_of(rule: &Rule, at: &Range<usize>) -> Mistake {
+    let message = format!("`{}` takes {}", rule.name, rule.arguments());
+    let help = "a point is given by its name, a number of it by `.x`, `.y` or `.z`";
+    mistake(at, message, help)
 }
 
 /// Refuses what is not finite.
