@@ -26,9 +26,7 @@ use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
-use crate::lanes::pass::{
-    ERROR, Pass, displacement as place_of_displacement, displacement_error,
-};
+use crate::lanes::pass::{ERROR, Pass, displacement as place_of_displacement, displacement_error};
 use crate::lanes::program::Program;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
