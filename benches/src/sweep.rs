@@ -4,9 +4,9 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use hyperstat_assembly::{Geometry, LANES, Lanes, Model, Prepared, Workspace};
-use hyperstat_mechanisms::Job;
+use hyperstat_mechanisms::{Design, Job, Placing};
 use hyperstat_reference::{TraditionalForm, TraditionalOptions, traditional};
-use hyperstat_study::sweep::Poser;
+use hyperstat_study::sweep::{Poser, placing};
 use hyperstat_study::{Study, Target};
 
 /// Springs for what is rigid or free, as good as they get on the delta.
@@ -26,6 +26,8 @@ pub struct Sweep<'a> {
     geometry: Geometry,
     workspace: Workspace,
     lanes: Lanes,
+    design: Design,
+    placing: Placing,
     poser: Poser,
 }
 
@@ -50,6 +52,8 @@ impl<'a> Sweep<'a> {
             geometry: model.geometry().clone(),
             workspace: prepared.workspace().expect("a plan"),
             lanes: prepared.lanes().expect("a plan"),
+            design: job.design(0).expect("a job of one design"),
+            placing: placing(),
             poser: study.poser().expect("a plan"),
             model,
             prepared,
@@ -93,10 +97,13 @@ impl<'a> Sweep<'a> {
     /// # Panics
     /// As there.
     pub fn place_lanes(&mut self, first: usize) {
-        for lane in 0..LANES {
-            let placed = self.job.place(first + lane, self.lanes.geometry_mut(lane));
-            black_box(placed.expect("a pose within reach"));
-        }
+        let geometries = self.lanes.geometries_mut();
+        let poses = first..first + LANES;
+        let placed = self
+            .design
+            .place_lanes(poses, geometries, &mut self.placing);
+        assert!(placed.iter().all(|pose| matches!(pose, Some(Ok(_)))));
+        black_box(placed);
     }
 
     /// What [`Sweep::in_lanes`] does then.

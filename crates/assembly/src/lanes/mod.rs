@@ -18,7 +18,7 @@ mod random_tests;
 pub(crate) mod single;
 #[cfg(test)]
 mod tests;
-use hyperstat_model::{Geometry, LANES, Model, characteristic_length};
+use hyperstat_model::{Geometry, LANES, Model};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
@@ -26,11 +26,10 @@ use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
-use crate::lanes::pass::{Pass, displacement as place_of_displacement, displacement_error};
+use crate::lanes::pass::{ERROR, Pass, displacement as place_of_displacement, displacement_error};
 use crate::lanes::program::Program;
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
-use crate::pose::restraint::is_nearly_free;
 
 /// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
 /// promised: of 210 600 states of 10 666 random mechanisms the largest error below this was 5.0e-12.
@@ -85,9 +84,7 @@ impl Plan {
         let program = Program::new(self, model, model.geometry());
         let engine = program.map(|mut program| {
             let mut inputs = vec![0.0; 3 * program.inputs.len()];
-            program
-                .inputs
-                .read(model, model.geometry(), (&mut inputs, 1, 0));
+            program.inputs.read(model, &[model.geometry()], &mut inputs);
             order_chains(&mut program, &inputs);
             let buffers = Buffers::new(&program, width);
             Engine { buffers, program }
@@ -138,26 +135,18 @@ impl Plan {
             let width = engine.buffers.width;
             for first in (0..LANES).step_by(width) {
                 let range = first..(first + width).min(LANES);
-                if !taken[range.clone()].contains(&true) {
+                let Some(other) = range.clone().find(|pose| taken[*pose]) else {
                     continue;
-                }
-                for (lane, pose) in range.clone().enumerate() {
-                    let geometry = &lanes.geometries[pose];
-                    // What was not taken may be of another size; its lane is read by nobody.
-                    if !taken[pose] && model.check_size(geometry).is_err() {
-                        continue;
-                    }
-                    let inputs = (&mut engine.buffers.inputs[..], width, lane);
-                    engine.program.inputs.read(model, geometry, inputs);
-                }
-                lanes.arch.dispatch(Pass {
-                    program: &engine.program,
-                    buffers: &mut engine.buffers,
+                };
+                // What was not taken may be of another size; its lane is read by nobody.
+                let geometries: [&Geometry; LANES] = std::array::from_fn(|lane| {
+                    let pose = (first + lane).min(LANES - 1);
+                    &lanes.geometries[if taken[pose] { pose } else { other }]
                 });
+                engine.solve(model, &geometries[..range.len()], lanes.arch);
                 for (lane, pose) in range.enumerate() {
-                    if taken[pose] {
-                        let size = characteristic_length(&lanes.geometries[pose]);
-                        results[pose] = engine.result(lane, size).map(Ok);
+                    if taken[pose] && engine.vouches(lane) {
+                        results[pose] = Some(Ok(engine.found(lane)));
                     }
                 }
             }
@@ -205,42 +194,49 @@ impl Lanes {
     }
 }
 
+/// Place of an entry of the stiffness's upper triangle by rows.
+const fn upper(row: usize, column: usize) -> usize {
+    row * (11 - row) / 2 + column
+}
+
 impl Engine {
-    /// The result of a pose of a mechanism of this `size`; `None` where the lanes cannot vouch for it, or
-    /// where it asks for a look at the mechanism's freedom.
+    /// Sends geometries through the pass, as many as go side by side.
     #[inline(always)]
-    fn result(&self, lane: usize, size: f64) -> Option<PoseResult> {
+    fn solve(&mut self, model: &Model, geometries: &[&Geometry], arch: Arch) {
+        let Self { program, buffers } = self;
+        program.inputs.read(model, geometries, &mut buffers.inputs);
+        arch.dispatch(Pass { program, buffers });
+    }
+
+    /// The result of a pose; `None` where the lanes cannot vouch for it, or where it asks for a look at the
+    /// mechanism's freedom.
+    #[inline(always)]
+    fn result(&self, lane: usize) -> Option<PoseResult> {
+        self.vouches(lane).then(|| self.found(lane))
+    }
+
+    #[inline(always)]
+    fn vouches(&self, lane: usize) -> bool {
         let at = |k: usize| self.buffers.result(k, lane);
-        let mut stiffness = Matrix6::zeros();
-        let mut next = 0;
-        for row in 0..6 {
-            for column in row..6 {
-                stiffness[(row, column)] = at(next);
-                stiffness[(column, row)] = at(next);
-                next += 1;
-            }
-        }
-        let mut cases = Vec::new();
-        let mut displacement = None;
-        for state in 0..self.program.states.len() {
-            let found = Vector6::from_fn(|k, _| at(place_of_displacement(state) + k));
-            // What is not a number is not trusted.
-            let trusted = at(displacement_error(state)) <= TRUSTED;
-            if !trusted || !found.iter().all(|v| v.is_finite()) {
-                return None;
-            }
-            match displacement {
-                None => displacement = Some(found),
-                Some(_) => cases.push(found),
-            }
-        }
-        let sound = stiffness.iter().all(|v| v.is_finite())
-            && stiffness.diagonal().iter().all(|k| *k > 0.0)
-            && !is_nearly_free(&stiffness, size);
-        sound.then_some(PoseResult {
+        // What is not a number is not trusted.
+        let trusted = |state: usize| at(displacement_error(state)) <= TRUSTED;
+        !at(ERROR).is_nan() && (0..self.program.states.len()).all(trusted)
+    }
+
+    /// The numbers of a pose.
+    #[inline(always)]
+    fn found(&self, lane: usize) -> PoseResult {
+        let at = |k: usize| self.buffers.result(k, lane);
+        let states = self.program.states.len();
+        let displacement = |state: usize| {
+            let first = place_of_displacement(state);
+            Vector6::from_fn(|k, _| at(first + k))
+        };
+        let stiffness = Matrix6::from_fn(|row, column| at(upper(row.min(column), row.max(column))));
+        PoseResult {
             stiffness: Some(stiffness),
-            displacement,
-            cases,
-        })
+            displacement: (states > 0).then(|| displacement(0)),
+            cases: (1..states).map(displacement).collect(),
+        }
     }
 }

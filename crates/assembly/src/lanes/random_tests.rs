@@ -255,8 +255,7 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
             for (lane, pose) in chosen.iter().enumerate() {
                 poses += 1;
                 let engine = lanes.engine.as_ref().expect("lanes");
-                let size = hyperstat_model::characteristic_length(pose);
-                if engine.result(lane, size).is_none() {
+                if engine.result(lane).is_none() {
                     handed_on += 1;
                     continue;
                 }

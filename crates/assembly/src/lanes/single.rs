@@ -1,10 +1,9 @@
 //! One pose at a time: the lanes' pass for who cannot wait until a register is full.
 
-use hyperstat_model::{Geometry, Model, characteristic_length};
+use hyperstat_model::{Geometry, Model};
 use pulp::Arch;
 
 use super::Lanes;
-use super::pass::Pass;
 use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -41,14 +40,8 @@ impl Plan {
         let [geometry, ..] = &lanes.geometries;
         model.check_geometry(geometry, self.one_point)?;
         if let Some(engine) = &mut lanes.engine {
-            let buffers = &mut engine.buffers;
-            let inputs = (&mut buffers.inputs[..], buffers.width, 0);
-            engine.program.inputs.read(model, geometry, inputs);
-            lanes.arch.dispatch(Pass {
-                program: &engine.program,
-                buffers,
-            });
-            if let Some(result) = engine.result(0, characteristic_length(geometry)) {
+            engine.solve(model, &[geometry], lanes.arch);
+            if let Some(result) = engine.result(0) {
                 return Ok(result);
             }
         }

@@ -252,7 +252,7 @@ impl WithSimd for Eliminate {
         let zero = simd.splat_f64s(0.0);
         let mut entries: Vec<S::f64s> = self.matrix.iter().map(|v| simd.splat_f64s(*v)).collect();
         let mut errors = vec![zero; size];
-        let mut panel = vec![zero; size * self.pivots];
+        let mut panel = vec![zero; size * (self.pivots + 1)];
         let mut rest = vec![zero; left * left];
         let mut matrix = Matrix::<S> {
             entries: &mut entries,

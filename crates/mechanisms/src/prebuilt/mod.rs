@@ -87,6 +87,7 @@ mod tilt;
 mod tricept;
 mod tripteron;
 mod two_links;
+mod wide;
 #[cfg(test)]
 mod written_out;
 mod zero_torsion;

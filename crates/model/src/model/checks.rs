@@ -1,5 +1,7 @@
 //! What must belong together: the ids, the geometry and the joints of one model.
 
+use nalgebra::Vector3;
+
 use crate::error::ModelError;
 use crate::loads::{Axes, LoadSet};
 use crate::model::Model;
@@ -64,8 +66,12 @@ impl Model {
     fn check_joints(&self, geometry: &Geometry, one_point: f64) -> Result<(), ModelError> {
         // Most often they are the same to the last bit; every pose of a sweep comes here. NaN is no point.
         let positions = &*geometry.positions;
-        let same = |[first, second]: &[NodeId; 2]| positions[first.0] == positions[second.0];
-        if self.joined.iter().all(same) {
+        let mut apart = Vector3::zeros();
+        for [first, second] in &self.joined {
+            let between = positions[first.0] - positions[second.0];
+            apart += between.component_mul(&between);
+        }
+        if apart == Vector3::zeros() {
             return Ok(());
         }
         for joint in &self.joints {

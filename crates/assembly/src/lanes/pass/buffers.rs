@@ -58,7 +58,8 @@ impl Buffers {
             local_load_errors: zeros(rows * fronts.largest),
             gains: zeros(fronts.largest * fronts.most_targets()),
             front: zeros(fronts.largest * fronts.largest),
-            panel: zeros(fronts.largest * fronts.most_pivots),
+            // A column more, since rows are read from any place in it.
+            panel: zeros(fronts.largest * (fronts.most_pivots + 1)),
             rests: zeros(fronts.rest_len),
             blocks: zeros(36 * program.most_blocks),
             wrenches: zeros(7 * program.most_ends),

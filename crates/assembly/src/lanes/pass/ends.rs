@@ -3,54 +3,60 @@
 use pulp::Simd;
 
 use super::assemble::Assembly;
-use super::blocks::vector;
+use super::blocks::{Pair, vector};
 use super::compliance::{Frame, Six};
 use super::lane::{Lane, Mat3, Vec3, add, cross, dot, scaled, sub, three};
 use crate::lanes::program::chain::Chain;
 use crate::lanes::program::element::NodeMotion;
 
-/// Works of wrenches on the coordinates of a chain's ends, each its own (by ends), end 0 with the
-/// opposite sign; every `stride`-th entry of `out`.
+/// Works of `R` wrenches, about the frame's origin in global axes, on the coordinates of a chain's ends,
+/// each its own (by ends), end 0 with the opposite sign: R a coordinate.
 #[inline(always)]
-pub(crate) fn works<S: Simd>(
+pub(crate) fn works<S: Simd, const R: usize>(
     assembly: &Assembly<'_, S>,
     chain: &Chain,
     frame: &Frame<S>,
     nodes: &[NodeMotion],
-    wrenches: [&Six<S>; 2],
-    (out, stride): (&mut [S::f64s], usize),
+    wrenches: [&[Pair<S>; R]; 2],
+    out: &mut [S::f64s],
 ) {
     let simd = assembly.simd;
-    let size = Lane::splat(simd, chain.size);
+    let (out, _) = out.as_chunks_mut::<R>();
     let mut next = 0;
     for (end, node) in nodes.iter().enumerate() {
         if !node.moves() {
             continue;
         }
-        let z = wrenches[end];
-        let force = to_global(&frame.axes, &[z[5], z[3], z[4]]);
-        let moment = to_global(&frame.axes, &scaled(&[z[0], z[1], z[2]], size));
-        let arm = sub(
-            &frame.origin,
-            &vector(simd, assembly.inputs, chain.origins[end]),
-        );
-        let moment = add(&moment, &cross(&arm, &force));
-        let (force, moment) = if end == 0 {
-            (three!(k => -force[k]), three!(k => -moment[k]))
-        } else {
-            (force, moment)
-        };
+        let origin = vector(simd, assembly.inputs, chain.origins[end]);
+        let arm = sub(&frame.origin, &origin);
+        let mut own = *wrenches[end];
+        for a in 0..R {
+            let (force, moment) = own[a];
+            let moment = add(&moment, &cross(&arm, &force));
+            own[a] = if end == 0 {
+                (three!(k => -force[k]), three!(k => -moment[k]))
+            } else {
+                (force, moment)
+            };
+        }
         if node.root.is_some() {
-            for k in 0..3 {
-                out[next + k * stride] = force[k].value;
-                out[next + (3 + k) * stride] = moment[k].value;
+            let out = &mut out[next..next + 6];
+            for a in 0..R {
+                for k in 0..3 {
+                    out[k][a] = own[a].0[k].value;
+                    out[3 + k][a] = own[a].1[k].value;
+                }
             }
-            next += 6 * stride;
+            next += 6;
         }
         for screw in &node.screws {
             let (v, w) = assembly.screw(screw.screw);
-            out[next] = (dot(&v, &force) + dot(&w, &moment)).value;
-            next += stride;
+            let out = &mut out[next];
+            for a in 0..R {
+                let (force, moment) = &own[a];
+                out[a] = (dot(&v, force) + dot(&w, moment)).value;
+            }
+            next += 1;
         }
     }
 }
@@ -113,6 +119,17 @@ impl<S: Simd> Terms<S> {
             &[wrench[0], wrench[1], wrench[2]],
         );
         self.by(force, moment)
+    }
+}
+
+impl<S: Simd> Frame<S> {
+    /// A wrench about the origin, in global axes.
+    #[inline(always)]
+    pub fn to_global(&self, simd: S, chain: &Chain, z: &Six<S>) -> Pair<S> {
+        let size = Lane::splat(simd, chain.size);
+        let force = to_global(&self.axes, &[z[5], z[3], z[4]]);
+        let moment = to_global(&self.axes, &scaled(&[z[0], z[1], z[2]], size));
+        (force, moment)
     }
 }
 

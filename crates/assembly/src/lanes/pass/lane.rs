@@ -62,6 +62,24 @@ macro_rules! six {
 }
 pub(crate) use six;
 
+/// The block for each constant `$k` from 0 on below `$end`, which is at most 6, one after the other: what
+/// a loop by index would keep in memory stays in registers.
+macro_rules! unrolled {
+    ($k:ident < $end:expr => $body:block) => {
+        unrolled!(0, $k < $end => $body);
+        unrolled!(1, $k < $end => $body);
+        unrolled!(2, $k < $end => $body);
+        unrolled!(3, $k < $end => $body);
+        unrolled!(4, $k < $end => $body);
+        unrolled!(5, $k < $end => $body);
+    };
+    ($value:literal, $k:ident < $end:expr => $body:block) => {{
+        const $k: usize = $value;
+        if $k < $end $body
+    }};
+}
+pub(crate) use unrolled;
+
 /// Lower triangle of a 6×6 matrix.
 pub(crate) const TRIANGLE: usize = 21;
 
@@ -111,7 +129,14 @@ impl<S: Simd> Lane<S> {
 
     #[inline(always)]
     pub fn abs(self) -> Self {
-        Self::new(self.simd, self.simd.abs_f64s(self.value))
+        // Not `abs_f64s`: with AVX-512 it is a call, around which every register is saved.
+        self.max(-self)
+    }
+
+    /// The smaller of two; the second where the first is not a number.
+    #[inline(always)]
+    pub fn min(self, other: Self) -> Self {
+        Self::new(self.simd, self.simd.min_f64s(self.value, other.value))
     }
 
     /// The larger of two; which one where a lane is not a number is not said.

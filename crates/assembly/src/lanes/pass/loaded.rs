@@ -162,14 +162,12 @@ impl<S: Simd> Acting<'_, S> {
         let ends = [six!(k => -(held[k] + loaded.total[k])), six!(k => -held[k])];
         let count = places.len();
         let (transmitted, own) = wrenches.split_at_mut(R * count);
-        works(
-            assembly,
-            chain,
-            frame,
-            &element.nodes,
-            [&ends[0], &ends[1]],
-            (own, 1),
-        );
+        let wrenches = [
+            [frame.to_global(simd, chain, &ends[0])],
+            [frame.to_global(simd, chain, &ends[1])],
+        ];
+        let [first, second] = &wrenches;
+        works(assembly, chain, frame, &element.nodes, [first, second], own);
         let error = &mut assembly.errors[row];
         *error = energy.mul_add(*growth, Lane::new(simd, *error)).value;
         let mut doubt = zero;

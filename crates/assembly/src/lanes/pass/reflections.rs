@@ -11,7 +11,7 @@ use pulp::{Scalar, Simd};
 use super::compliance::{Frame, Six};
 use super::lane::{Lane, six};
 use crate::lanes::program::Program;
-use crate::lanes::program::chain::Chain;
+use crate::lanes::program::chain::{Chain, Sequence};
 use crate::lanes::program::element::Kind;
 
 /// A reflection `x − f v (vᵀ x)` of the coordinates from k on.
@@ -62,6 +62,20 @@ impl<S: Simd> Reflection<S> {
             x[i] = minus.mul_add(normal[i], x[i]);
         }
     }
+
+    /// The same of six numbers that are zero but for `count` of them from k + 1 on.
+    #[inline(always)]
+    pub fn apply_first(&self, x: &mut Six<S>, k: usize, count: usize) {
+        let normal = &self.normal;
+        let mut work = x[k + 1] * normal[k + 1];
+        for i in k + 2..k + 1 + count {
+            work = x[i].mul_add(normal[i], work);
+        }
+        let minus = -(work * self.factor);
+        for i in k..6 {
+            x[i] = minus.mul_add(normal[i], x[i]);
+        }
+    }
 }
 
 /// The sum of the squares of the components from k on.
@@ -77,15 +91,31 @@ pub(crate) fn squares<S: Simd>(x: &Six<S>, k: usize) -> Lane<S> {
 /// Six numbers in a chain's order.
 #[inline(always)]
 pub(crate) fn ordered<S: Simd>(x: &Six<S>, chain: &Chain) -> Six<S> {
-    six!(k => x[chain.coordinates[k]])
+    six!(k => x[chain.sequence.coordinates[k]])
 }
 
 /// Six numbers in a chain's order, in the frame's own again.
 #[inline(always)]
 pub(crate) fn put_back<S: Simd>(x: &Six<S>, chain: &Chain) -> Six<S> {
+    six!(k => x[chain.sequence.places[k]])
+}
+
+/// The same of several.
+#[inline(always)]
+pub(crate) fn all_put_back<S: Simd, const R: usize>(x: &[Six<S>; R], chain: &Chain) -> [Six<S>; R] {
+    // Each place is looked up once.
+    let mut rows = [[x[0][0]; R]; 6];
+    for k in 0..6 {
+        for a in 0..R {
+            rows[k][a] = x[a][k];
+        }
+    }
     let mut out = *x;
     for k in 0..6 {
-        out[chain.coordinates[k]] = x[k];
+        let row = &rows[chain.sequence.places[k]];
+        for a in 0..R {
+            out[a][k] = row[a];
+        }
     }
     out
 }
@@ -93,11 +123,13 @@ pub(crate) fn put_back<S: Simd>(x: &Six<S>, chain: &Chain) -> Six<S> {
 /// A symmetric matrix, its lower triangle, in a chain's order.
 #[inline(always)]
 pub(crate) fn ordered_matrix<S: Simd>(c: &[Six<S>; 6], chain: &Chain) -> [Six<S>; 6] {
+    let flat = c.as_flattened();
     let mut out = *c;
+    let mut next = 0;
     for i in 0..6 {
         for j in 0..=i {
-            let (row, column) = (chain.coordinates[i], chain.coordinates[j]);
-            out[i][j] = c[row.max(column)][row.min(column)];
+            out[i][j] = flat[chain.sequence.entries[next]];
+            next += 1;
         }
     }
     out
@@ -107,7 +139,7 @@ pub(crate) fn ordered_matrix<S: Simd>(c: &[Six<S>; 6], chain: &Chain) -> [Six<S>
 pub(crate) fn order_chains(program: &mut Program, inputs: &[f64]) {
     for element in &mut program.elements {
         if let Kind::Chain(chain) = &mut element.kind {
-            chain.coordinates = coordinates(chain, inputs);
+            chain.sequence = Sequence::new(coordinates(chain, inputs));
         }
     }
 }

@@ -12,6 +12,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::acts::Act;
 use super::inputs::{Inputs, Point};
+use crate::lanes::pass::lane::TRIANGLE;
 
 /// Most free motions within a chain: with six it would transmit nothing.
 pub(crate) const MOST_RELEASES: usize = 5;
@@ -37,10 +38,41 @@ pub(crate) struct Chain {
     pub order: Vec<Item>,
     /// Length that makes rotations comparable with translations \[m\], a power of two.
     pub size: f64,
-    /// The six coordinates of motions and wrenches, in the order in which the free motions take them.
-    pub coordinates: [usize; 6],
+    /// In which order the free motions take the six coordinates of motions and wrenches.
+    pub sequence: Sequence,
     /// By ends: reference points of the components there.
     pub origins: [Point; 2],
+}
+
+/// An order of six coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sequence {
+    /// The coordinate at each place.
+    pub coordinates: [usize; 6],
+    /// The place of each coordinate.
+    pub places: [usize; 6],
+    /// Of a symmetric matrix in this order, its lower triangle by rows: where each entry is in the lower
+    /// triangle of the matrix itself, six entries a row.
+    pub entries: [usize; TRIANGLE],
+}
+
+impl Sequence {
+    pub fn new(coordinates: [usize; 6]) -> Self {
+        let (mut places, mut entries) = ([0; 6], [0; TRIANGLE]);
+        let mut next = 0;
+        for (i, &row) in coordinates.iter().enumerate() {
+            places[row] = i;
+            for &column in &coordinates[..=i] {
+                entries[next] = 6 * row.max(column) + row.min(column);
+                next += 1;
+            }
+        }
+        Self {
+            coordinates,
+            places,
+            entries,
+        }
+    }
 }
 
 /// What a chain is made of, by its place in the list of its kind.
@@ -142,7 +174,7 @@ impl Chain {
             idle: Vec::new(),
             loads: Vec::new(),
             size: 1.0,
-            coordinates: [0, 1, 2, 3, 4, 5],
+            sequence: Sequence::new([0, 1, 2, 3, 4, 5]),
             origins,
         };
         chain.settle();

@@ -87,6 +87,15 @@ impl Inputs {
         }
     }
 
+    /// Places of all nodes' positions, each once.
+    pub fn all_points(&mut self) -> Vec<Point> {
+        let count = self.same.len();
+        let mut points: Vec<Point> = (0..count).map(|k| self.point(NodeId(k))).collect();
+        points.sort_unstable();
+        points.dedup();
+        points
+    }
+
     /// Place of a node's position.
     pub fn point(&mut self, node: NodeId) -> Point {
         self.place(Wanted::Position(self.same[node.0]))
@@ -124,25 +133,59 @@ impl Inputs {
         self.place(Wanted::Turned(number))
     }
 
-    /// Writes the vectors of a geometry into one lane of `out`, where entry k of vector v is at
-    /// `(3 v + k) · width + lane`.
+    /// Writes the vectors of as many geometries as there are lanes into `out`, where entry k of vector v of
+    /// lane l is at `(3 v + k) · lanes + l`.
     /// What has no axes there is no number.
-    pub fn read(
+    pub fn read(&self, model: &Model, geometries: &[&Geometry], out: &mut [f64]) {
+        if let Ok(own) = <&[&Geometry; 8]>::try_from(geometries) {
+            self.read_lanes(model, own, out);
+        } else if let Ok(own) = <&[&Geometry; 4]>::try_from(geometries) {
+            self.read_lanes(model, own, out);
+        } else if let Ok(own) = <&[&Geometry; 2]>::try_from(geometries) {
+            self.read_lanes(model, own, out);
+        } else if let Ok(own) = <&[&Geometry; 1]>::try_from(geometries) {
+            self.read_lanes(model, own, out);
+        }
+    }
+
+    fn read_lanes<const W: usize>(
         &self,
         model: &Model,
-        geometry: &Geometry,
-        (out, width, lane): (&mut [f64], usize, usize),
+        geometries: &[&Geometry; W],
+        out: &mut [f64],
     ) {
         // Forces and moments of a load follow each other, in the same axes.
-        let mut last = None;
-        for (source, out) in self.sources.iter().zip(out.chunks_exact_mut(3 * width)) {
-            let vector = match source {
-                Wanted::Turned(number) => self.turn(*number, model, geometry, &mut last),
-                _ => source.at(geometry),
-            };
-            out[lane] = vector.x;
-            out[width + lane] = vector.y;
-            out[2 * width + lane] = vector.z;
+        let mut last = [const { None }; W];
+        let (out, _) = out.as_chunks_mut::<W>();
+        let (out, _) = out.as_chunks_mut::<3>();
+        for (source, out) in self.sources.iter().zip(out) {
+            match source {
+                Wanted::Position(node) => {
+                    for lane in 0..W {
+                        put(out, lane, &geometries[lane].positions[node.0].coords);
+                    }
+                }
+                Wanted::FrameColumn(joint, column) => {
+                    for lane in 0..W {
+                        let frame = geometries[lane].frames[joint.0].matrix();
+                        let axis = &frame.data.0[*column];
+                        for k in 0..3 {
+                            out[k][lane] = axis[k];
+                        }
+                    }
+                }
+                Wanted::Turned(number) => {
+                    for lane in 0..W {
+                        let vector = self.turn(*number, model, geometries[lane], &mut last[lane]);
+                        put(out, lane, &vector);
+                    }
+                }
+                _ => {
+                    for lane in 0..W {
+                        put(out, lane, &source.at(geometries[lane]));
+                    }
+                }
+            }
         }
     }
 
@@ -191,6 +234,14 @@ impl Wanted {
             Self::Turned(_) => Vector3::repeat(f64::NAN),
         }
     }
+}
+
+/// Puts the vector of one lane beside those of the others.
+#[inline(always)]
+fn put<const W: usize>(out: &mut [[f64; W]; 3], lane: usize, vector: &Vector3<f64>) {
+    out[0][lane] = vector.x;
+    out[1][lane] = vector.y;
+    out[2][lane] = vector.z;
 }
 
 /// Local y of a segment whose section stands upright; zero, which no lane takes, where it has none.

@@ -31,7 +31,7 @@ use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
 use super::program::fronts::{Fronts, Group, Scatter};
 use super::program::hang::{hang, last_roots};
 use super::program::idle::idle_coordinates;
-use super::program::inputs::Inputs;
+use super::program::inputs::{Inputs, Point};
 use super::program::loops::Loops;
 use super::program::parts::{Parts, Placed, screws};
 use super::program::series::Series;
@@ -50,6 +50,8 @@ const APART: f64 = 1e-9;
 #[derive(Debug)]
 pub(crate) struct Program {
     pub inputs: Inputs,
+    /// All points, which the mechanism's size follows from.
+    pub points: Vec<Point>,
     pub screws: Vec<Screw>,
     /// Loops of rigid bodies.
     pub loops: Loops,
@@ -221,6 +223,7 @@ impl Program {
         let ends = elements.iter().map(Element::ends);
         let links = elements.iter().map(Element::loaded_links);
         Some(Self {
+            points: inputs.all_points(),
             most_blocks: blocks.max().unwrap_or(0),
             most_ends: ends.max().unwrap_or(0),
             most_links: links.max().unwrap_or(0),

@@ -2,13 +2,14 @@
 //! and poses, and every pose and parameter that is refused.
 
 use hyperstat_joints::Dof;
-use hyperstat_model::{Geometry, JointStiffness, Model};
+use hyperstat_model::{Geometry, JointStiffness, LANES, Model};
 use nalgebra::{Point3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 use super::limb::Limb;
 use super::topology::{JointRole, Link, Point};
 use crate::prebuilt::delta::{Delta, Elbow, RodEnds};
+use crate::prebuilt::wide::Wide;
 use crate::prebuilt::written_out::WrittenOut;
 use crate::prebuilt::{PoseError, Prebuilt};
 
@@ -47,13 +48,19 @@ fn deltas_in_reach() -> impl Strategy<Value = (Delta, [f64; 3])> {
     })
 }
 
-fn limbs(delta: &Delta, pose: [f64; 3]) -> Result<[Limb; 3], PoseError> {
-    let centre = Point3::from(pose);
-    Ok([
-        Limb::new(delta, 0, &centre)?,
-        Limb::new(delta, 1, &centre)?,
-        Limb::new(delta, 2, &centre)?,
-    ])
+fn limbs(delta: &Delta, pose: [f64; 3]) -> Result<[Limb<1>; 3], PoseError> {
+    let limbs = [0, 1, 2].map(|index| Limb::new(delta, index, &pose.map(Wide::of)));
+    match limbs.iter().find_map(|limb| limb.fault(delta, 0)) {
+        None => Ok(limbs),
+        Some(fault) => Err(fault),
+    }
+}
+
+/// The first limb, which reaches there.
+fn reached(delta: &Delta, centre: [f64; 3]) -> Limb<1> {
+    let limb = Limb::new(delta, 0, &centre.map(Wide::of));
+    assert_eq!(limb.fault(delta, 0), None);
+    limb
 }
 
 /// Size of a delta, to which rounding is relative.
@@ -133,7 +140,7 @@ proptest! {
     fn loops_close((delta, pose) in deltas_in_reach()) {
         let rounding = 1e-14 * size(&delta);
         for limb in limbs(&delta, pose)? {
-            let point = |point| limb.point(point);
+            let point = |point| limb.at(0).point(point);
             let arm = point(Point::B) - point(Point::A);
             let rod = point(Point::C) - point(Point::B);
             let bar = point(Point::Bb) - point(Point::Ba);
@@ -149,7 +156,7 @@ proptest! {
             prop_assert!((point(Point::Cb) - point(Point::Ca) - bar).norm() < rounding);
 
             // Every axis is a unit vector, and normal to what turns about it.
-            let (axis, across) = (limb.y_axis(Link::Arm), limb.y_axis(Link::Rod));
+            let (axis, across) = (limb.at(0).y_axis(Link::Arm), limb.at(0).y_axis(Link::Rod));
             prop_assert!((axis.norm() - 1.0).abs() < 1e-15);
             prop_assert!((across.norm() - 1.0).abs() < 1e-15);
             prop_assert!((bar - axis * delta.rod_spacing).norm() < rounding);
@@ -169,10 +176,10 @@ proptest! {
         let other = limbs(&Delta { elbow: Elbow::In, ..delta.clone() }, pose)?;
         for (k, (out, other)) in out.iter().zip(&other).enumerate() {
             let outward = turn(k as f64 / 3.0) * Vector3::y();
-            let [a, c] = [Point::A, Point::C].map(|point| out.point(point));
-            let apart = out.point(Point::B) - other.point(Point::B);
+            let [a, c] = [Point::A, Point::C].map(|point| out.at(0).point(point));
+            let apart = out.at(0).point(Point::B) - other.at(0).point(Point::B);
             prop_assert!(outward.dot(&apart) >= -1e-14 * size(&delta));
-            let axis = out.y_axis(Link::Arm);
+            let axis = out.at(0).y_axis(Link::Arm);
             let line = (c - a) - axis * axis.dot(&(c - a));
             prop_assert!(apart.dot(&line).abs() < 1e-13 * size(&delta).powi(2));
         }
@@ -187,8 +194,8 @@ proptest! {
             let (limb, next) = (&limbs[k], &turned[(k + 1) % 3]);
             // Rounding of the pose grows where the elbow is near stretched or folded, or the
             // rods near the joint axes.
-            let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.point(point));
-            let axis = limb.y_axis(Link::Arm);
+            let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.at(0).point(point));
+            let axis = limb.at(0).y_axis(Link::Arm);
             let in_plane = |v: Vector3<f64>| v - axis * axis.dot(&v);
             let (arm, rod) = (b - a, in_plane(c - b));
             let sharpness = arm.cross(&rod).norm() / size(&delta).powi(2);
@@ -196,14 +203,14 @@ proptest! {
             prop_assume!(sharpness > 1e-3 && lean > 1e-2);
             let rounding = 1e-11 * size(&delta);
             for point in [Point::A, Point::B, Point::Ba, Point::Bb, Point::C, Point::Ca, Point::Cb] {
-                let off = next.point(point) - third * limb.point(point);
+                let off = next.at(0).point(point) - third * limb.at(0).point(point);
                 prop_assert!(off.norm() < rounding, "{point:?} is {off:?} off");
             }
             for role in [JointRole::Drive, JointRole::Elbow, JointRole::RodEnd, JointRole::Wrist] {
                 if role == JointRole::RodEnd && delta.rod_ends == RodEnds::Spherical {
                     continue;
                 }
-                let off = (third * limb.frame(role)).matrix() - next.frame(role).matrix();
+                let off = (third * limb.at(0).frame(role)).matrix() - next.at(0).frame(role).matrix();
                 prop_assert!(off.norm() < 1e-11, "{role:?} is {off:?} off");
             }
         }
@@ -228,6 +235,67 @@ proptest! {
             }
         }
     }
+
+    #[test]
+    fn poses_side_by_side_are_those_of_each_by_itself(
+        (delta, first) in deltas_in_reach(),
+        others in prop::collection::vec(prop::array::uniform3(-1.5..1.5), 0..LANES),
+    ) {
+        let home = delta.model(&first)?.geometry().clone();
+        let size = size(&delta);
+        let mut poses = vec![[first[0], first[1], first[2], 0.0, 0.0, 0.0]];
+        poses.extend(others.iter().map(|[x, y, z]| [x * size, y * size, z * size, 0.0, 0.0, 0.0]));
+        // One that is none, beside the others.
+        poses[others.len() / 2][1] *= if others.len() == 3 { f64::NAN } else { 1.0 };
+        let mut geometries = vec![home.clone(); poses.len()];
+        let placed = delta.place_lanes(&poses, &mut geometries);
+        prop_assert_eq!(placed.iter().flatten().count(), poses.len());
+        for ((pose, placed), together) in poses.iter().zip(placed).zip(&geometries) {
+            let mut alone = home.clone();
+            let own = delta.place(&pose[..3], &mut alone);
+            match (own, placed.expect("a pose")) {
+                (Ok(own), Ok(placed)) => prop_assert_eq!(own.map(f64::to_bits), placed.map(f64::to_bits)),
+                (own, placed) => prop_assert_eq!(format!("{own:?}"), format!("{placed:?}")),
+            }
+            prop_assert_eq!(bits(together), bits(&alone));
+        }
+    }
+}
+
+/// All numbers of a geometry, to the bit.
+fn bits(geometry: &Geometry) -> Vec<u64> {
+    let points = geometry.positions.iter().flat_map(|p| p.coords.data.0[0]);
+    let axes = geometry.y_axes.iter().flatten().flat_map(|y| y.data.0[0]);
+    let frames = geometry
+        .frames
+        .iter()
+        .flat_map(|f| f.matrix().data.0.concat());
+    points.chain(axes).chain(frames).map(f64::to_bits).collect()
+}
+
+#[test]
+fn parameters_out_of_range_are_refused_in_every_pose_side_by_side() {
+    let mut geometries = vec![
+        Delta::paper()
+            .model(&[0.0, 0.0, 0.5])
+            .expect("in reach")
+            .geometry()
+            .clone();
+        2
+    ];
+    let delta = Delta {
+        arm_length: -1.0,
+        ..Delta::paper()
+    };
+    let poses = [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]; 2];
+    let error = delta
+        .place(&poses[0][..3], &mut geometries[0])
+        .expect_err("a negative length");
+    let placed = delta.place_lanes(&poses, &mut geometries);
+    for placed in &placed[..2] {
+        assert_eq!(placed.as_ref(), Some(&Err(error.clone())));
+    }
+    assert!(placed[2..].iter().all(Option::is_none));
 }
 
 #[test]
@@ -244,8 +312,8 @@ fn elbow_at_the_height_of_the_base_follows_from_above() {
             ..delta.clone()
         };
         let b = |z| {
-            let limb = Limb::new(&delta, 0, &Point3::new(0.0, 0.0, z)).expect("in reach");
-            limb.point(Point::B)
+            let limb = reached(&delta, [0.0, 0.0, z]);
+            limb.at(0).point(Point::B)
         };
         let level = b(0.0);
         assert!((level - b(1e-9)).norm() < 1e-8, "{elbow:?}");
@@ -264,7 +332,7 @@ fn limbs_reach_to_their_edge_and_no_farther() {
         for rounding in [-1e-13, 0.0, 1e-13] {
             let z = height(reach * (1.0 + rounding));
             for limb in limbs(&delta, [0.0, 0.0, z]).expect("on the edge") {
-                let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.point(point));
+                let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.at(0).point(point));
                 assert!(((b - a).norm() - 0.3).abs() < 1e-12);
                 assert!(((c - b).norm() - 0.6).abs() < 1e-12);
                 // The elbow's height over the line is at most the root of the gap.
@@ -337,12 +405,11 @@ fn rods_nearly_along_the_joint_axes_keep_their_digits() {
     for lean in [1e-3, 1e-6, 1e-9, 4e-12] {
         let side = 0.6 * (1.0 - lean);
         // The wrist as far from the shoulder as the arm is long: the elbow is near the wrist.
-        let centre = Point3::new(side, 0.25 - 0.06, 0.3);
-        let limb = Limb::new(&delta, 0, &centre).expect("in reach");
-        let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.point(point));
+        let limb = reached(&delta, [side, 0.25 - 0.06, 0.3]);
+        let [a, b, c] = [Point::A, Point::B, Point::C].map(|point| limb.at(0).point(point));
         assert!(((b - a).norm() - 0.3).abs() < 1e-15);
         assert!(((c - b).norm() - 0.6).abs() < 1e-15);
-        let across = limb.y_axis(Link::Rod);
+        let across = limb.at(0).y_axis(Link::Rod);
         assert!((across.norm() - 1.0).abs() < 1e-15);
         assert!(across.dot(&(c - b)).abs() < 1e-15, "{lean}");
     }

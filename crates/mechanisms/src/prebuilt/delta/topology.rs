@@ -3,12 +3,14 @@
 use hyperstat_joints::{Joint, Revolute, Spherical};
 use nalgebra::Point3;
 
-use super::limb::Limb;
+use super::limb::{Limb, LimbAt};
+use crate::prebuilt::PoseError;
 use crate::prebuilt::construction::{
     BeamPart, Configuration, JointPart, Name, NamedPoint, PLATFORM, Parts, RIGID,
 };
 use crate::prebuilt::delta::{Delta, RodEnds};
 use crate::prebuilt::limbs::LIMBS;
+use crate::prebuilt::wide::{WideVector, point_at};
 
 /// A point of a limb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,14 +62,55 @@ pub(super) enum JointRole {
     Wrist,
 }
 
-/// A delta with its platform's centre at a place that it can reach.
-pub(super) struct Posed<'a> {
-    pub(super) delta: &'a Delta,
-    pub(super) centre: Point3<f64>,
-    pub(super) limbs: [Limb; LIMBS],
+/// A delta with its platform's centre at `N` places.
+pub(super) struct Posed<'a, const N: usize> {
+    delta: &'a Delta,
+    centre: WideVector<N>,
+    limbs: [Limb<N>; LIMBS],
 }
 
-impl Configuration for Posed<'_> {
+impl<'a, const N: usize> Posed<'a, N> {
+    #[inline(always)]
+    pub(super) fn new(delta: &'a Delta, centre: WideVector<N>) -> Self {
+        let limbs = [
+            Limb::new(delta, 0, &centre),
+            Limb::new(delta, 1, &centre),
+            Limb::new(delta, 2, &centre),
+        ];
+        Self {
+            delta,
+            centre,
+            limbs,
+        }
+    }
+
+    /// One of them.
+    ///
+    /// # Errors
+    /// It cannot reach that place.
+    #[inline(always)]
+    pub(super) fn at(&self, pose: usize) -> Result<PosedAt<'_, N>, PoseError> {
+        for limb in &self.limbs {
+            if let Some(fault) = limb.fault(self.delta, pose) {
+                return Err(fault);
+            }
+        }
+        Ok(PosedAt {
+            delta: self.delta,
+            centre: point_at(&self.centre, pose),
+            limbs: self.limbs.each_ref().map(|limb| limb.at(pose)),
+        })
+    }
+}
+
+/// A delta with its platform's centre at a place that it can reach.
+pub(super) struct PosedAt<'a, const N: usize> {
+    delta: &'a Delta,
+    centre: Point3<f64>,
+    limbs: [LimbAt<'a, N>; LIMBS],
+}
+
+impl<const N: usize> Configuration for PosedAt<'_, N> {
     #[inline]
     fn walk(&self, parts: &mut impl Parts) {
         for (index, limb) in self.limbs.iter().enumerate() {
@@ -87,9 +130,9 @@ impl Configuration for Posed<'_> {
     }
 }
 
-impl Posed<'_> {
+impl<const N: usize> PosedAt<'_, N> {
     #[inline]
-    fn bodies(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+    fn bodies(&self, index: usize, limb: &LimbAt<'_, N>, parts: &mut impl Parts) {
         let point = |point| named(point, index, limb);
         let [a, b, c] = [point(Point::A), point(Point::B), point(Point::C)];
         let [ba, bb] = [point(Point::Ba), point(Point::Bb)];
@@ -102,14 +145,14 @@ impl Posed<'_> {
     }
 
     #[inline]
-    fn beam<const N: usize>(
+    fn beam<const M: usize>(
         &self,
         word: &'static str,
-        points: [NamedPoint; N],
+        points: [NamedPoint; M],
         part: Link,
         index: usize,
-        limb: &Limb,
-    ) -> BeamPart<'_, N> {
+        limb: &LimbAt<'_, N>,
+    ) -> BeamPart<'_, M> {
         BeamPart {
             name: Name::limb(word, index),
             points,
@@ -124,7 +167,7 @@ impl Posed<'_> {
     }
 
     #[inline]
-    fn joints(&self, index: usize, limb: &Limb, parts: &mut impl Parts) {
+    fn joints(&self, index: usize, limb: &LimbAt<'_, N>, parts: &mut impl Parts) {
         let body = |word| Some(Name::limb(word, index));
         let (arm, elbow, wrist) = (body("arm"), body("elbow"), body("wrist"));
         let (roda, rodb) = (body("roda"), body("rodb"));
@@ -146,7 +189,7 @@ impl Posed<'_> {
         between: [Option<Name>; 2],
         role: JointRole,
         index: usize,
-        limb: &Limb,
+        limb: &LimbAt<'_, N>,
     ) -> JointPart<'_> {
         let (joint, stiffness): (&'static dyn Joint, _) = match (role, self.delta.rod_ends) {
             (JointRole::RodEnd, RodEnds::Spherical) => (&Spherical, &RIGID),
@@ -158,6 +201,6 @@ impl Posed<'_> {
 }
 
 #[inline]
-fn named(point: Point, index: usize, limb: &Limb) -> NamedPoint {
+fn named<const N: usize>(point: Point, index: usize, limb: &LimbAt<'_, N>) -> NamedPoint {
     (Name::limb(point.name(), index), limb.point(point))
 }
