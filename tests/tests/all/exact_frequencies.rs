@@ -210,6 +210,11 @@ fn clamped_bar() {
         assert!((along / found.mass - 0.613_076_090).abs() < 1e-9, "{along}");
         assert!(across < 1e-15 * found.mass, "{across}");
     }
+    // The same where only one of them is asked for.
+    let alone = modes(&model, &ModalOptions::lowest(1)).unwrap();
+    assert_eq!(alone.modes.len(), 1);
+    let share = alone.modes[0].effective_mass[1] / found.mass;
+    assert!((share - 0.613_076_090).abs() < 1e-9, "{share}");
 }
 
 /// A clamped bar of ten diameters with κ = 0.9, by Timoshenko's frequency equation.

@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::mode::Counted;
-use super::system::{Mode, System};
+use super::system::{EQUAL, Mode, System};
 use crate::error::SolveError;
 use crate::plan::blocks::{dot, subtract};
 
@@ -43,9 +43,9 @@ pub(super) struct Lowest {
     pub counted: Option<Counted>,
 }
 
-/// Finds the `count` lowest modes; fewer where there are no more. `shapes`: vectors to rounding, else
-/// only so closely that eigenvalues are, by solutions that are not refined. `start`: vectors that are near
-/// them, if any are known.
+/// Finds the `count` lowest modes; fewer where there are no more. `shapes`: vectors to rounding, and those
+/// modes too that equal the last; else only so closely that eigenvalues are, by solutions that are not
+/// refined. `start`: vectors that are near them, if any are known.
 pub(super) fn lowest(
     system: &mut System<'_>,
     count: usize,
@@ -102,7 +102,7 @@ pub(super) fn lowest(
             }
         }
     }
-    let modes = basis.modes(system, count);
+    let modes = basis.modes(system, count, wanted);
     Ok(Lowest {
         modes,
         complete,
@@ -274,8 +274,15 @@ impl Basis<'_> {
         self.pairs.iter().take(wanted).map(|p| 1.0 / p.0).collect()
     }
 
-    /// The lowest modes.
-    fn modes(&self, system: &System<'_>, count: usize) -> Vec<Mode> {
+    /// The lowest modes; with shapes also those of the first `converged` that equal the last.
+    fn modes(&self, system: &System<'_>, mut count: usize, converged: usize) -> Vec<Mode> {
+        let is_equal = |k: usize| match self.pairs.get(k - 1..=k) {
+            Some([(last, _), (next, _)]) => last - next <= EQUAL * last,
+            _ => false,
+        };
+        while self.shapes && count > 0 && count < converged && is_equal(count) {
+            count += 1;
+        }
         let modes = self.pairs.iter().take(count).map(|(_, weights)| {
             let mut vector = vec![0.0; system.size()];
             let mut image = vector.clone();

@@ -80,6 +80,7 @@ impl ModalPlan {
                 modes: outcome
                     .modes
                     .iter()
+                    .take(self.options.count)
                     .map(|m| self.mode(&outcome, m))
                     .collect(),
                 mass: outcome.masses.total,
@@ -104,7 +105,7 @@ impl ModalPlan {
                 let found = outcome.modes.len();
                 return Err(SolveError::ModesUncounted { found });
             }
-            let modes = outcome.modes.iter();
+            let modes = outcome.modes.iter().take(self.options.count);
             Ok(modes.map(|mode| hertz(mode.eigenvalue)).collect())
         })?
     }

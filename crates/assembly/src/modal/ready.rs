@@ -11,7 +11,7 @@ use crate::modal::mass::{MassPlan, Masses};
 use crate::modal::member::Members;
 use crate::modal::mode::Counted;
 use crate::modal::shape::{Curve, Part};
-use crate::modal::system::{Mode, System};
+use crate::modal::system::{EQUAL, Mode, System, equal};
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::Workspace;
@@ -26,8 +26,6 @@ const MARGIN: f64 = 2.0;
 /// The factor where even fewer modes were found than are wanted: waves of half the length.
 const FINER: f64 = 16.0;
 
-/// Relative difference below which ω² are equal.
-const EQUAL: f64 = 1e-9;
 /// Share of the mass below which modes take no part in a motion of the ground.
 const SHARE: f64 = 1e-12;
 
@@ -198,13 +196,9 @@ impl Outcome<'_> {
     /// y, and so on. So they are the same wherever they are found.
     pub fn align(&mut self, bodies: usize) {
         let least = SHARE * self.masses.total;
-        let mut first = 0;
-        while first < self.modes.len() {
-            let square = self.modes[first].eigenvalue;
-            let is_equal = |mode: &&Mode| mode.eigenvalue - square <= EQUAL * square;
-            let count = self.modes[first..].iter().take_while(is_equal).count();
-            let (mut next, end) = (first, first + count);
-            for axis in 0..if count > 1 { 3 } else { 0 } {
+        for group in equal(&self.modes, EQUAL) {
+            let (mut next, end) = (group.start, group.end);
+            for axis in 0..if group.len() > 1 { 3 } else { 0 } {
                 let taken = self.modes[next..end].iter();
                 let mut taken: Vec<f64> = taken.map(|m| self.shares(bodies, m).0[axis]).collect();
                 if taken.iter().map(|share| share * share).sum::<f64>() <= least {
@@ -225,7 +219,6 @@ impl Outcome<'_> {
                 }
                 next += 1;
             }
-            first = end.max(first + 1);
         }
     }
 

@@ -22,7 +22,7 @@ use crate::error::SolveError;
 use crate::modal::member::Member;
 use crate::modal::plan::{ModalPlan, hertz};
 use crate::modal::ready::Outcome;
-use crate::modal::system::Mode as Found;
+use crate::modal::system::{Mode as Found, equal};
 use crate::plan::elements::Source;
 use crate::response::parameters::{Parameter, SegmentChange, Varied, line_mass, parameters};
 
@@ -108,9 +108,9 @@ impl ModalPlan {
         let mut asked = wanted + SPARE;
         loop {
             let found = self.find(geometry, asked, true, |outcome| {
-                let mut groups = equal(&outcome.modes);
+                let mut groups = equal(&outcome.modes, EQUAL);
                 let last = groups.last().map_or(0, |group| group.start);
-                if outcome.modes.len() == asked && last < wanted {
+                if outcome.modes.len() >= asked && last < wanted {
                     return None; // more may be equal to the last that is wanted
                 }
                 groups.retain(|group| group.start < wanted);
@@ -456,18 +456,4 @@ fn ascending(matrix: DMatrix<f64>) -> Vec<f64> {
         .collect();
     values.sort_by(f64::total_cmp);
     values
-}
-
-/// Modes with equal eigenvalues, in groups.
-fn equal(modes: &[Found]) -> Vec<Range<usize>> {
-    let mut groups: Vec<Range<usize>> = Vec::new();
-    for (k, mode) in modes.iter().enumerate() {
-        let before = k.checked_sub(1).map(|before| modes[before].eigenvalue);
-        let same = before.is_some_and(|v| mode.eigenvalue - v <= EQUAL * mode.eigenvalue);
-        match groups.last_mut() {
-            Some(group) if same => group.end = k + 1,
-            _ => groups.push(k..k + 1),
-        }
-    }
-    groups
 }

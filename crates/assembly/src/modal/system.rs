@@ -1,5 +1,7 @@
 //! Stiffness and mass over the independent displacement coordinates of one configuration.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use super::lanczos::BLOCK;
@@ -46,6 +48,23 @@ impl Mode {
             residual: 0.0,
         }
     }
+}
+
+/// Part of them by which ω² may differ whose modes are turned among each other.
+pub(super) const EQUAL: f64 = 1e-9;
+
+/// Modes, lowest first, in groups of eigenvalues that differ by no more than a part of them.
+pub(super) fn equal(modes: &[Mode], part: f64) -> Vec<Range<usize>> {
+    let mut groups: Vec<Range<usize>> = Vec::new();
+    for (k, mode) in modes.iter().enumerate() {
+        let before = k.checked_sub(1).map(|before| modes[before].eigenvalue);
+        let same = before.is_some_and(|v| mode.eigenvalue - v <= part * mode.eigenvalue);
+        match groups.last_mut() {
+            Some(group) if same => group.end = k + 1,
+            _ => groups.push(k..k + 1),
+        }
+    }
+    groups
 }
 
 /// The pair of matrices, factored.
