@@ -1,6 +1,6 @@
 //! One pose at a time: the lanes' pass for who cannot wait until a register is full.
 
-use hyperstat_model::{Geometry, Model};
+use hyperstat_model::{Geometry, LANES, Model};
 use pulp::Arch;
 
 use super::Lanes;
@@ -40,7 +40,9 @@ impl Plan {
         let [geometry, ..] = &lanes.geometries;
         model.check_geometry(geometry, self.one_point)?;
         if let Some(engine) = &mut lanes.engine {
-            engine.solve(model, &[geometry], lanes.arch);
+            // Every lane has the pose; the first is read.
+            let width = engine.buffers.width;
+            engine.solve(model, &[geometry; LANES][..width], lanes.arch);
             if let Some(result) = engine.result(0) {
                 return Ok(result);
             }

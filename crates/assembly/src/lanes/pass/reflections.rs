@@ -97,7 +97,7 @@ pub(crate) fn ordered<S: Simd>(x: &Six<S>, chain: &Chain) -> Six<S> {
 /// Six numbers in a chain's order, in the frame's own again.
 #[inline(always)]
 pub(crate) fn put_back<S: Simd>(x: &Six<S>, chain: &Chain) -> Six<S> {
-    six!(k => x[chain.sequence.places[k]])
+    six!(k => x[usize::from(chain.sequence.places[k])])
 }
 
 /// The same of several.
@@ -112,7 +112,7 @@ pub(crate) fn all_put_back<S: Simd, const R: usize>(x: &[Six<S>; R], chain: &Cha
     }
     let mut out = *x;
     for k in 0..6 {
-        let row = &rows[chain.sequence.places[k]];
+        let row = &rows[usize::from(chain.sequence.places[k])];
         for a in 0..R {
             out[a][k] = row[a];
         }
@@ -128,7 +128,7 @@ pub(crate) fn ordered_matrix<S: Simd>(c: &[Six<S>; 6], chain: &Chain) -> [Six<S>
     let mut next = 0;
     for i in 0..6 {
         for j in 0..=i {
-            out[i][j] = flat[chain.sequence.entries[next]];
+            out[i][j] = flat[usize::from(chain.sequence.entries[next])];
             next += 1;
         }
     }

@@ -7,6 +7,9 @@
 //! is regular, and `L D Lᵀ` of it gives the wrenches, columns of `Q L⁻ᵀ`, and their stiffnesses
 //! `D⁻¹`. Nothing is chosen by a pose's sizes, so all poses in a register go the same way.
 
+// Of the constants that `unrolled!` goes through, some are beyond what a number of motions asks for.
+#![allow(clippy::absurd_extreme_comparisons, clippy::reversed_empty_ranges)]
+
 use pulp::Simd;
 
 use super::assemble::Assembly;

@@ -50,10 +50,10 @@ pub(crate) struct Sequence {
     /// The coordinate at each place.
     pub coordinates: [usize; 6],
     /// The place of each coordinate.
-    pub places: [usize; 6],
+    pub places: [u8; 6],
     /// Of a symmetric matrix in this order, its lower triangle by rows: where each entry is in the lower
     /// triangle of the matrix itself, six entries a row.
-    pub entries: [usize; TRIANGLE],
+    pub entries: [u8; TRIANGLE],
 }
 
 impl Sequence {
@@ -61,9 +61,9 @@ impl Sequence {
         let (mut places, mut entries) = ([0; 6], [0; TRIANGLE]);
         let mut next = 0;
         for (i, &row) in coordinates.iter().enumerate() {
-            places[row] = i;
+            places[row] = i as u8;
             for &column in &coordinates[..=i] {
-                entries[next] = 6 * row.max(column) + row.min(column);
+                entries[next] = (6 * row.max(column) + row.min(column)) as u8;
                 next += 1;
             }
         }
