@@ -13,6 +13,7 @@ pub mod files;
 pub(crate) mod fragment;
 pub(crate) mod named;
 pub(crate) mod names;
+mod numbers;
 pub(crate) mod paths;
 pub(crate) mod quantities;
 pub(crate) mod replace;
