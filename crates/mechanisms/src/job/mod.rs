@@ -8,6 +8,7 @@ pub(crate) mod look;
 pub(crate) mod made;
 pub(crate) mod modes;
 pub(crate) mod mover;
+pub(crate) mod parameters;
 pub(crate) mod poses;
 pub(crate) mod subject;
 pub(crate) mod targets;

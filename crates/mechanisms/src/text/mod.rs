@@ -17,6 +17,7 @@ pub(crate) mod json_syntax;
 pub(crate) mod made;
 pub(crate) mod named;
 pub(crate) mod names;
+mod numbers;
 pub(crate) mod paths;
 pub(crate) mod quantities;
 pub(crate) mod raw;

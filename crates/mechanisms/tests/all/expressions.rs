@@ -377,3 +377,47 @@ fn what_depends_on_a_parameter_is_known_with_its_derivative() {
     ];
     assert_eq!(paths, expected);
 }
+
+/// The example by its parameters: a plate that can rise and tilt.
+#[test]
+fn the_tripod_is_what_it_says() {
+    let path = Path::new("../../examples/tripod.ron");
+    let tripod = hyperstat_mechanisms::load_mechanism(path, &Disk, &Registry::builtin()).unwrap();
+    assert!(tripod.unused_points().is_empty());
+    let prepared = hyperstat_assembly::Prepared::new(tripod.model.clone());
+    let here = prepared.here();
+    let kinematics = here.kinematics().unwrap();
+    assert_eq!((kinematics.mobility, kinematics.overconstraint), (3, 0));
+    assert!(here.solve().unwrap().output.stiffness.is_some());
+    // Larger, it is the same kind of machine.
+    let larger = tripod
+        .with_values(&[("R", "300 mm"), ("height", "450 mm")])
+        .unwrap();
+    let prepared = hyperstat_assembly::Prepared::new(larger.model.clone());
+    let here = prepared.here();
+    let kinematics = here.kinematics().unwrap();
+    assert_eq!((kinematics.mobility, kinematics.overconstraint), (3, 0));
+}
+
+#[test]
+fn the_batch_of_the_book_has_parameters() {
+    let text = std::fs::read_to_string("../../docs/src/batch-files.md").unwrap();
+    let start = text.find("```ron\n(\n    parameters:").unwrap() + "```ron\n".len();
+    let block = &text[start..start + text[start..].find("```").unwrap()];
+    let path = Path::new("f.ron");
+    let batch = batch_from_str(block, path, &Disk, &Registry::builtin()).unwrap();
+    let job = &batch.jobs[0];
+    assert_eq!((job.designs(), job.len()), (2, 15));
+    // The job's own, in place of the batch's, by the radius as it is written.
+    assert_eq!(
+        job.target(0),
+        [
+            Some(-0.2),
+            Some(0.0),
+            Some(0.5),
+            Some(0.0),
+            Some(0.0),
+            Some(0.0)
+        ]
+    );
+}

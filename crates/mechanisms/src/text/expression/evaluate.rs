@@ -147,7 +147,7 @@ fn call(rule: &Rule, arguments: &[Operand], at: &Range<usize>) -> Result<Operand
         }
         (By::Distance, [Operand::Point(a), Operand::Point(b)]) => {
             let [x, y, z] = std::array::from_fn(|k| b[k] - a[k]);
-            Operand::Number(x.hypot(y).hypot(z))
+            Number(x.hypot(y).hypot(z))
         }
         (By::Midpoint, [Operand::Point(a), Operand::Point(b)]) => {
             let half = Dual::constant(0.5);
