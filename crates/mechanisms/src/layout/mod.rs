@@ -37,7 +37,7 @@ pub fn format(text: &str, path: &Path) -> Result<String, LoadError> {
 /// are.
 ///
 /// # Errors
-/// The file cannot be read; as [`format`].
+/// The file cannot be read; as [`format()`].
 pub fn format_file(path: &Path, files: &dyn Files) -> Result<Option<String>, LoadError> {
     let source = Source::read(path, files)?;
     let even = format(source.text(), path)?;
