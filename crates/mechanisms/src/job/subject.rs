@@ -48,7 +48,7 @@ pub(crate) enum Checked {
     /// Of a file, with the job's loads.
     File(Box<Mechanism>),
     /// Prebuilt, not yet built.
-    Prebuilt(Box<dyn Prebuilt>, Acting),
+    Prebuilt(Box<dyn Prebuilt>, Box<Acting>),
 }
 
 /// A mechanism with its loads.
@@ -154,7 +154,8 @@ impl Recipe {
             Some(kind) => {
                 let tree = Scope::tree(root)?;
                 let mechanism = kind.read(Fragment::of_node(&tree))?;
-                Ok(Checked::Prebuilt(mechanism, self.acting.in_scope(root)?))
+                let acting = Box::new(self.acting.in_scope(root)?);
+                Ok(Checked::Prebuilt(mechanism, acting))
             }
         }
     }

@@ -97,23 +97,34 @@ impl Definitions<'_> {
 
     fn value(&mut self, of: Type) -> Value {
         match of {
-            Type::Number(_) => json!({ "type": "number" }),
+            // With a unit, or an expression.
+            Type::Number(_) => json!({ "anyOf": [
+                { "type": "number" },
+                { "type": "string", "pattern": "^\\s*[-+.=0-9]" },
+            ] }),
             Type::Count(least, most) => {
                 let mut count = json!({ "type": "integer", "minimum": least });
                 if most != crate::terms::NO_END {
                     count["maximum"] = most.into();
                 }
-                count
+                json!({ "anyOf": [count, expression()] })
             }
             Type::Truth => json!({ "type": "boolean" }),
             Type::Text => json!({ "type": "string" }),
             Type::Word(words) => json!({ "enum": words }),
-            Type::Numbers(count, _) => json!({
-                "type": "array",
-                "items": self.value(Type::Number("")),
-                "minItems": count,
-                "maxItems": count,
-            }),
+            Type::Numbers(count, _) => {
+                let numbers = json!({
+                    "type": "array",
+                    "items": self.value(Type::Number("")),
+                    "minItems": count,
+                    "maxItems": count,
+                });
+                match count {
+                    // A point may be an expression, too.
+                    3 => json!({ "anyOf": [numbers, expression()] }),
+                    _ => numbers,
+                }
+            }
             Type::Tuple(items) => {
                 let values: Vec<Value> = items.iter().map(|item| self.value(*item)).collect();
                 json!({
@@ -254,6 +265,11 @@ pub(crate) fn unit(of: Type) -> Option<&'static str> {
         Type::Map(value) | Type::List(value) => unit(*value),
         _ => None,
     }
+}
+
+/// A text that begins with `=`.
+fn expression() -> Value {
+    json!({ "type": "string", "pattern": "^\\s*=" })
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use crate::terms::bodies::BODY;
 use crate::terms::figures::FIGURE;
 use crate::terms::job::{JOB, MODES, POSES};
 use crate::terms::joints::JOINT;
+use crate::terms::mechanism::COPIED;
 use crate::terms::names;
 use crate::terms::parts::{MATERIAL, PROFILE};
 use crate::text::csv;
@@ -168,7 +169,7 @@ fn every_field_is_told_in_one_line() {
 /// What the reader of JSON takes for names follows from the table, and so do the axes of a grid.
 #[test]
 fn fields_that_hold_names_are_known_to_the_reader() {
-    let maps = [MECHANISM.fields, JOB.fields].concat();
+    let maps = [MECHANISM.fields, JOB.fields, COPIED.fields].concat();
     let maps = maps.iter().filter(|field| matches!(field.of, Type::Map(_)));
     assert_eq!(set(maps.map(|field| field.name)), set(MAPS));
     assert_eq!(POSES.fields("Grid").unwrap(), csv::COLUMNS);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Along, Batch, Disk, Figure, Input, Registry, Scale, batch_from_str, load, load_batch,
+    Along, Batch, Disk, Figure, Input, Look, Registry, Scale, batch_from_str, load, load_batch,
     load_mechanism,
 };
 use nalgebra::Vector6;
@@ -60,6 +60,7 @@ fn the_paper_s_batch_holds_both_case_studies() {
             pose: 0,
             case: None,
             scale: Scale::Auto,
+            look: Look::default(),
         },
     ];
     for job in &batch.jobs[2..] {
@@ -223,6 +224,7 @@ fn figures_have_defaults() {
             pose: 1,
             case: None,
             scale: Scale::Factor(50.0),
+            look: Look::default(),
         },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
@@ -241,6 +243,7 @@ fn figures_of_cases_modes_and_budgets() {
         number,
         pose,
         scale,
+        look: Look::default(),
     };
     let budget = |along, pose| Figure::Budget {
         along,
@@ -252,6 +255,7 @@ fn figures_of_cases_modes_and_budgets() {
             pose: 0,
             case: Some("push".into()),
             scale: Scale::Auto,
+            look: Look::default(),
         },
         mode(1, 0, Scale::Auto),
         mode(3, 1, Scale::Factor(0.5)),

@@ -29,13 +29,13 @@ impl<E> From<Mistake> for Failure<E> {
     }
 }
 
+/// What a name in an expression stands for, or one coordinate of it, by its place in the text.
+type Names<'n, E> =
+    dyn FnMut(&str, Option<usize>, &Range<usize>) -> Result<Operand, Failure<E>> + 'n;
+
 impl Expression {
-    /// Its value, which is finite; `named` says what a name stands for, or one coordinate of it, by the
-    /// place of the name in the text.
-    pub(crate) fn value<E>(
-        &self,
-        named: &mut dyn FnMut(&str, Option<usize>, &Range<usize>) -> Result<Operand, Failure<E>>,
-    ) -> Result<Operand, Failure<E>> {
+    /// Its value, which is finite; `named` says what names stand for.
+    pub(crate) fn value<E>(&self, named: &mut Names<'_, E>) -> Result<Operand, Failure<E>> {
         let operations = self.0.as_ref().map_err(Clone::clone)?;
         let mut stack: Vec<Operand> = Vec::with_capacity(8);
         for operation in operations {
