@@ -18,6 +18,8 @@ const FIRST_STEPS: usize = 8;
 const LEAST_STEPS: f64 = 4.0;
 const MOST_STEPS: f64 = 40.0;
 const CONVERGED: f64 = 1e-10;
+/// The place is no nearer to the wanted ω² than this part of the distance of the farthest.
+const BESIDE: f64 = 0.1;
 /// Sweeps of rotations at the most.
 const MOST_SWEEPS: usize = 12;
 /// A value below zero by no more than this part of the largest may be rounding.
@@ -65,12 +67,15 @@ impl Projected<'_> {
             return None;
         }
         let (first, last) = (1.0 / found.values[0], 1.0 / found.values[count - 1]);
-        let place = (first + last) * 0.5;
+        let (place, half) = ((first + last) * 0.5, (last - first).abs() * 0.5);
         let mut far = 0.0_f64;
         for k in 0..ROW {
             far = far.max((1.0 / found.values[k] - place).abs());
         }
-        let steps = CONVERGED.ln() / ((last - first).abs() * 0.5 / far).ln();
+        // Not at an ω², where one vector were all that is left.
+        let beside = (BESIDE * far - half).max(0.0);
+        let place = place - beside;
+        let steps = CONVERGED.ln() / ((half + beside) / far).ln();
         let steps = steps.clamp(LEAST_STEPS, MOST_STEPS) as usize;
         self.iterate(simd, 1.0 / place, steps, &mut found.vectors)?;
         self.rotate(simd, &mut found)?;
