@@ -114,6 +114,31 @@ fn a_plan_serves_every_pose() {
     }
 }
 
+/// What a sweep finds, by its own way, beside the modes of each pose by theirs.
+#[test]
+fn a_sweep_finds_what_single_poses_have() {
+    const ELASTIC: &str = "joint_stiffness: (x: 1e8, y: 1e8, z: 1e8, u: 1e5, w: 1e5),";
+    for more in ["", ELASTIC] {
+        let model = delta([0.0, 0.0, 0.5], 1, more);
+        for count in [1, 2, 3, 4] {
+            let plan = ModalPlan::new(&model, &ModalOptions::lowest(count)).unwrap();
+            for k in 0..8 {
+                let at =
+                    [0, 1, 2].map(|axis| f64::from((7 * k + 3 * axis + k * axis) % 9) / 4.0 - 1.0);
+                let there = delta([0.2 * at[0], 0.2 * at[1], 0.5 + 0.05 * at[2]], 1, more);
+                let found = plan.frequencies(there.geometry()).unwrap();
+                let modes = plan.modes(there.geometry()).unwrap();
+                assert!(modes.complete);
+                assert_eq!(found.len(), count);
+                for (found, mode) in found.iter().zip(&modes.modes) {
+                    let error = found / mode.frequency - 1.0;
+                    assert!(error.abs() < 1e-11, "{at:?}: {found}, {error:e}");
+                }
+            }
+        }
+    }
+}
+
 /// Each of the six rods turns about itself, and so does each pair's bars with it: twelve idle motions,
 /// known from the kinematics.
 #[test]

@@ -299,7 +299,7 @@ impl Basis<'_> {
 }
 
 /// A number from −1 to 1 (Steele, Lea and Flood 2014, SplitMix64): the same in every run.
-fn random(seed: &mut u64) -> f64 {
+pub(super) fn random(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mut z = *seed;
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -11,6 +11,7 @@ mod mass;
 mod member;
 mod mode;
 mod plan;
+mod quick;
 mod ready;
 mod sensitivity;
 mod shape;

@@ -100,6 +100,9 @@ impl ModalPlan {
     /// As [`ModalPlan::modes`], which tells of a count that fails in its result: here it is
     /// [`SolveError::ModesUncounted`], where masses are exact.
     pub fn frequencies(&self, geometry: &Geometry) -> Result<Vec<f64>, SolveError> {
+        if let Some(squares) = self.ready.squares(&self.model, geometry) {
+            return Ok(squares.into_iter().map(hertz).collect());
+        }
         self.find(geometry, self.options.count, false, |outcome| {
             if !outcome.complete && self.options.mass == BeamMass::Exact {
                 let found = outcome.modes.len();

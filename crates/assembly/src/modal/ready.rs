@@ -10,6 +10,7 @@ use crate::modal::lanczos::lowest;
 use crate::modal::mass::{MassPlan, Masses};
 use crate::modal::member::Members;
 use crate::modal::mode::Counted;
+use crate::modal::quick::Quick;
 use crate::modal::shape::{Curve, Part};
 use crate::modal::system::{EQUAL, Mode, System, equal};
 use crate::plan::Plan;
@@ -39,6 +40,8 @@ pub(super) struct Ready {
     pub masses: MassPlan,
     /// Modes of the configuration that it was made for: near those of others.
     start: Vec<Vec<f64>>,
+    /// The quick way to frequencies alone, where there is one.
+    quick: Option<Quick>,
 }
 
 /// What was found in a configuration, and from what.
@@ -80,14 +83,36 @@ impl Ready {
             plan,
             masses,
             start: Vec::new(),
+            quick: None,
         })
     }
 
-    /// Begins with the modes of a configuration wherever frequencies alone are looked for.
+    /// Begins with the modes of a configuration, which it was made for, wherever frequencies alone are
+    /// looked for.
     pub fn begin_with(&mut self, model: &Model, geometry: &Geometry, count: usize) {
         let found = self.find(model, geometry, count, false).ok();
         let modes = found.map(|found| found.modes).unwrap_or_default();
+        let wanted: Vec<f64> = modes.iter().map(|mode| mode.eigenvalue).collect();
+        if wanted.len() == count {
+            self.quick = Quick::new(&self.plan, &self.divided, &self.members, &wanted);
+        }
         self.start = modes.into_iter().map(|mode| mode.vector).collect();
+    }
+
+    /// The lowest ω² of a configuration of `model` by the quick way; `None` where [`Ready::find`] has to
+    /// find them.
+    pub fn squares(&self, model: &Model, geometry: &Geometry) -> Option<Vec<f64>> {
+        let quick = self.quick.as_ref()?;
+        model.check_geometry(geometry, self.plan.one_point).ok()?;
+        if !self.members.fit(model, geometry) {
+            return None;
+        }
+        let parts = &self.members.parts;
+        if parts.iter().all(|count| *count == 1) {
+            return quick.squares(&self.plan, &self.divided, geometry);
+        }
+        let geometry = model.divided_geometry(geometry, parts).ok()?;
+        quick.squares(&self.plan, &self.divided, &geometry)
     }
 
     /// Up to which ω² it is right.

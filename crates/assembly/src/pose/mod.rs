@@ -41,14 +41,7 @@ pub(crate) fn evaluate(
 
 /// Brings blocks, elements and stiffness of `workspace` to a configuration.
 pub(crate) fn form(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> Result<(), Fault> {
-    workspace.doubtful = None;
-    workspace.tree.evaluate(&plan.topology, at)?;
-    for (coordinate, idc) in plan.idc_of.iter().enumerate() {
-        if let Some(idc) = idc {
-            workspace.identities[*idc] = workspace.tree.identities[coordinate];
-        }
-    }
-    close_loops(plan, at, workspace)?;
+    carry(plan, at, workspace)?;
     for element in &plan.elements {
         match element.source {
             Source::Subassembly(k) => {
@@ -60,6 +53,18 @@ pub(crate) fn form(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> 
     }
     assemble(plan, workspace);
     Ok(())
+}
+
+/// Brings the blocks of all carriers to a configuration.
+pub(crate) fn carry(plan: &Plan, at: &Posture<'_>, workspace: &mut Workspace) -> Result<(), Fault> {
+    workspace.doubtful = None;
+    workspace.tree.evaluate(&plan.topology, at)?;
+    for (coordinate, idc) in plan.idc_of.iter().enumerate() {
+        if let Some(idc) = idc {
+            workspace.identities[*idc] = workspace.tree.identities[coordinate];
+        }
+    }
+    close_loops(plan, at, workspace)
 }
 
 /// Brings the loads of a `workspace` that is [formed](form), and what its elements start from, to what
