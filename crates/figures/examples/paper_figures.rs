@@ -57,6 +57,7 @@ fn trajectory() -> TrajectoryFigure {
         commanded,
         displacement,
         scale: Scale::Auto,
+        view: Viewpoint::default(),
     }
 }
 

@@ -27,6 +27,7 @@ fn trajectory() -> TrajectoryFigure {
         }),
         displacement,
         scale: Scale::Auto,
+        view: Viewpoint::default(),
     }
 }
 
@@ -58,6 +59,8 @@ fn deformed() -> DeformedFigure {
             difference: 3e-12,
         }),
         scale: Scale::Auto,
+        notes: Notes::default(),
+        view: Viewpoint::default(),
     }
 }
 

@@ -85,7 +85,7 @@ fn loads(model: &Model, case: Option<&str>) -> Vec<Arrow> {
             Axes::Body { body, home } => model.body_frame(body).map(|now| now * home.inverse()),
             _ => None,
         };
-        let turned = |v: Vector3<f64>| turn.map_or(v, |turn| turn * v);
+        let turned = move |v: Vector3<f64>| turn.map_or(v, |turn| turn * v);
         let parts = [
             (load.wrench.fixed_rows::<3>(0).into_owned(), false),
             (load.wrench.fixed_rows::<3>(3).into_owned(), true),
