@@ -1,3 +1,5 @@
+//! Files in even lines: comments stay, values stay, and what is in order stays as it is.
+
 use std::path::PathBuf;
 
 use super::*;
