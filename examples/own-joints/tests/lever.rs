@@ -96,7 +96,7 @@ fn a_mistake_is_told_at_its_place() {
             ",\n            )",
             "poisson",
         ),
-        ("offset: 0.015", "offset: \"15 mm\"", "number"),
+        ("offset: 0.015", "offset: \"15 mn\"", "`mn` is no unit"),
         ("offset: 0.015", "ofset: 0.015", "`offset`"),
         (
             "(1.0, 0.0, 0.0)), offset",

@@ -241,7 +241,7 @@ fn mistakes_in_copies_are_told_where_they_are() {
         (
             r#""bra": Turned(axis: (0.0, 0.0, 1.0), count: 3)"#,
             "",
-            "b.ron:5:11: unknown group `bra`; did you mean `bar`?",
+            "b.ron:5:11: unknown group `bra`; the groups are `bar`",
         ),
         (
             r#""bar": Turnt(axis: (0.0, 0.0, 1.0), count: 3)"#,

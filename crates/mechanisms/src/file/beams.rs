@@ -230,7 +230,7 @@ impl<'a> Run<'_, 'a> {
             return Ok(vec![(None, None); count]);
         };
         let one = |own: Fragment<'a>| Ok((Some(own.direction()?), Some(own)));
-        if !given.is_list() || given.is_direction() {
+        if !given.is_list_of_tuples() {
             return Ok(vec![one(given)?; count]);
         }
         let list = given.list("a direction, or a list of one for each segment")?;

@@ -65,7 +65,7 @@ impl Batch {
     /// Reads the value of a batch file.
     pub(crate) fn read(fragment: Fragment<'_>, registry: &Registry) -> Result<Self, LoadError> {
         let fields = Fields::read(fragment, "the batch", &BATCH.names())?;
-        let shared = fields.get(PARAMETERS).map(Node::of);
+        let shared = fields.get(PARAMETERS).map(Node::of_map);
         let list = fields.required("jobs")?;
         let mut seen = HashMap::new();
         let mut jobs = Vec::new();

@@ -353,7 +353,13 @@ fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
     }
     let expected = "`Auto` or a factor above zero, such as `50.0`";
     let factor = match fragment.text().starts_with('"') {
-        true => fragment.quantity("a factor", Dimension::NUMBER)?,
+        true => {
+            let no_number = |error: LoadError| match error.message().starts_with("expected") {
+                true => fragment.expected(expected),
+                false => error,
+            };
+            (fragment.quantity("a factor", Dimension::NUMBER)).map_err(no_number)?
+        }
         false => fragment.parse::<f64>(expected)?,
     };
     match factor {

@@ -15,7 +15,7 @@ use crate::text::tree::Node;
 impl Recipe {
     /// The same mechanism with what these fields say of parameters and of what acts.
     pub(crate) fn with_fields(&self, fields: &Fields<'_>) -> Result<Self, LoadError> {
-        let given = fields.get(PARAMETERS).map(Node::of);
+        let given = fields.get(PARAMETERS).map(Node::of_map);
         let mut root = self.own.clone();
         for parameters in self.shared.iter().chain(&given) {
             scope::put(&mut root, parameters)?;

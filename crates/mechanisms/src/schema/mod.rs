@@ -100,7 +100,7 @@ impl Definitions<'_> {
             // With a unit, or an expression.
             Type::Number(_) => json!({ "anyOf": [
                 { "type": "number" },
-                { "type": "string", "pattern": "^\\s*[-+.=0-9]" },
+                { "type": "string", "pattern": QUANTITY },
             ] }),
             Type::Count(least, most) => {
                 let mut count = json!({ "type": "integer", "minimum": least });
@@ -266,6 +266,10 @@ pub(crate) fn unit(of: Type) -> Option<&'static str> {
         _ => None,
     }
 }
+
+/// An expression, or a number with a unit.
+const QUANTITY: &str =
+    r"^\s*(=|[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?\s*[A-Za-z\u00b5\u00b0%\u03bc])";
 
 /// A text that begins with `=`.
 fn expression() -> Value {

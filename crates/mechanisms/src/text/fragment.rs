@@ -148,9 +148,10 @@ impl<'a> Fragment<'a> {
         self.text.starts_with('[')
     }
 
-    /// Whether it is three numbers, which in JSON are a list, too.
-    pub(crate) fn is_direction(self) -> bool {
-        self.is_json() && self.direction().is_ok()
+    /// Whether it is a list of lists or tuples, or of what else is no tuple of numbers.
+    pub(crate) fn is_list_of_tuples(self) -> bool {
+        let first = |items: Vec<Self>| items.first().is_some_and(|first| first.is_list());
+        self.is_list() && (!self.is_json() || self.list("").is_ok_and(first))
     }
 
     /// Whether it is a tuple, or fields, and no kind or word: `(…)`; in JSON any array.

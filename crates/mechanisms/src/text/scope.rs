@@ -311,7 +311,10 @@ impl<'t> Scope<'t> {
             Key::Coordinate(name, k) => {
                 let point = self.points()[name];
                 match &point.content {
-                    Content::Tuple(parts) if parts.len() == 3 => self.operand(&parts[k]),
+                    // In JSON a tuple is a list.
+                    Content::Tuple(parts) | Content::List(parts) if parts.len() == 3 => {
+                        self.operand(&parts[k])
+                    }
                     Content::Expression(_) => match self.operand(point)? {
                         Operand::Point(point) => Ok(Operand::Number(point[k])),
                         Operand::Number(_) => Err(no_point(point)),

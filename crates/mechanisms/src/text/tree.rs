@@ -93,6 +93,14 @@ impl Node {
         }
     }
 
+    /// The tree of names with values, which JSON does not tell from fields.
+    pub(crate) fn of_map(value: Fragment<'_>) -> Self {
+        match value.is_json() {
+            true => Self::of_json(value, true, 0),
+            false => Self::of(value),
+        }
+    }
+
     /// The tree of what stands at a place.
     pub(crate) fn at(place: &Place) -> Self {
         Self::of(Fragment::at(place))

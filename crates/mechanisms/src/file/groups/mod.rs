@@ -214,7 +214,7 @@ type Asked<'a> = (Vec<placement::Placement>, Vec<String>, Option<Fragment<'a>>);
 /// Reads an entry of `copies`: places, or `(places: …, names: […], overrides: { … })`.
 fn read<'a>(entry: &Entry<'a>) -> Result<Asked<'a>, LoadError> {
     let given = entry.value;
-    if given.named("").is_err() {
+    if !given.has_fields() {
         let places = placement::read(given)?;
         let names = (1..=places.len()).map(|k| k.to_string()).collect();
         return Ok((places, names, None));

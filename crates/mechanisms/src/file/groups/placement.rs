@@ -78,9 +78,9 @@ impl Placement {
 pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
     let expected =
         "places of copies, such as `Turned(axis: (0.0, 0.0, 1.0), count: 3)`, or a list of them";
-    let steps = match fragment.variant(expected) {
-        Ok(_) => vec![fragment],
-        Err(_) => fragment.list(expected)?,
+    let steps = match fragment.is_list() {
+        true => fragment.list(expected)?,
+        false => vec![fragment],
     };
     let mut places = vec![Placement::HERE];
     for step in steps {
@@ -101,7 +101,8 @@ pub(super) fn read(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> 
 
 /// Reads one kind of placing.
 fn one(fragment: Fragment<'_>) -> Result<Vec<Placement>, LoadError> {
-    let (kind, arguments) = fragment.variant("`Turned(…)`, `Moved(…)` or `Mirrored(…)`")?;
+    let expected = "`Turned(…)`, `Moved(…)` or `Mirrored(…)`";
+    let (kind, arguments) = fragment.variant(expected)?;
     let owner = format!("`{}`", kind.text());
     let Some(known) = PLACING.fields(kind.text()) else {
         let other = kind.text();
@@ -180,7 +181,11 @@ fn moved(fields: &Fields<'_>) -> Result<Vec<Placement>, LoadError> {
         let (step, count) = (by.vector("`by`", Dimension::LENGTH)?, count(number)?);
         return Ok((0..count).map(|k| moved(k as f64 * step)).collect());
     }
-    let list = by.list("a list of vectors, or one vector with a `count` of copies")?;
+    let expected = "a list of vectors, or one vector with a `count` of copies";
+    if !by.is_list_of_tuples() {
+        return Err(by.expected(expected));
+    }
+    let list = by.list(expected)?;
     if list.is_empty() {
         return Err(by.error("no vectors make no copies"));
     }
