@@ -55,7 +55,7 @@ pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
     Ok(text)
 }
 
-/// [`write`], in JSON: the same names and the same numbers.
+/// [`write()`], in JSON: the same names and the same numbers.
 ///
 /// # Errors
 /// As there.
