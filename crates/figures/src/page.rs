@@ -99,7 +99,15 @@ impl Page<'_> {
     /// The page as an SVG document, with what `draw` draws in the box of axes.
     pub(crate) fn svg(&self, draw: impl FnOnce(&mut Canvas, &View)) -> String {
         let bounds = self.bounds.roomy();
-        let view = View::fit(&bounds, DRAWING, self.eye);
+        // Seen from a side, the box reaches up to where its upright axis has its name.
+        let area = match self.eye == Viewpoint::default() {
+            true => DRAWING,
+            false => Area {
+                top: DRAWING.top + 20.0,
+                ..DRAWING
+            },
+        };
+        let view = View::fit(&bounds, area, self.eye);
         let words = Words {
             title: self.title,
             subtitle: &self.subtitle,

@@ -291,7 +291,7 @@ fn mistakes_in_copies_are_told_where_they_are() {
         (
             r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
             r#"include: ["steel.ron"],"#,
-            "steel.ron:1:16: the name \"steel\" is given twice; it stands in b.ron:1:33 already; remove one of the two",
+            "steel.ron:1:15: the name \"steel\" is given twice; it stands in b.ron:1:29 already; remove one of the two",
         ),
         (
             r#""bar": Mirrored(normal: (1.0, 0.0, 0.0))"#,
@@ -355,4 +355,57 @@ fn a_group_is_one_for_whoever_varies_it_and_a_copy_may_differ() {
         .map(|(place, _)| format!("{place:?}"))
         .collect();
     assert!(!names.is_empty());
+}
+
+#[test]
+fn overrides_of_one_copy_do_not_overlap() {
+    let copies = r#""bar": (places: Mirrored(normal: (1.0, 0.0, 0.0)),
+        overrides: { "2": { "points.A.0": 2.0, "points.A": (1.0, 0.0, 0.0) } })"#;
+    let found = refused(&bar(copies, ""));
+    assert!(
+        found.contains("`points.A.0` and `points.A` overlap"),
+        "{found}"
+    );
+}
+
+#[test]
+fn kinds_without_arguments_are_turned_in_json_too() {
+    let text = r#"{"name": "bars", "materials": {"steel": {"young": 2.1e11, "poisson": 0.3}},
+        "sections": {"rod": {"Circle": {"diameter": 0.02}}},
+        "groups": {"bar": {"points": {"A": [1.0, 0.0, 0.0], "B": ["= A.x", 0.0, "= 3-2"]},
+            "bodies": {"rod": {"Beam": {"through": ["A", "B"], "section": "rod", "material": "steel"}}},
+            "joints": {"A": {"at": "A", "between": ["ground", "rod"], "kind": "Fixed", "stiffness": {"x": 1e6}}}}},
+        "copies": {"bar": {"Turned": {"axis": [0.0, 0.0, 1.0], "count": 4}}}, "output": ["rod2", "B2"]}"#;
+    let model = read(text);
+    let frame = model.geometry().frames[1];
+    assert!(
+        (frame.matrix().column(0) - Vector3::y()).norm() < 1e-15,
+        "{frame}"
+    );
+}
+
+#[test]
+fn a_job_knows_the_points_of_copies() {
+    let copies = r#""bar": Turned(axis: (0.0, 0.0, 1.0), count: 4)"#;
+    let more = r#"points: { "M": ("= B1.z + 0.5-0.25", 0.0, 0.0) },"#;
+    let files = MemoryFiles::from_iter([("bars.ron", bar(copies, more))]);
+    let batch = r#"(jobs: [(name: "j", mechanism: File("bars.ron"),
+        loads: [(on: ("rod2", "B2"), force: ("= 4 * M.x", "= B1.z", 0.0))])])"#;
+    let batch = batch_from_str(batch, Path::new("b.ron"), &files, &Registry::builtin());
+    let batch = batch.unwrap_or_else(|error| panic!("{error}"));
+    let model = batch.jobs[0]
+        .design(0)
+        .expect("a design")
+        .model()
+        .expect("in reach");
+    assert_eq!(
+        model.loads()[0].wrench.as_slice(),
+        [5.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+    );
+}
+
+#[test]
+fn a_comment_may_be_the_last_thing_in_a_file() {
+    let copies = r#""bar": Turned(axis: (0.0, 0.0, 1.0), count: 4)"#;
+    read(&format!("{} // the end", bar(copies, "")));
 }

@@ -48,6 +48,10 @@ impl Included {
     fn add(&mut self, list: Fragment<'_>) -> Result<(), LoadError> {
         for name in list.list("a list of files, such as `[\"steel.ron\"]`")? {
             let path = name.source().relative(&name.string()?);
+            // `./steel.ron` is `steel.ron`.
+            let path: PathBuf = (path.components())
+                .filter(|part| !matches!(part, Component::CurDir))
+                .collect();
             let inside =
                 |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
             if !Path::new(&name.string()?).components().all(inside) {

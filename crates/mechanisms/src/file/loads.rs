@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::home::{Home, NO_HOME};
 use crate::error::LoadError;
-use crate::file::{joints, nodes};
+use crate::file::{groups, joints, nodes};
 use crate::terms::acting::{ALONG, LOAD, MASS};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
@@ -38,7 +38,8 @@ impl Acting {
         if !self.given().any(|(_, node)| node.has_expressions()) {
             return Ok(self.clone());
         }
-        let scope = Scope::new(mechanism)?;
+        let known = groups::with_copies(mechanism)?;
+        let scope = Scope::new(&known)?;
         Ok(Self(self.0.each_ref().map(|field| {
             field.as_ref().map(|field| scope.valued(field))
         })))

@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use crate::error::LoadError;
+use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
 use crate::text::names;
 
@@ -107,12 +108,23 @@ pub(super) fn view(fragment: Fragment<'_>) -> Result<View, LoadError> {
         error.with_help(format!("give {VIEW}").replace("-62,22", "`(-62.0, 22.0)`"))
     };
     if let Ok([azimuth, elevation]) = fragment.array("") {
-        let (azimuth, elevation) = (azimuth.number()?, elevation.number()?);
-        let found = View::angles(azimuth, elevation);
-        return found.ok_or_else(|| wrong(fragment.error("there is no view from such angles")));
+        let found = View::angles(degrees(azimuth)?, degrees(elevation)?);
+        let message = "an azimuth is between -360 and 360 degrees, an elevation between -90 and 90";
+        return found.ok_or_else(|| wrong(fragment.error(message)));
     }
     let name = fragment.string().map_err(wrong)?;
     View::named(&name).ok_or_else(|| wrong(fragment.error(format!("unknown view `{name}`"))))
+}
+
+/// Reads an angle; a number without a unit is one in degrees.
+fn degrees(fragment: Fragment<'_>) -> Result<f64, LoadError> {
+    match fragment.measured(Some(Dimension::ANGLE))? {
+        (angle, None) => Ok(angle),
+        (angle, Some(Dimension::ANGLE)) => Ok(angle.to_degrees()),
+        (_, Some(other)) => {
+            Err(fragment.of_dimension("an angle of a view", Dimension::ANGLE, other))
+        }
+    }
 }
 
 /// Reads what is to stand beside the mechanism, `["names", "loads"]`.

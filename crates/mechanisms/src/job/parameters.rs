@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::subject::Recipe;
 use crate::error::LoadError;
+use crate::file::groups;
 use crate::file::loads::Acting;
 use crate::text::dependence::{self, Dependence};
 use crate::text::fields::Fields;
@@ -62,7 +63,8 @@ impl Recipe {
         if !fields.iter().any(expressions) {
             return Ok(None);
         }
-        let scope = Scope::new(&self.root)?;
+        let known = groups::with_copies(&self.root)?;
+        let scope = Scope::new(&known)?;
         let valued = |(name, node): &(&'f str, Node)| match others(name) {
             true => (*name, scope.valued(node)),
             false => (*name, node.clone()),

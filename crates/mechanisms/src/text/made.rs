@@ -148,6 +148,13 @@ impl Node {
                 };
                 self.with(Content::Kind(kind.clone(), Some(Arc::new(inner))))
             }
+            // A kind without arguments is a text in JSON.
+            Content::Text(_) if self.source().is_json() => {
+                let quoted = self.place().span;
+                let kind = quoted.start + 1..quoted.end.saturating_sub(1);
+                let inner = self.fields_in_place(vec![(name, value)]);
+                self.with(Content::Kind(kind, Some(Arc::new(inner))))
+            }
             _ => self.clone(),
         }
     }

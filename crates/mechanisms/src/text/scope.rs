@@ -239,7 +239,11 @@ impl<'t> Scope<'t> {
             Failure::Elsewhere(error) => error,
             Failure::Here(mistake) => {
                 let error = place(node, &mistake.at).error(mistake.message);
-                Arc::new(error.unreadable().with_help(mistake.help))
+                let error = match mistake.of_values {
+                    true => error,
+                    false => error.unreadable(),
+                };
+                Arc::new(error.with_help(mistake.help))
             }
         })
     }

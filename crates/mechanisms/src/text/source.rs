@@ -56,6 +56,19 @@ impl Family {
     }
 }
 
+/// A text whose lines end with line feeds, the last one too if it holds a comment: ron reads none that does
+/// not end.
+fn whole_lines(text: &str) -> String {
+    let mut text = match text.contains('\n') {
+        true => text.to_owned(),
+        false => text.replace('\r', "\n"),
+    };
+    if !text.ends_with('\n') && text.lines().last().is_some_and(|last| last.contains("//")) {
+        text.push('\n');
+    }
+    text
+}
+
 /// The folder that a file is in, without links.
 fn folder(path: &Path, files: &dyn Files) -> Option<PathBuf> {
     let parent = path.parent()?;
@@ -76,10 +89,7 @@ impl Source {
         Arc::new(Self {
             path: path.into(),
             json: json::is_json(text),
-            text: match text.contains('\n') {
-                true => text.into(),
-                false => text.replace('\r', "\n"),
-            },
+            text: whole_lines(text),
             origin: None,
             argument: None,
             family,

@@ -307,11 +307,14 @@ impl Node {
             Some('{') => Self::fields_or_kind(value, depth),
             Some('[') => (value.list("").ok())
                 .map(|items| Content::List(items.into_iter().map(part).collect())),
-            Some('"') if Expression::begins(value.text()) => {
-                let expression = Expression::read(value.text());
-                Some(Content::Expression(Arc::new(expression)))
-            }
-            Some('"') => value.string().ok().map(|text| Content::Text(text.into())),
+            Some('"') => value.string().ok().map(|text| {
+                // Without escapes its places are those of the file.
+                let plain = format!("\"{text}\"");
+                match Expression::begins(&plain) {
+                    true => Content::Expression(Arc::new(Expression::read(&plain))),
+                    false => Content::Text(text.into()),
+                }
+            }),
             _ => value.plain_number().ok().map(Content::Number),
         };
         Self {

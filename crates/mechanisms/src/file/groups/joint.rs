@@ -63,7 +63,7 @@ fn framed(joint: &Node, kind: &Node, placement: &Placement) -> Result<Node, Load
                 made = made.with_field("x_axis", axis.numbers_in_place(x.as_slice()));
             }
         }
-    } else if matches!(kind.kind(), Some("Fixed" | "Spherical")) {
+    } else if matches!(kind.kind().or(kind.as_text()), Some("Fixed" | "Spherical")) {
         let numbers = |v: Vector3<f64>| kind.numbers_in_place(placement.direction(&v).as_slice());
         own = own.with_field("axis", numbers(Vector3::y()));
         if x_axis.is_none() {

@@ -22,7 +22,7 @@ use crate::text::fragment::{Entry, Fragment, first_at};
 use crate::text::names;
 use crate::text::paths;
 use crate::text::scope::Scope;
-use crate::text::tree::{Named, Node};
+use crate::text::tree::{Named, Node, Steps};
 
 /// The fields of a group, which are fields of a mechanism too.
 pub(super) const PARTS: [&str; 5] = ["points", "bodies", "joints", "loads", "masses"];
@@ -60,15 +60,24 @@ impl Copies {
 /// The mechanism with the values of its expressions in their places, and its groups written out: those of
 /// `copies`. In a group, expressions know its points as it is written; elsewhere those of all copies.
 pub(crate) fn write_out(root: &Node) -> Result<Written, LoadError> {
+    let mut written = unvalued(root)?;
+    written.root = Scope::tree(&written.root)?;
+    Ok(written)
+}
+
+/// The mechanism with its groups written out, and expressions elsewhere as they are: what these know.
+pub(crate) fn with_copies(root: &Node) -> Result<Node, LoadError> {
+    unvalued(root).map(|written| written.root)
+}
+
+fn unvalued(root: &Node) -> Result<Written, LoadError> {
     let mut written = Written {
         root: root.clone(),
         copies: Copies::default(),
     };
     if root.get("groups").is_some() || root.get("copies").is_some() {
-        let root = valued(root)?;
-        of_copies(&root, &mut written)?;
+        of_copies(&valued(root)?, &mut written)?;
     }
-    written.root = Scope::tree(&written.root)?;
     Ok(written)
 }
 
@@ -261,10 +270,16 @@ fn changed(
     let Some((own, values)) = own else {
         return Ok((node, changed));
     };
+    let mut taken: Vec<Steps> = Vec::new();
     for (value, own) in own.value.map()?.into_iter().zip(values.entries()) {
         let steps = paths::find(group, value.key)?;
+        let overlaps = |other: &Steps| paths::overlap(other, &steps);
+        if let Some(other) = taken.iter().position(overlaps) {
+            return Err(paths::overlapping(&changed[other], value.key));
+        }
         node.replace(&steps, own.value().clone());
         changed.push(value.name);
+        taken.push(steps);
     }
     Ok((node, changed))
 }

@@ -71,6 +71,7 @@ fn pop(stack: &mut Vec<Operand>) -> Operand {
 
 fn mistake(at: &Range<usize>, message: String, help: &str) -> Mistake {
     Mistake {
+        of_values: false,
         at: at.clone(),
         message,
         help: help.into(),
@@ -107,7 +108,10 @@ fn both(what: &What, left: Operand, right: Operand, at: &Range<usize>) -> Result
     };
     if let (What::Divide, Number(Dual { value: 0.0, .. })) = (what, right) {
         let help = "look at the values of what stands behind `/`";
-        return Err(mistake(at, "division by zero".into(), help));
+        return Err(Mistake {
+            of_values: true,
+            ..mistake(at, "division by zero".into(), help)
+        });
     }
     Ok(match (what, left, right) {
         (What::Add, Number(a), Number(b)) => Number(a + b),
@@ -180,7 +184,10 @@ fn finite(operand: Operand, at: &Range<usize>) -> Result<Operand, Mistake> {
             };
             let message = format!("the value of this {what}");
             let help = "look at the values of what stands in it";
-            Err(mistake(at, message, help))
+            Err(Mistake {
+                of_values: true,
+                ..mistake(at, message, help)
+            })
         }
     }
 }

@@ -27,6 +27,8 @@ pub(crate) struct Mistake {
     pub(crate) message: String,
     /// What would be right.
     pub(crate) help: String,
+    /// Whether it is one of the values that are there: with others the expression has one.
+    pub(crate) of_values: bool,
 }
 
 /// One operation on what comes before it.

@@ -60,6 +60,7 @@ fn operator(c: char) -> Option<(What, usize, usize)> {
 
 fn mistake<T>(at: Range<usize>, message: impl Into<String>, help: &str) -> Result<T, Mistake> {
     Err(Mistake {
+        of_values: false,
         at,
         message: message.into(),
         help: help.into(),
@@ -137,11 +138,13 @@ impl Parser<'_> {
         self.skip(|c| c.is_ascii_digit());
         let mantissa = self.at;
         self.skip_one(|c| c == 'e' || c == 'E');
-        self.skip_one(|c| c == '+' || c == '-');
-        let digits = self.at;
-        self.skip(|c| c.is_ascii_digit());
-        if digits == self.at {
-            self.at = mantissa;
+        if self.at > mantissa {
+            self.skip_one(|c| c == '+' || c == '-');
+            let digits = self.at;
+            self.skip(|c| c.is_ascii_digit());
+            if digits == self.at {
+                self.at = mantissa;
+            }
         }
         let at = start..self.at;
         let help = "write a number such as 0.25 or 2.1e11";
