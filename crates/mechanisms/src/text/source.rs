@@ -15,6 +15,8 @@ use crate::text::json;
 pub(crate) struct Source {
     path: PathBuf,
     text: String,
+    /// Whether its last line feed is not the file's.
+    added: bool,
     /// Whether it is JSON; else it is RON.
     json: bool,
     /// Where the whole text is asked for, if it stands in no file as it is.
@@ -56,17 +58,19 @@ impl Family {
     }
 }
 
-/// A text whose lines end with line feeds, the last one too if it holds a comment: ron reads none that does
-/// not end.
-fn whole_lines(text: &str) -> String {
+/// A text whose lines end with line feeds, the last one too if it holds a comment, since ron reads none that
+/// does not end; and whether that one was added.
+fn whole_lines(text: &str) -> (String, bool) {
     let mut text = match text.contains('\n') {
         true => text.to_owned(),
         false => text.replace('\r', "\n"),
     };
-    if !text.ends_with('\n') && text.lines().last().is_some_and(|last| last.contains("//")) {
+    let added =
+        !text.ends_with('\n') && text.lines().last().is_some_and(|last| last.contains("//"));
+    if added {
         text.push('\n');
     }
-    text
+    (text, added)
 }
 
 /// The folder that a file is in, without links.
@@ -86,10 +90,12 @@ impl Source {
 
     fn of(path: &Path, text: &str, family: Arc<Family>, shown: bool) -> Arc<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let (text, added) = whole_lines(text);
         Arc::new(Self {
             path: path.into(),
-            json: json::is_json(text),
-            text: whole_lines(text),
+            json: json::is_json(&text),
+            text,
+            added,
             origin: None,
             argument: None,
             family,
@@ -103,6 +109,7 @@ impl Source {
         Arc::new(Self {
             path: origin.source.path.clone(),
             text,
+            added: false,
             json: false,
             family: Arc::clone(&origin.source.family),
             shown: AtomicBool::new(true),
@@ -118,6 +125,7 @@ impl Source {
             path: near.map_or_else(PathBuf::new, |near| near.path.clone()),
             json: near.is_some_and(|near| near.json) && json::is_value(&text),
             text,
+            added: false,
             origin: None,
             argument: Some(name.into()),
             family: match near {
@@ -199,7 +207,8 @@ impl Source {
     }
 
     fn locate(&self, span: &Range<usize>) -> Location {
-        let start = boundary(&self.text, span.start);
+        let last = self.text.len() - usize::from(self.added);
+        let start = boundary(&self.text, span.start.min(last));
         let (before, rest) = self.text.split_at(start);
         let line_start = before.rfind('\n').map_or(0, |k| k + 1);
         let line_end = rest.find('\n').map_or(self.text.len(), |k| start + k);
