@@ -1,6 +1,8 @@
 //! The command line: its commands, their options, and the help a stranger can work from.
 
+mod compare;
 mod files;
+mod report;
 
 use std::fmt;
 use std::path::PathBuf;
@@ -11,8 +13,12 @@ use hyperstat_mechanisms::{Along, Noted, View};
 use hyperstat_study::Selection;
 use hyperstat_study::table;
 
+use compare::COMPARE_HELP;
+pub(crate) use compare::Compare;
 use files::{COMPLETIONS_HELP, EXPORT_HELP, FMT_HELP, NEW_HELP, SCHEMA_HELP};
 pub(crate) use files::{Completions, Export, FileFormat, Fmt, New, Shell};
+use report::REPORT_HELP;
+pub(crate) use report::Report;
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -33,6 +39,9 @@ Examples:
   hyperstat solve paper.ron --job delta --pose 12
                                              One pose of a batch, in full
   hyperstat plot results/map.csv --map k33   A stiffness over the workspace, as SVG and PNG
+  hyperstat compare a.ron b.ron              What differs, and what that changes
+  hyperstat report portal.ron --out portal.html
+                                             All of it on a page, for an appendix
   hyperstat export paper.ron --job delta > delta.ron
                                              A mechanism of a batch written out, to edit
   hyperstat new delta > robot.ron            A file to begin with
@@ -62,6 +71,12 @@ pub(crate) enum Command {
     /// Draw maps, lines, trajectories, deformed shapes, modes and budgets, as SVG and PNG
     #[command(after_help = PLOT_HELP)]
     Plot(Box<Plot>),
+    /// Write a report of a mechanism or a batch as one HTML page: drawings, tables, figures, definitions
+    #[command(after_help = REPORT_HELP)]
+    Report(Box<Report>),
+    /// Say what differs between two mechanisms, designs or tables, in what is written and what is found
+    #[command(after_help = COMPARE_HELP)]
+    Compare(Box<Compare>),
     /// Write a mechanism at one pose of a batch as a mechanism file to edit
     #[command(after_help = EXPORT_HELP)]
     Export(Export),

@@ -59,6 +59,12 @@ pub(crate) enum CliError {
         option: &'static str,
         what: &'static str,
     },
+    /// A file that nothing is named beside.
+    #[error("nothing is named that {} is to be compared with", .path.display())]
+    NothingToCompare { path: PathBuf },
+    /// A table and what is none.
+    #[error("{} is a table, and {} is none", .table.display(), .other.display())]
+    Unlike { table: PathBuf, other: PathBuf },
     /// A file to begin with that there is none of.
     #[error("there is no file `{kind}` to begin with")]
     NoBeginning { kind: String, meant: Option<String> },
@@ -119,6 +125,12 @@ impl CliError {
                 let known = hyperstat_study::files::beginnings();
                 Some(format!("give one of `{}`", known.join("`, `")))
             }
+            Self::NothingToCompare { .. } => Some(
+                "give a second file, or `--with-job`, `--with-design` or `--with-pose` for another of the \
+                 same batch file"
+                    .into(),
+            ),
+            Self::Unlike { .. } => Some("give two tables of `run`, or two mechanism or batch files".into()),
             Self::NoChoice { option, .. } => Some(format!("leave `{option}` out")),
             Self::Answered { option, .. } => Some(format!(
                 "give `{option}` to `hyperstat solve --why`, or draw the mechanism file"

@@ -4,6 +4,7 @@
 
 mod args;
 mod atomic;
+mod compare;
 mod consent;
 mod destination;
 mod diagnostic;
@@ -13,6 +14,7 @@ mod files;
 mod json;
 mod outputs;
 mod plot;
+mod report;
 mod run;
 mod terminal;
 mod text;
@@ -79,6 +81,11 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
     let outcome = match &cli.command {
         Command::Solve(args) => solve(args, registry),
         Command::Check(args) => check(args, registry),
+        Command::Compare(args) => compare::run(args, registry).and_then(|text| printed(&text)),
+        Command::Report(args) => report::run(args, registry).and_then(|page| match page {
+            Some(page) => printed(&page),
+            None => Ok(true),
+        }),
         Command::Export(args) => export(args, registry),
         Command::New(args) => files::new(args).and_then(|text| printed(&text)),
         Command::Fmt(args) => fmt(args),

@@ -119,6 +119,15 @@ impl Study {
         Some(options)
     }
 
+    /// How many natural frequencies a report tells where nobody says: those of the job, else three where all
+    /// that moves has mass, else none.
+    pub(crate) fn usual_modes(&self) -> Option<ModalOptions> {
+        const USUAL: usize = 3;
+        let usual = || Some(ModalOptions::lowest(USUAL));
+        let options = self.modes_of_job().cloned().or_else(usual)?;
+        self.prepared.modal(&options).is_ok().then_some(options)
+    }
+
     /// Natural frequencies \[Hz\] and modes.
     ///
     /// # Errors

@@ -125,6 +125,12 @@ pub enum StudyError {
         /// Why.
         source: WriteError,
     },
+    /// A table that cannot be made in memory.
+    #[error("the table cannot be made: {source}")]
+    Table {
+        /// Why.
+        source: std::io::Error,
+    },
     /// Threads that cannot be had.
     #[error("the threads cannot be started: {why}")]
     Threads {
@@ -194,6 +200,7 @@ impl StudyError {
             Self::Unverified(_) => "unverified",
             Self::Export { .. } => "export",
             Self::Threads { .. } => "threads",
+            Self::Table { .. } => "table",
             #[cfg(feature = "figures")]
             Self::Plot(_) | Self::JobMap { .. } => "figure",
         }
@@ -229,7 +236,7 @@ impl StudyError {
             Self::Unsolvable { source, drives, .. } => unsolvable(source, drives),
             Self::FreeOutput { drives, .. } => Some(drives.help()),
             Self::Threads { .. } => Some("give a smaller number of threads".into()),
-            Self::Unverified(_) | Self::Export { .. } => None,
+            Self::Unverified(_) | Self::Export { .. } | Self::Table { .. } => None,
         }
     }
 

@@ -4,6 +4,9 @@
 
 mod answer;
 mod ask;
+mod compare;
+#[cfg(feature = "figures")]
+mod contrast;
 #[cfg(feature = "figures")]
 mod digits;
 mod doubts;
@@ -14,6 +17,9 @@ mod error;
 pub mod figure;
 pub mod files;
 mod measures;
+mod number;
+#[cfg(feature = "figures")]
+mod page;
 #[cfg(feature = "figures")]
 mod plot_error;
 mod schema;
@@ -33,6 +39,14 @@ pub use answer::{
     VirtualWork, Why, WorstReport,
 };
 pub use ask::{Answered, Question};
+pub use compare::{
+    BudgetComparison, Compared, Comparison, InputDifference, Pair, PartDifference, Results,
+};
+#[cfg(feature = "figures")]
+pub use contrast::{
+    ColumnDifference, Furthest, Matched, Ratios, StatusCount, TableComparison,
+    tables as compare_tables,
+};
 pub use doubts::Watch;
 pub use drives::MissingDrives;
 pub use entries::Entries;
@@ -43,6 +57,9 @@ pub use hyperstat_mechanisms::{
     Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
     Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
 };
+pub use number::number;
+#[cfg(feature = "figures")]
+pub use page::{Page, Reported};
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
 pub use study::{Selection, Study};

@@ -101,6 +101,20 @@ pub enum PlotError {
         /// What would be right.
         help: String,
     },
+    /// Two tables of which no pose of one is a pose of the other.
+    #[error(
+        "no pose of {} is in {}, and they have {} and {} rows",
+        .paths[0].display(),
+        .paths[1].display(),
+        .rows[0],
+        .rows[1]
+    )]
+    NoPartners {
+        /// The tables.
+        paths: [PathBuf; 2],
+        /// Rows of each.
+        rows: [usize; 2],
+    },
     /// A plane of a coordinate that nobody asked for.
     #[error("`{axis}` follows from {}: it has no planes", .asked.join(", "))]
     Follows {
@@ -239,6 +253,7 @@ impl PlotError {
             Self::Follows { asked, .. } => {
                 Some(format!("choose a plane of {}, or none", asked.join(", ")))
             }
+            Self::NoPartners { .. } => Some("give tables of the same poses".into()),
             Self::AllHeld => Some("leave out some of the planes".into()),
             Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
             Self::AlongNormal { .. } => Some("choose other axes, or another plane".into()),

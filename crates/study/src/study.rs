@@ -241,6 +241,26 @@ impl Study {
         }
     }
 
+    /// What its job varies, by its path, and its value in this design.
+    pub(crate) fn varied_values(&self) -> Vec<(String, Value)> {
+        match &self.origin {
+            Origin::Mechanism(_) => Vec::new(),
+            Origin::Job { job, design, .. } => {
+                let varied = job.varied().iter().zip(design.values());
+                let varied = varied.map(|(varied, value)| (varied.path.clone(), value.clone()));
+                varied.collect()
+            }
+        }
+    }
+
+    /// What it is called beside others: its file, or its job, design and pose.
+    pub(crate) fn called(&self) -> String {
+        match self.job() {
+            Some((job, pose)) => title(job, self.design(), Some(pose), None),
+            None => self.name.clone(),
+        }
+    }
+
     /// Job and pose that it is from.
     pub fn job(&self) -> Option<(&str, usize)> {
         match &self.origin {

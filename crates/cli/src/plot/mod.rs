@@ -254,8 +254,18 @@ fn stem(path: &Path) -> String {
     stem.to_string_lossy().into_owned()
 }
 
+/// Whether a file is a table, by its name.
+pub(crate) fn is_table(path: &Path) -> bool {
+    FileKind::of(path) == FileKind::Table
+}
+
+/// The files of a figure that the command line names.
+pub(crate) fn files_of(out: &Path) -> [PathBuf; 2] {
+    files(&without_extension(out))
+}
+
 /// `map` for `map`, `map.svg` and `map.png`.
-fn without_extension(out: &Path) -> PathBuf {
+pub(crate) fn without_extension(out: &Path) -> PathBuf {
     let extension = out.extension().and_then(|extension| extension.to_str());
     match extension {
         Some("svg" | "png") => out.with_extension(""),

@@ -3,6 +3,7 @@
 mod answer;
 mod cases;
 mod check;
+mod compare;
 mod forces;
 mod joints;
 mod loads;
@@ -19,5 +20,6 @@ mod why;
 
 pub(crate) use answer::answer;
 pub(crate) use check::check;
+pub(crate) use compare::{compared, compared_tables};
 pub(crate) use solve::full;
 pub(crate) use summary::Outcome;

@@ -3,6 +3,7 @@
 mod answer;
 mod cases;
 mod check;
+mod compare;
 mod designs;
 mod diagnosis;
 mod doubts;
@@ -18,6 +19,7 @@ mod misfits;
 mod modes;
 mod parameters;
 mod plot;
+mod report;
 mod rows;
 mod run;
 mod safety;

@@ -3,6 +3,7 @@
 use hyperstat_figures::{Bar, BarFigure, BarGroup, Quantity};
 
 use crate::answer::{BudgetReport, Sum};
+use crate::compare::{BudgetComparison, Pair};
 
 /// Most bars of a group.
 const MOST_BARS: usize = 15;
@@ -32,6 +33,50 @@ pub fn budget(budget: &BudgetReport, output: &str, title: String) -> Option<BarF
         ),
         quantity: Quantity::new(name, unit),
         total: budget.total,
+        groups: groups.into(),
+    })
+}
+
+/// Two budgets as bars on one scale, the same parts in the same order, those that differ most from above;
+/// 100 % is the whole of the first. Nothing where that is zero.
+pub fn compared(
+    budgets: &BudgetComparison,
+    names: &[String; 2],
+    title: String,
+) -> Option<BarFigure> {
+    let total = budgets.total.values[0].filter(|total| *total != 0.0)?;
+    let value = |pair: &Pair, k: usize| pair.values[k].unwrap_or(0.0);
+    let shows = |pair: &&Pair| {
+        [0, 1]
+            .iter()
+            .any(|k| value(pair, *k).abs() >= NO_SHARE * total.abs())
+    };
+    let parts: Vec<&Pair> = budgets.by_part.iter().filter(shows).collect();
+    let told = match parts.len() {
+        count if count > MOST_BARS => MOST_BARS - 1,
+        count => count,
+    };
+    let groups = [0, 1].map(|k| {
+        let named = parts[..told].iter().map(|pair| Bar {
+            name: pair.name.clone(),
+            value: value(pair, k),
+        });
+        let others = &parts[told..];
+        let others = (!others.is_empty()).then(|| Bar {
+            name: format!("{} others", others.len()),
+            value: others.iter().map(|pair| value(pair, k)).sum(),
+        });
+        BarGroup {
+            name: names[k].clone(),
+            bars: named.chain(others).collect(),
+        }
+    });
+    let Pair { name, unit, .. } = &budgets.total;
+    Some(BarFigure {
+        title,
+        subtitle: format!("Where the {name} {} comes from.", in_words(&budgets.along)),
+        quantity: Quantity::new(name, unit),
+        total,
         groups: groups.into(),
     })
 }
@@ -70,9 +115,15 @@ fn bars(sums: &[Sum], budget: &BudgetReport) -> Vec<Bar> {
 
 /// A direction in words: `along z`, `about x`, `along (0, 0.6, −0.8)`.
 fn direction(budget: &BudgetReport) -> String {
-    let (word, components) = match budget.turns() {
-        true => ("about", &budget.along[3..]),
-        false => ("along", &budget.along[..3]),
+    in_words(&budget.along)
+}
+
+/// The same of a unit wrench.
+fn in_words(along: &[f64; 6]) -> String {
+    let turns = along[..3].iter().all(|component| *component == 0.0);
+    let (word, components) = match turns {
+        true => ("about", &along[3..]),
+        false => ("along", &along[..3]),
     };
     let axes = components.iter().zip(["x", "y", "z"]);
     let alone = axes.clone().find(|(component, _)| **component == 1.0);

@@ -17,7 +17,7 @@ mod second;
 mod solved;
 mod trajectory;
 
-pub use budget::budget;
+pub use budget::{budget, compared};
 pub use deformed::{compare, deformed, mode};
 pub use drawing::Drawing;
 pub use job::{check, draw, names};

@@ -1,0 +1,86 @@
+//! `hyperstat compare`: what differs between two mechanisms, two designs or poses of one, or two tables.
+
+use std::path::Path;
+
+use hyperstat_mechanisms::{Disk, Registry};
+use hyperstat_study::figure::{self, Drawing};
+use hyperstat_study::table::TableReader;
+use hyperstat_study::{Asked, Compared, Comparison, PlotError, Study, compare_tables};
+
+use crate::args::{Compare, Format};
+use crate::error::CliError;
+use crate::json::json;
+use crate::plot;
+use crate::{outputs, text};
+
+/// The report, and the files that are drawn.
+pub(crate) fn run(args: &Compare, registry: &Registry) -> Result<String, CliError> {
+    let file = &args.input.file;
+    let (other, selection) = args
+        .with()
+        .ok_or_else(|| CliError::NothingToCompare { path: file.clone() })?;
+    match [file, &other].map(|path| plot::is_table(path)) {
+        [true, true] => of_tables(args, &other),
+        [false, false] => {
+            let first = Study::open(file, &args.input.selection(), &Disk, registry)?;
+            let second = Study::open(&other, &selection, &Disk, registry)?;
+            of_studies(args, [&first, &second])
+        }
+        [first, _] => Err(CliError::Unlike {
+            table: if first { file.clone() } else { other.clone() },
+            other: if first { other } else { file.clone() },
+        }),
+    }
+}
+
+fn of_tables(args: &Compare, other: &Path) -> Result<String, CliError> {
+    if let Some(option) = args.of_mechanisms() {
+        return Err(CliError::NoChoice {
+            path: args.input.file.clone(),
+            option,
+            what: "a table",
+        });
+    }
+    let [first, second] = [
+        TableReader::open(&args.input.file)?,
+        TableReader::open(other)?,
+    ];
+    let found = compare_tables([&first, &second])?;
+    match args.format {
+        Format::Text => Ok(text::compared_tables(&found)),
+        Format::Json => json(&found),
+    }
+}
+
+fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> {
+    let files = args.out.as_deref().map(plot::files_of);
+    let read: Vec<_> = studies
+        .iter()
+        .flat_map(|study| study.files())
+        .cloned()
+        .collect();
+    outputs::refuse(files.iter().flatten().map(|path| &**path), &read)?;
+    let found = Comparison::new(
+        studies,
+        &Compared {
+            asked: Asked {
+                case: args.case.clone(),
+                along: args.along,
+            },
+            modes: args.modes.map(usize::from),
+        },
+    )?;
+    if let Some(out) = &args.out {
+        let no_shares = || PlotError::NoShares {
+            path: args.input.file.clone(),
+        };
+        let budget = found.results.budget.as_ref().ok_or_else(no_shares)?;
+        let title = found.names.join(" and ");
+        let bars = figure::compared(budget, &found.names, title).ok_or_else(no_shares)?;
+        plot::write(&Drawing::Budget(bars), &plot::without_extension(out))?;
+    }
+    match args.format {
+        Format::Text => Ok(text::compared(&found)),
+        Format::Json => json(&found),
+    }
+}

@@ -1,0 +1,198 @@
+//! `hyperstat compare` as a user meets it: two designs, two files, two tables, and what goes wrong.
+
+use crate::support::{Bench, assert_near};
+
+/// A bar of steel held at one end, of some diameter.
+fn bar(diameter: &str) -> String {
+    format!(
+        r#"(
+    name: "bar",
+    materials: {{ "steel": (young: 2.1e11, poisson: 0.3, density: 7850.0) }},
+    sections: {{ "rod": Circle(diameter: {diameter}) }},
+    points: {{ "A": (0.0, 0.0, 0.0), "B": (0.5, 0.0, 0.0) }},
+    bodies: {{ "bar": Beam(through: ["A", "B"], section: "rod", material: "steel") }},
+    joints: {{ "wall": (at: "A", between: ("ground", "bar"), kind: Fixed) }},
+    loads: [(on: ("bar", "B"), force: (0.0, 0.0, -100.0))],
+    output: ("bar", "B"),
+)
+"#
+    )
+}
+
+/// A delta whose rods vary, over a small grid of which one pose is out of reach.
+const STUDY: &str = r#"(jobs: [(
+    name: "study",
+    mechanism: Delta(
+        base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60,
+        rod_spacing: 0.12,
+        arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
+        bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3)),
+        rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3)),
+    ),
+    loads: [(force: (0.0, 0.0, -50.0))],
+    poses: List([(0.0, 0.0, 0.5), (0.1, 0.05, 0.55), (2.0, 0.0, 0.5)]),
+    vary: { "rod.section.diameter": List([0.014, 0.018]) },
+)])
+"#;
+
+#[test]
+fn two_files_and_their_budgets() {
+    let bench = Bench::new("compare-files");
+    bench.file("thin.ron", &bar("0.02"));
+    bench.file("thick.ron", &bar("\"22 mm\""));
+    let told = bench.hyperstat(&["compare", "thin.ron", "thick.ron", "--out", "change"]);
+    let text = told.ends_with(0).out().to_string();
+    for part in [
+        "A  thin.ron\nB  thick.ron\n",
+        "bodies bar section.diameter  0.0200000 → 0.0220000",
+        "k33 [N/m]",
+        "By bodies and joints",
+    ] {
+        assert!(text.contains(part), "no {part:?} in\n{text}");
+    }
+    assert!(bench.read("change.svg").contains("thick.ron"));
+    assert!(bench.path("change.png").exists());
+    let arguments = ["compare", "thin.ron", "thick.ron", "--format", "json"];
+    let report = bench.hyperstat(&arguments).ends_with(0).json();
+    let stiffness = report["results"]["stiffness"].as_array().unwrap();
+    let k33 = stiffness.iter().find(|pair| pair["name"] == "k33").unwrap();
+    assert_near(k33["ratio"].as_f64().unwrap(), 1.1_f64.powi(4), 1e-12, 1.0);
+    // Nothing of the two files was written to.
+    assert_eq!(bench.read("thin.ron"), bar("0.02"));
+    let same = bench
+        .hyperstat(&["compare", "thin.ron", "thin.ron"])
+        .ends_with(0)
+        .out()
+        .to_string();
+    assert!(
+        same.contains("Nothing.") && same.contains("The same of both."),
+        "{same}"
+    );
+}
+
+#[test]
+fn two_designs_and_two_tables() {
+    let bench = Bench::new("compare-designs");
+    bench.file("study.ron", STUDY);
+    let told = bench.hyperstat(&["compare", "study.ron", "--with-design", "1"]);
+    let text = told.ends_with(0).out().to_string();
+    assert!(
+        text.contains("rod.section.diameter  0.0140000 → 0.0180000"),
+        "{text}"
+    );
+    assert!(text.contains("(6)  0.0140000 → 0.0180000"), "{text}");
+    let first = STUDY.replace("List([0.014, 0.018])", "List([0.014])");
+    let second = STUDY.replace("List([0.014, 0.018])", "List([0.018])");
+    let second = second.replace("(2.0, 0.0, 0.5)", "(0.0, 0.1, 0.5)");
+    for (name, text) in [("a", first), ("b", second)] {
+        bench.file(&format!("{name}.ron"), &text);
+        bench.hyperstat(&["run", &format!("{name}.ron"), "--out", name]);
+    }
+    let tables = ["compare", "a/study.csv", "b/study.csv", "--format", "json"];
+    let found = bench.hyperstat(&tables).ends_with(0).json();
+    // The third poses are others: rows go by number, and it is said how far they are apart.
+    assert_eq!(found["matched"]["by"], "row");
+    assert_near(found["matched"]["off"].as_f64().unwrap(), 2.0, 1e-12, 1.0);
+    let changed = &found["statuses"].as_array().unwrap()[1];
+    assert_eq!(changed["statuses"][0], "unreachable");
+    assert_eq!(
+        (
+            &changed["statuses"][1],
+            &changed["rows"],
+            &changed["first_row"]
+        ),
+        (&"ok".into(), &1.into(), &2.into())
+    );
+    let columns = found["columns"].as_array().unwrap();
+    let of = |name: &str| {
+        columns
+            .iter()
+            .find(|column| column["column"] == name)
+            .unwrap()
+    };
+    assert_eq!(
+        (&of("k33")["rows"], &of("k33")["one_only"]),
+        (&2.into(), &1.into())
+    );
+    assert!(of("k33")["ratio"]["least"].as_f64().unwrap() > 1.0);
+    assert!(
+        columns
+            .iter()
+            .any(|column| column["column"] == "pure_force_stiffness_min")
+    );
+    // Rows of the same pose, wherever they stand.
+    let lines: Vec<String> = bench
+        .read("a/study.csv")
+        .lines()
+        .map(String::from)
+        .collect();
+    bench.file(
+        "turned.csv",
+        &[&lines[0], &lines[2], &lines[1]]
+            .map(|line| format!("{line}\n"))
+            .concat(),
+    );
+    let found = bench
+        .hyperstat(&["compare", "turned.csv", "a/study.csv"])
+        .ends_with(0)
+        .out()
+        .to_string();
+    assert!(
+        found.contains("2 rows of the same pose are compared."),
+        "{found}"
+    );
+    assert!(found.contains("The same in all rows."), "{found}");
+}
+
+#[test]
+fn what_cannot_be_compared_says_so() {
+    let bench = Bench::new("compare-errors");
+    bench.file("bar.ron", &bar("0.02"));
+    bench.file("study.ron", STUDY);
+    bench.hyperstat(&["run", "study.ron", "--out", "."]);
+    for (arguments, parts) in [
+        (
+            vec!["bar.ron"],
+            [
+                "nothing is named that bar.ron is to be compared with",
+                "give a second file",
+            ],
+        ),
+        (
+            vec!["bar.ron", "study.csv"],
+            [
+                "study.csv is a table, and bar.ron is none",
+                "give two tables",
+            ],
+        ),
+        (
+            vec!["study.csv", "study.csv", "--along", "z"],
+            ["`--along`", "leave `--along` out"],
+        ),
+        (vec!["study.ron", "--with-pose", "9"], ["pose 9", "choose"]),
+        (
+            vec!["study.ron", "--with-pose", "2"],
+            ["pose 2", "choose a pose in reach"],
+        ),
+        (
+            vec!["bar.ron", "study.ron", "--case", "push"],
+            ["no case `push`", "leave `--case` out"],
+        ),
+        (
+            vec!["bar.ron", "bar.ron", "--out", "bar.ron.svg/x"],
+            ["cannot write", "x.svg"],
+        ),
+    ] {
+        let arguments = [vec!["compare"], arguments].concat();
+        let outcome = bench.hyperstat(&arguments);
+        let error = outcome.err();
+        assert!(
+            parts.iter().all(|part| error.contains(part)),
+            "{arguments:?}:\n{error}"
+        );
+        assert!(
+            outcome.status() == 2 || parts[0] == "cannot write",
+            "{arguments:?}"
+        );
+    }
+}

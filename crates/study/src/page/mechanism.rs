@@ -1,0 +1,207 @@
+//! The part of a report about one mechanism in one configuration.
+
+use std::path::Path;
+
+use hyperstat_mechanisms::{Look, Noted};
+use maud::{Markup, html};
+
+use super::Reported;
+use super::parts::{DISPLACEMENT, Row, WRENCH, figure, list, matrix, sixes, table};
+use crate::answer::{BodyReport, BudgetReport, SensitivityReport, SolveReport, Sum};
+use crate::ask::Question;
+use crate::entries::Entries;
+use crate::error::StudyError;
+use crate::figure;
+use crate::figure::Drawing;
+use crate::measures::{MEASURES, Pose};
+use crate::number::number;
+use crate::study::Study;
+
+/// Parameters that are told of, those that change most.
+const PARAMETERS: usize = 20;
+
+pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, StudyError> {
+    let options = match reported.modes {
+        Some(count) => study.modal_options(Some(count), None),
+        None => study.usual_modes(),
+    };
+    let answered = study.answer(&Question {
+        modes: options.as_ref().map(|options| options.count),
+        why: Some(reported.asked.clone()),
+        ..Question::default()
+    })?;
+    if let Some(error) = study.free_output(&answered.solution) {
+        return Err(error);
+    }
+    let report = &answered.report;
+    let output = &answered.solution.output;
+    let pose = output.stiffness.as_ref().map(Pose::new);
+    let measure = |of: &crate::measures::Measure| {
+        let value = pose.as_ref()?.measure(of.rule, &output.displacement)?;
+        let unit = [of.unit];
+        let words = [of.name, of.words]
+            .into_iter()
+            .chain(unit)
+            .map(String::from);
+        Some(Row {
+            words: words.collect(),
+            numbers: vec![Some(value)],
+        })
+    };
+    let measures: Vec<Row> = MEASURES.iter().filter_map(measure).collect();
+    let (drawn, bars, modes) = drawings(study, reported, report);
+    Ok(html! {
+        (drawn)
+        (counts(report))
+        @if !report.warnings.is_empty() {
+            h3.warning { "Warnings" }
+            ul.warning { @for warning in &report.warnings { li { (warning) } } }
+        }
+        (list("Idle motions", &report.idle_motions))
+        h3 { "Displacement of the output " (report.output.node) }
+        (displacements(report))
+        @if let Some(stiffness) = &report.output.stiffness {
+            h3 { "Stiffness of the output [N/m, N/rad; N, N·m/rad]" }
+            (matrix(["Fx", "Fy", "Fz", "Mx", "My", "Mz"], ["Δx", "Δy", "Δz", "φx", "φy", "φz"], stiffness))
+        }
+        @if !measures.is_empty() {
+            h3 { "Measures" }
+            (table(&["", "what it is", "unit", "value"], &measures))
+        }
+        @if let Some(budget) = report.why.as_ref().and_then(|why| why.budget.as_ref()) {
+            h3 { "What is soft" }
+            (bars)
+            (sums("by deformation", budget, &budget.by_deformation))
+            (sums("by body or joint", budget, &budget.by_part))
+        }
+        @if let Some(sensitivities) = report.why.as_ref().and_then(|why| why.sensitivities.as_ref()) {
+            (sensitive(sensitivities))
+        }
+        @if let Some(found) = &report.modes {
+            h3 { "Natural frequencies" }
+            p { "Mass of all that has one: " (number(found.mass)) " kg." }
+            @let rows: Vec<Row> = found.modes.iter().enumerate()
+                .map(|(k, mode)| Row::new((k + 1).to_string(), [mode.frequency])).collect();
+            (table(&["mode", "f [Hz]"], &rows))
+            (modes)
+        }
+        (worst_points(&report.bodies))
+        h3 { "Wrenches in the joints" }
+        p { "On the second body of the joint, at the joint, in the joint's frame." }
+        @let joints = report.joints.iter().map(|(name, joint)| (name.to_string(), joint.wrench.as_ref()));
+        (sixes("joint", WRENCH, joints))
+        (list("Joints whose wrenches redundant rigid constraints leave undetermined", &report.undetermined))
+    })
+}
+
+/// The mechanism as it deforms, its budget, its modes; what cannot be drawn is left out.
+fn drawings(study: &Study, reported: &Reported, report: &SolveReport) -> (Markup, Markup, Markup) {
+    let look = || figure::Look {
+        look: Look {
+            shown: vec![Noted::Names, Noted::Loads],
+            ..Look::default()
+        },
+        ..figure::Look::default()
+    };
+    let path = Path::new(&report.name);
+    let case = reported.asked.case.as_deref();
+    let draw = |drawn: Result<Drawing, StudyError>| drawn.ok().map(|drawing| figure(&drawing));
+    let deformed = draw(study.deformed(case, false, look()));
+    let budget = draw(study.budget_figure(path, &reported.asked, None));
+    let count = report.modes.as_ref().map_or(0, |found| found.modes.len());
+    let modes = (1..=count).filter_map(|number| draw(study.mode(path, number, look())));
+    let modes: Vec<Markup> = modes.collect();
+    (
+        deformed.unwrap_or_default(),
+        budget.unwrap_or_default(),
+        html! { @for mode in modes { (mode) } },
+    )
+}
+
+fn counts(report: &SolveReport) -> Markup {
+    let counts = [
+        ("mobility", report.mobility),
+        ("over-constraint", report.overconstraint),
+        ("unknowns", report.unknowns),
+        ("idle motions", report.idle_modes),
+    ];
+    html! {
+        p { @for (k, (name, count)) in counts.iter().enumerate() { @if k > 0 { ", " } (name) " " (count) } "." }
+    }
+}
+
+/// Of every case, where there are some.
+fn displacements(report: &SolveReport) -> Markup {
+    let base = std::iter::once(("", &report.output.displacement));
+    let cases = report
+        .cases
+        .iter()
+        .map(|(name, case)| (name, &case.output.displacement));
+    let rows = base.chain(cases);
+    let first = if report.cases.is_empty() { "" } else { "case" };
+    sixes(
+        first,
+        DISPLACEMENT,
+        rows.map(|(name, row)| (name.to_string(), Some(row))),
+    )
+}
+
+fn sums(by: &str, budget: &BudgetReport, sums: &[Sum]) -> Markup {
+    let (what, unit) = budget.quantity();
+    let value = format!("{what} [{unit}]");
+    let row = |sum: &Sum| Row {
+        words: vec![sum.name.clone()],
+        numbers: vec![Some(sum.displacement), sum.share.map(|share| 100.0 * share)],
+    };
+    let rows: Vec<Row> = sums.iter().map(row).collect();
+    table(&[by, &value, "share [%]"], &rows)
+}
+
+fn sensitive(sensitivities: &[SensitivityReport]) -> Markup {
+    let told = &sensitivities[..sensitivities.len().min(PARAMETERS)];
+    let row = |of: &SensitivityReport| Row {
+        words: vec![of.parameter.clone()],
+        numbers: vec![Some(of.value), of.relative],
+    };
+    let rows: Vec<Row> = told.iter().map(row).collect();
+    html! {
+        @if !rows.is_empty() {
+            h3 { "What more of every parameter would change" }
+            (table(&["parameter", "value (SI)", "% per % of it"], &rows))
+            @if sensitivities.len() > told.len() {
+                p { "And " (sensitivities.len() - told.len()) " that change less." }
+            }
+        }
+    }
+}
+
+fn worst_points(bodies: &Entries<BodyReport>) -> Markup {
+    let rows = bodies.iter().filter_map(|(name, body)| {
+        let worst = body.worst.as_ref()?;
+        let [from, to] = &worst.segment;
+        Some(Row {
+            words: vec![name.into(), format!("{from}–{to}")],
+            numbers: [worst.at, worst.normal, worst.shear, worst.von_mises]
+                .map(Some)
+                .into_iter()
+                .chain([worst.utilisation])
+                .collect(),
+        })
+    });
+    let rows: Vec<Row> = rows.collect();
+    let heads = [
+        "body",
+        "segment",
+        "at",
+        "normal [Pa]",
+        "shear [Pa]",
+        "von Mises [Pa]",
+        "utilisation",
+    ];
+    html! {
+        @if !rows.is_empty() {
+            h3 { "Worst points" }
+            (table(&heads, &rows))
+        }
+    }
+}
