@@ -11,7 +11,7 @@ const BATCH: &str = r#"(jobs: [(
         bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
         rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
     ),
-    loads: [(force: (0.0, 0.0, -50.0))],
+    loads: [(on: ("platform", "P"), force: (0.0, 0.0, -50.0))],
     poses: Grid(x: (-0.1, 0.1, 3), y: (-0.1, 0.1, 3), z: (0.5, 0.5, 1)),
     figures: [Map(value: "k33")],
 )])

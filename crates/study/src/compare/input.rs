@@ -38,13 +38,20 @@ pub struct PartDifference {
 pub(super) fn parameters(studies: [&Study; 2]) -> Vec<InputDifference> {
     let of = studies.map(|study| {
         let parameters = study.dependences().into_iter();
-        let parameters = parameters.map(|of| (of.path, number(of.value)));
-        let varied = study.varied_values().into_iter();
-        let varied = varied.map(|(path, value)| match value {
-            Value::Number(value) => (path, number(value)),
-            other => (path, Json::String(other.to_string())),
-        });
-        parameters.chain(varied).collect::<BTreeMap<_, _>>()
+        let mut values: BTreeMap<_, _> = parameters.map(|of| (of.path, number(of.value))).collect();
+        for (path, value) in study.varied_values() {
+            // A parameter may be named without its map.
+            if !values.contains_key(&format!("parameters.{path}")) {
+                values.insert(
+                    path,
+                    match value {
+                        Value::Number(value) => number(value),
+                        other => Json::String(other.to_string()),
+                    },
+                );
+            }
+        }
+        values
     });
     let [first, second] = &of;
     let paths = first
