@@ -229,6 +229,11 @@ impl Mechanism {
         &self.root
     }
 
+    /// The kinds that it is read with.
+    pub(crate) fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
     /// The points of the file that no body runs through and no expression names, in its order.
     pub fn unused_points(&self) -> &[String] {
         &self.unused_points

@@ -1,0 +1,206 @@
+//! The nearest geometry whose loops close at all of some configurations.
+
+use hyperstat_model::Model;
+use nalgebra::{DMatrix, DVector};
+
+use super::effect::Effects;
+use super::freedoms::{CLOSED, Freedoms};
+use super::rails::Bends;
+use super::sample::{Basis, Sample};
+use super::{Adjusted, Rounded};
+use crate::closure::LoopClosure;
+use crate::equations::System;
+use crate::linkage::Linkage;
+
+/// Configurations that the fit begins with at least, and that are added where others are not closed.
+const SAMPLES: usize = 6;
+const MORE: usize = 4;
+/// Times that some are added.
+const ROUNDS: usize = 4;
+/// Configurations that are tried afterwards.
+const TRIED: usize = 4;
+/// Steps of a fit at most.
+const STEPS: usize = 14;
+/// Least damping, relative to the conditions.
+const DAMPING: f64 = 1e-8;
+/// Roundings beyond which a fit is given up.
+const LOST: f64 = 100.0;
+/// Moves below this part of a rounding are none.
+const NONE: f64 = 1e-7;
+
+/// What is fitted.
+pub(super) struct Fit<'a> {
+    closure: &'a LoopClosure,
+    rounded: &'a Rounded<'a>,
+    effects: &'a Effects,
+    rails: &'a Bends,
+}
+
+/// Linear conditions on the moves of all numbers, in roundings.
+struct Conditions {
+    matrix: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl<'a> Fit<'a> {
+    pub fn new(
+        closure: &'a LoopClosure,
+        rounded: &'a Rounded<'a>,
+        effects: &'a Effects,
+        rails: &'a Bends,
+    ) -> Self {
+        Self {
+            closure,
+            rounded,
+            effects,
+            rails,
+        }
+    }
+
+    /// The nearest geometry that has `count` freedoms by finite amounts.
+    pub fn adjusted(&self, freedoms: &Freedoms, count: usize) -> Option<Adjusted> {
+        let basis = Basis::new(&freedoms.motions, count);
+        let over = self.closure.system.closing_rows() + count - freedoms.values.len();
+        let conditions = over.max(1);
+        let mut samples = SAMPLES.max(self.rounded.values.len().div_ceil(conditions)).min(4 * SAMPLES);
+        for _ in 0..ROUNDS {
+            let moves = self.fitted(&basis, samples)?;
+            let (values, misfit) = self.tried(&basis, samples, &moves)?;
+            if misfit <= CLOSED {
+                return Some(Adjusted {
+                    values,
+                    freedoms: count,
+                    missed: freedoms.values[..count].to_vec(),
+                    misfit,
+                });
+            }
+            samples += MORE;
+        }
+        None
+    }
+
+    /// The moves, in roundings, after which the loops close at this many configurations.
+    fn fitted(&self, basis: &Basis, samples: usize) -> Option<DVector<f64>> {
+        let home = &self.closure.system;
+        let mut samples: Vec<Sample> = (0..samples)
+            .map(|k| Sample::placed(home, basis, k))
+            .collect::<Option<_>>()?;
+        let mut moves = DVector::zeros(self.rounded.values.len());
+        let largest = self.rounded.roundings.iter().copied().fold(0.0, f64::max);
+        // How far the geometry is off, over its size: a rounding at first.
+        let mut off = largest / home.size.min(1.0);
+        for _ in 0..STEPS {
+            let system = self.system_at(&moves)?;
+            let splits = samples.iter().map(|sample| {
+                let effect = self.in_roundings(self.effects.on_loops(&system, &sample.configuration));
+                sample.split(&system, basis, &effect)
+            });
+            let splits: Vec<_> = splits.collect::<Option<_>>()?;
+            let straight = self.straight(&moves)?;
+            let parts: Vec<_> = (splits.iter())
+                .map(|split| (&split.effect, &split.misfit))
+                .chain([(&straight.0, &straight.1)])
+                .collect();
+            let next = Conditions::new(&parts, &moves).least(off)?;
+            let change = &next - &moves;
+            for (sample, split) in samples.iter_mut().zip(&splits) {
+                let step = split.step(basis, &change);
+                sample.configuration = system.linkage.advanced(&sample.configuration, &step);
+            }
+            moves = next;
+            if !(moves.amax() <= LOST) {
+                return None;
+            }
+            off = change.amax() * largest / home.size.min(1.0);
+            if off <= 1e-15 {
+                break;
+            }
+        }
+        Some(moves)
+    }
+
+    /// The numbers after these moves, and by how much the loops stay open at configurations that took
+    /// no part.
+    fn tried(&self, basis: &Basis, first: usize, moves: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
+        let kept = moves.map(|m| if m.abs() < NONE { 0.0 } else { m });
+        let values = self.values(&kept);
+        let system = self.system_of(&(self.rounded.model)(&values)?)?;
+        let mut misfit: f64 = 0.0;
+        for k in first..first + TRIED {
+            let sample = Sample::placed(&system, basis, k)?;
+            misfit = misfit.max(sample.misfit(&system).amax());
+        }
+        Some((values, misfit))
+    }
+
+    /// The bends of the rails after these moves, and their derivatives by moves.
+    fn straight(&self, moves: &DVector<f64>) -> Option<(DMatrix<f64>, DVector<f64>)> {
+        let rails = super::rails::Rails::of(self.closure);
+        let model = (self.rounded.model)(&self.values(moves))?;
+        let effect = self.in_roundings(self.rails.rows_of(&self.effects.bends));
+        Some((effect, self.rails.of(&rails.bends(model.geometry()))))
+    }
+
+    /// Derivatives by the numbers as such by their moves.
+    fn in_roundings(&self, mut effect: DMatrix<f64>) -> DMatrix<f64> {
+        for (mut column, h) in effect.column_iter_mut().zip(self.rounded.roundings) {
+            column *= *h;
+        }
+        effect
+    }
+
+    fn values(&self, moves: &DVector<f64>) -> Vec<f64> {
+        let both = self.rounded.values.iter().zip(self.rounded.roundings);
+        both.zip(moves.iter()).map(|((value, h), m)| value + m * h).collect()
+    }
+
+    fn system_at(&self, moves: &DVector<f64>) -> Option<System> {
+        self.system_of(&(self.rounded.model)(&self.values(moves))?)
+    }
+
+    /// The mechanism in another geometry, with the lengths of this one.
+    fn system_of(&self, model: &Model) -> Option<System> {
+        let home = &self.closure.system;
+        Some(System {
+            linkage: Linkage::new(model, &home.centre, home.size).ok()?,
+            ..home.clone()
+        })
+    }
+}
+
+impl Conditions {
+    /// `effect · change + misfit = 0` of each of the parts, as conditions on moves from the beginning.
+    fn new(parts: &[(&DMatrix<f64>, &DVector<f64>)], moves: &DVector<f64>) -> Self {
+        let rows = parts.iter().map(|(effect, _)| effect.nrows()).sum();
+        let mut matrix = DMatrix::zeros(rows, moves.len());
+        let mut right = DVector::zeros(rows);
+        let mut row = 0;
+        for (effect, misfit) in parts {
+            let count = effect.nrows();
+            matrix.rows_mut(row, count).copy_from(effect);
+            right.rows_mut(row, count).copy_from(&(*effect * moves - *misfit));
+            row += count;
+        }
+        Self { matrix, right }
+    }
+
+    /// The least moves that meet them: of min |A m − b|² + λ² |m|², λ as much of A as is not sure, since
+    /// the conditions of many configurations say the same.
+    fn least(&self, off: f64) -> Option<DVector<f64>> {
+        let scale = self.matrix.norm();
+        if scale == 0.0 {
+            return Some(DVector::zeros(self.matrix.ncols()));
+        }
+        let damping = (scale * off.max(DAMPING)).powi(2);
+        let (rows, columns) = self.matrix.shape();
+        if rows <= columns {
+            let mut square = &self.matrix * self.matrix.transpose();
+            (0..rows).for_each(|k| square[(k, k)] += damping);
+            let multipliers = square.cholesky()?.solve(&self.right);
+            return Some(self.matrix.tr_mul(&multipliers));
+        }
+        let mut square = self.matrix.tr_mul(&self.matrix);
+        (0..columns).for_each(|k| square[(k, k)] += damping);
+        Some(square.cholesky()?.solve(&self.matrix.tr_mul(&self.right)))
+    }
+}
