@@ -19,10 +19,13 @@ const MORE: usize = 4;
 const ROUNDS: usize = 4;
 /// Configurations that are tried afterwards.
 const TRIED: usize = 4;
-/// Steps of a fit at most.
-const STEPS: usize = 14;
-/// Least damping, relative to the conditions.
-const DAMPING: f64 = 1e-8;
+/// Steps of a fit at most, and of them those to the nearest geometry.
+const STEPS: usize = 16;
+const NEAREST: usize = 3;
+/// Loops that stay open by no more are closed as far as doubles go.
+const ROUND: f64 = 1e-15;
+/// Least damping, relative to the conditions: they are squared.
+const DAMPING: f64 = 1e-7;
 /// Roundings beyond which a fit is given up.
 const LOST: f64 = 100.0;
 /// Moves below this part of a rounding are none.
@@ -66,7 +69,7 @@ impl<'a> Fit<'a> {
         for _ in 0..ROUNDS {
             let moves = self.fitted(&basis, samples)?;
             let (values, misfit) = self.tried(&basis, samples, &moves)?;
-            if misfit <= CLOSED {
+            if misfit <= 0.1 * CLOSED {
                 return Some(Adjusted {
                     values,
                     freedoms: count,
@@ -86,14 +89,15 @@ impl<'a> Fit<'a> {
             .map(|k| Sample::placed(home, basis, k))
             .collect::<Option<_>>()?;
         let mut moves = DVector::zeros(self.rounded.values.len());
-        let largest = self.rounded.roundings.iter().copied().fold(0.0, f64::max);
+        let mut best = (f64::INFINITY, moves.clone());
         // How far the geometry is off, over its size: a rounding at first.
-        let mut off = largest / home.size.min(1.0);
-        for _ in 0..STEPS {
+        let rounding = self.closure.relative(self.rounded);
+        let mut off = rounding;
+        for k in 0..STEPS {
             let system = self.system_at(&moves)?;
             let splits = samples.iter().map(|sample| {
-                let effect = self.in_roundings(self.effects.on_loops(&system, &sample.configuration));
-                sample.split(&system, basis, &effect)
+                let effect = self.effects.on_loops(&system, &sample.configuration);
+                sample.split(&system, basis, &self.in_roundings(effect))
             });
             let splits: Vec<_> = splits.collect::<Option<_>>()?;
             let straight = self.straight(&moves)?;
@@ -101,22 +105,30 @@ impl<'a> Fit<'a> {
                 .map(|split| (&split.effect, &split.misfit))
                 .chain([(&straight.0, &straight.1)])
                 .collect();
-            let next = Conditions::new(&parts, &moves).least(off)?;
-            let change = &next - &moves;
+            let left = parts.iter().filter(|part| !part.1.is_empty());
+            let left = left.map(|part| part.1.amax()).fold(0.0, f64::max);
+            if k >= NEAREST && left < best.0 {
+                best = (left, moves.clone());
+            }
+            if k > NEAREST && left <= ROUND {
+                break;
+            }
+            // The nearest geometry of all at first; then from there to where the loops close.
+            let change = match k < NEAREST {
+                true => Conditions::new(&parts, &moves).least(off)? - &moves,
+                false => Conditions::new(&parts, &DVector::zeros(moves.len())).least(10.0 * left)?,
+            };
             for (sample, split) in samples.iter_mut().zip(&splits) {
                 let step = split.step(basis, &change);
                 sample.configuration = system.linkage.advanced(&sample.configuration, &step);
             }
-            moves = next;
+            moves += &change;
             if !(moves.amax() <= LOST) {
                 return None;
             }
-            off = change.amax() * largest / home.size.min(1.0);
-            if off <= 1e-15 {
-                break;
-            }
+            off = (change.amax() * rounding).min(off);
         }
-        Some(moves)
+        Some(best.1)
     }
 
     /// The numbers after these moves, and by how much the loops stay open at configurations that took

@@ -10,7 +10,7 @@ const EXACT: f64 = 1e-11;
 /// How many times the next singular value is larger than the last of the freedoms.
 const GAP: f64 = 4.0;
 /// Singular values above this are never those of freedoms.
-const LARGE: f64 = 0.1;
+const LARGE: f64 = 0.03;
 /// Loops that stay open by less are closed.
 pub(super) const CLOSED: f64 = 1e-11;
 

@@ -93,9 +93,9 @@ impl LoopClosure {
         }
         let effects = Effects::of(self, rounded, &rails).ok_or(Unadjusted::Nothing)?;
         let rails = effects.rails(&rails, rounded);
-        let wanted = match (wanted.is_empty(), rails.any(&effects.bent)) {
-            (true, false) => return Err(Unadjusted::Exact),
-            (true, true) => vec![freedoms.exact()],
+        let wanted = match (wanted.is_empty(), rails.none(&effects.bent)) {
+            (true, true) => return Err(Unadjusted::Exact),
+            (true, false) => vec![freedoms.exact()],
             _ => wanted,
         };
         let fit = Fit::new(self, rounded, &effects, &rails);
@@ -103,7 +103,11 @@ impl LoopClosure {
             let found = fit.adjusted(&freedoms, count)?;
             (found.most(rounded) <= most).then_some(found)
         });
-        found.ok_or(Unadjusted::Nothing)
+        let finite = || rails.none(&effects.bent) && freedoms.are_finite(&self.system, freedoms.exact());
+        found.ok_or_else(|| match finite() {
+            true => Unadjusted::Exact,
+            false => Unadjusted::Nothing,
+        })
     }
 
     /// The largest of the roundings, lengths over the size.

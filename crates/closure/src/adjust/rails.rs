@@ -89,9 +89,9 @@ impl Rails {
 }
 
 impl Bends {
-    /// Whether any is not straight.
-    pub fn any(&self, bends: &DVector<f64>) -> bool {
-        self.rows.iter().any(|row| bends[*row].abs() > STRAIGHT)
+    /// Whether all are straight.
+    pub fn none(&self, bends: &DVector<f64>) -> bool {
+        self.rows.iter().all(|row| bends[*row].abs() <= STRAIGHT)
     }
 
     /// The rows of these among those of all rails.

@@ -5,18 +5,20 @@ use std::path::Path;
 use hyperstat_mechanisms::{MemoryFiles, Registry, begin, beginnings, mechanism_from_str, write};
 
 /// A prebuilt mechanism at the first pose of the job that one begins with, as a file.
-fn exported(kind: &str) -> String {
+fn exported(kind: &str, pose: usize) -> Option<String> {
     let text = begin(kind).unwrap();
     let registry = Registry::builtin();
     let path = Path::new("begin.ron");
     let batch =
         hyperstat_mechanisms::batch_from_str(&text, path, &MemoryFiles::new(), &registry).unwrap();
     let job = &batch.jobs[0];
+    if pose >= job.len() { return None; }
     let mut model = job.model().unwrap();
     let mut geometry = model.geometry().clone();
-    job.place(0, &mut geometry).unwrap();
+    job.place(pose, &mut geometry).ok()?;
     model.set_geometry(geometry).unwrap();
-    write(&model, &registry).unwrap()
+    if pose >= job.len() { return None; }
+    Some(write(&model, &registry).unwrap())
 }
 
 /// The same with all numbers rounded to so many decimals, those of lengths, stiffnesses and so on, too.
@@ -54,31 +56,46 @@ fn trial() {
         if kind == "mechanism" || only.as_ref().is_some_and(|only| *only != kind) {
             continue;
         }
-        let text = exported(&kind);
+        for pose in [0, 1, 3] {
+        let Some(text) = exported(&kind, pose) else {continue};
+        one(&format!("{kind} {pose}"), &text);
+        }
+    }
+    for file in std::fs::read_dir("examples").unwrap() {
+        let path = file.unwrap().path();
+        if only.as_ref().is_some_and(|only| !path.to_string_lossy().contains(only)) {
+            continue;
+        }
+        let Ok(text) = std::fs::read_to_string(&path) else {continue};
+        if mechanism_from_str(&text, &path, &hyperstat_mechanisms::Disk, &registry).is_ok() {
+        one(&path.to_string_lossy(), &text);
+        }
+    }
+}
+fn one(kind: &str, text: &str) {
+    let registry = Registry::builtin();
         for decimals in [3, 4, 5, 6, 7, 17] {
             let text = rounded(&text, decimals);
-            let read = |text: &str| {
-                mechanism_from_str(text, Path::new("r.ron"), &MemoryFiles::new(), &registry).unwrap()
-            };
+            let Ok(mechanism) = mechanism_from_str(&text, Path::new("r.ron"), &MemoryFiles::new(), &registry) else { continue; };
             let start = std::time::Instant::now();
-            let mechanism = read(&text);
-            let reading = start.elapsed();
+            let near = mechanism.nearly_free();
+            let near_time = start.elapsed();
+            let start = std::time::Instant::now();
             let found = mechanism.adjusted();
             let time = start.elapsed();
+            let near = near.map(|f| f.missed.last().copied());
             match found {
-                Err(error) => println!("{kind} {decimals}: {error:?} {time:?} {reading:?}"),
+                Err(error) => println!("{kind} {decimals}: {error:?} {time:?} near {near:?} {near_time:?}"),
                 Ok(found) => {
+                    let again = mechanism_from_str(&found.text, Path::new("r.ron"), &MemoryFiles::new(), &registry).unwrap();
                     let most = found.moved.iter().map(|m| m.roundings).fold(0.0, f64::max);
-                    let missed: Vec<_> = found.missed.iter().map(|m| format!("{m:.1e}")).collect();
+                    let missed: Vec<_> = found.missed.iter().map(|m| format!("{m:.0e}")).collect();
                     println!(
-                        "{kind} {decimals}: {} freedoms, missed {}, {:?}, misfit {:.1e}, {} moved, most {most:.2}, {time:?}, again {:?}",
+                        "{kind} {decimals}: {} freedoms, missed {}, {:?}, misfit {:.1e}, {} moved, most {most:.2}, {time:?}, again {:?} near {near:?} {near_time:?}",
                         found.freedoms, missed.join(" "), found.rounded, found.misfit, found.moved.len(),
-                        read(&found.text).adjusted().err()
+                        again.adjusted().err()
                     );
                 }
             }
-            if decimals > 3 { continue; }
-            println!("   near: {:?}", mechanism.nearly_free().map(|f| (f.freedoms, f.missed)));
         }
-    }
 }
