@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::effect::Effects;
 use super::freedoms::{CLOSED, Freedoms};
 use super::rails::Bends;
-use super::sample::{Basis, Sample};
+use super::sample::{self, Basis, Sample};
 use super::{Adjusted, Rounded};
 use crate::closure::LoopClosure;
 use crate::equations::System;
@@ -28,8 +28,8 @@ const ROUND: f64 = 1e-15;
 const DAMPING: f64 = 1e-7;
 /// Roundings beyond which a fit is given up.
 const LOST: f64 = 100.0;
-/// Moves below this part of a rounding are none.
-const NONE: f64 = 1e-7;
+/// Moves below this (m, or parts of a direction) are none.
+const NONE: f64 = 1e-14;
 
 /// What is fitted.
 pub(super) struct Fit<'a> {
@@ -74,6 +74,7 @@ impl<'a> Fit<'a> {
                     values,
                     freedoms: count,
                     missed: freedoms.values[..count].to_vec(),
+                    open: sample::opening(&self.closure.system, &basis, 0..TRIED)?,
                     misfit,
                 });
             }
@@ -134,14 +135,13 @@ impl<'a> Fit<'a> {
     /// The numbers after these moves, and by how much the loops stay open at configurations that took
     /// no part.
     fn tried(&self, basis: &Basis, first: usize, moves: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
-        let kept = moves.map(|m| if m.abs() < NONE { 0.0 } else { m });
+        let roundings = DVector::from_column_slice(self.rounded.roundings);
+        let kept = moves.zip_map(&roundings, |m, h| if m.abs() * h < NONE { 0.0 } else { m });
         let values = self.values(&kept);
         let system = self.system_of(&(self.rounded.model)(&values)?)?;
-        let mut misfit: f64 = 0.0;
-        for k in first..first + TRIED {
-            let sample = Sample::placed(&system, basis, k)?;
-            misfit = misfit.max(sample.misfit(&system).amax());
-        }
+        let misfit = sample::opening(&system, basis, first..first + TRIED)?;
+        let (_, bends) = self.straight(&kept)?;
+        let misfit = bends.iter().fold(misfit, |most, bend| most.max(bend.abs()));
         Some((values, misfit))
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::sample::{self, Sample};
+use super::sample::{self, Basis};
 use crate::equations::{Goal, System};
 
 /// Singular values up to this are those of exact freedoms, of geometry in doubles.
@@ -60,11 +60,8 @@ impl Freedoms {
     /// Whether the loops stay closed along this many of the freedoms.
     pub fn are_finite(&self, system: &System, count: usize) -> bool {
         const TRIED: usize = 3;
-        let basis = sample::Basis::new(&self.motions, count);
-        (0..TRIED).all(|k| {
-            let sample = Sample::placed(system, &basis, k);
-            sample.is_some_and(|sample| sample.misfit(system).amax() <= CLOSED)
-        })
+        let basis = Basis::new(&self.motions, count);
+        sample::opening(system, &basis, 0..TRIED).is_some_and(|open| open <= CLOSED)
     }
 }
 

@@ -42,6 +42,8 @@ pub struct Adjusted {
     /// How far each of the freedoms is missed in the geometry that is written, the least first: singular
     /// values of the conditions of the loops, lengths over the mechanism's size.
     pub missed: Vec<f64>,
+    /// By how much loops open along the freedoms in the geometry that is written (over the size, or rad).
+    pub open: f64,
     /// By how much loops stay open in the adjusted geometry, in configurations that took no part in
     /// the adjustment (over the size, or rad).
     pub misfit: f64,

@@ -1,5 +1,7 @@
 //! Configurations some way along the freedoms of a mechanism whose loops close only nearly.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::equations::{Goal, System};
@@ -46,6 +48,16 @@ fn scattered(number: usize, dimension: usize) -> f64 {
     const PRIMES: [f64; 12] = [2., 3., 5., 7., 11., 13., 17., 19., 23., 29., 31., 37.];
     let root = (PRIMES[dimension % 12] + 41.0 * (dimension / 12) as f64).sqrt();
     2.0 * ((number + 1) as f64 * root).fract() - 1.0
+}
+
+/// By how much loops stay open at the configurations of these numbers; `None` where one is not reached.
+pub(super) fn opening(system: &System, basis: &Basis, numbers: Range<usize>) -> Option<f64> {
+    let mut open: f64 = 0.0;
+    for number in numbers {
+        let misfit = Sample::placed(system, basis, number)?.misfit(system);
+        open = misfit.iter().fold(open, |most, gap| most.max(gap.abs()));
+    }
+    Some(open)
 }
 
 /// A configuration whose place along the freedoms is given.

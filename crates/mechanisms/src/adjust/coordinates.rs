@@ -108,6 +108,17 @@ fn numbers(root: &Node) -> Vec<Coordinate> {
     coordinates.collect()
 }
 
+/// Paths of coordinates that are expressions, or stand in another file.
+pub(super) fn held(root: &Node) -> Vec<String> {
+    let numbers = root.numbers().into_iter();
+    let held = numbers.filter(|number| {
+        let node = root.find(&number.steps);
+        let own = node.is_some_and(|node| Arc::ptr_eq(node.source(), root.source()));
+        is_axis(&number.path).is_some() && (number.value.is_none() || !own)
+    });
+    held.map(|number| number.path).collect()
+}
+
 /// Whether a path leads to a part of an axis, or to a coordinate of a point; `None` of anything else.
 fn is_axis(path: &str) -> Option<bool> {
     let mut steps: Vec<&str> = path.split('.').collect();
@@ -115,10 +126,10 @@ fn is_axis(path: &str) -> Option<bool> {
         steps.drain(..2.min(steps.len()));
     }
     match steps[..] {
-        ["points", _, _] => Some(false),
-        ["joints", _, "kind", "axis" | "normal", _] | ["joints", _, "kind", "axes", _, _] => {
-            Some(true)
-        }
+        ["points", _] | ["points", _, _] => Some(false),
+        ["joints", _, "kind", "axis" | "normal" | "axes"]
+        | ["joints", _, "kind", "axis" | "normal" | "axes", _]
+        | ["joints", _, "kind", "axes", _, _] => Some(true),
         _ => None,
     }
 }

@@ -28,6 +28,8 @@ pub struct Adjustment {
     /// By how much each of the freedoms is missed as it is written, the least first (lengths over the
     /// mechanism's size).
     pub missed: Vec<f64>,
+    /// By how much its loops open along the freedoms as it is written (over the size, or rad).
+    pub open: f64,
     /// What the coordinates were rounded to.
     pub rounded: Digits,
     /// By how much loops stay open in the adjusted mechanism, in configurations that took no part
@@ -94,7 +96,12 @@ impl Mechanism {
         let closure = LoopClosure::new(&self.model).ok()?;
         let explained = |found: &Adjusted, rounded: &Rounded<'_>| found.mean(rounded) <= MEAN;
         let found = self.adjust(&closure, explained).ok()?;
-        (found.missed.last().copied() > Some(NEAR)).then_some(found)
+        (found.open > CLOSED).then_some(found)
+    }
+
+    /// Paths of the coordinates that are never moved: they are expressions, or stand in another file.
+    pub fn held_coordinates(&self) -> Vec<String> {
+        coordinates::held(self.root())
     }
 
     fn adjust(
@@ -148,6 +155,7 @@ impl Mechanism {
         Adjustment {
             freedoms: found.freedoms,
             missed: found.missed.clone(),
+            open: found.open,
             rounded: coordinates.rounded,
             misfit: found.misfit,
             moved: (moved.iter())
@@ -164,5 +172,5 @@ impl Mechanism {
     }
 }
 
-/// Freedoms that are missed by less are met, as far as doubles go.
-const NEAR: f64 = 1e-10;
+/// Loops that open by less are closed, as far as doubles go.
+const CLOSED: f64 = 1e-10;

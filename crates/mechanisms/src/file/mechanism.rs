@@ -229,6 +229,11 @@ impl Mechanism {
         &self.root
     }
 
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        self.root.source().written()
+    }
+
     /// The kinds that it is read with.
     pub(crate) fn registry(&self) -> &Registry {
         &self.registry
