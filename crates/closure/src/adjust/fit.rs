@@ -28,8 +28,8 @@ const ROUND: f64 = 1e-15;
 const DAMPING: f64 = 1e-7;
 /// Roundings beyond which a fit is given up.
 const LOST: f64 = 100.0;
-/// Moves below this (m, or parts of a direction) are none.
-const NONE: f64 = 1e-14;
+/// Moves below this part of a rounding are none: such numbers stay as they are written.
+const NONE: f64 = 1e-6;
 
 /// What is fitted.
 pub(super) struct Fit<'a> {
@@ -90,25 +90,35 @@ impl<'a> Fit<'a> {
             .map(|k| Sample::placed(home, basis, k))
             .collect::<Option<_>>()?;
         let mut moves = DVector::zeros(self.rounded.values.len());
+        // What each number may move by; none of it where it need not.
+        let mut scales = self.scales();
         let mut best = (f64::INFINITY, moves.clone());
         // How far the geometry is off, over its size: a rounding at first.
         let rounding = self.closure.relative(self.rounded);
         let mut off = rounding;
         for k in 0..STEPS {
+            if k == NEAREST {
+                for (own, scale) in moves.iter_mut().zip(&mut scales) {
+                    let own: &mut f64 = own;
+                    if own.abs() < NONE {
+                        (*own, *scale) = (0.0, 0.0);
+                    }
+                }
+            }
             let system = self.system_at(&moves)?;
             let splits = samples.iter().map(|sample| {
                 let effect = self.effects.on_loops(&system, &sample.configuration);
-                sample.split(&system, basis, &self.in_roundings(effect))
+                sample.split(&system, basis, &scaled(effect, &scales))
             });
             let splits: Vec<_> = splits.collect::<Option<_>>()?;
-            let straight = self.straight(&moves)?;
+            let straight = self.straight(&moves, &scales)?;
             let parts: Vec<_> = (splits.iter())
                 .map(|split| (&split.effect, &split.misfit))
                 .chain([(&straight.0, &straight.1)])
                 .collect();
             let left = parts.iter().filter(|part| !part.1.is_empty());
             let left = left.map(|part| part.1.amax()).fold(0.0, f64::max);
-            if k >= NEAREST && left < best.0 {
+            if k > NEAREST && left < best.0 {
                 best = (left, moves.clone());
             }
             if k > NEAREST && left <= ROUND {
@@ -135,30 +145,29 @@ impl<'a> Fit<'a> {
     /// The numbers after these moves, and by how much the loops stay open at configurations that took
     /// no part.
     fn tried(&self, basis: &Basis, first: usize, moves: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
-        let roundings = DVector::from_column_slice(self.rounded.roundings);
-        let kept = moves.zip_map(&roundings, |m, h| if m.abs() * h < NONE { 0.0 } else { m });
-        let values = self.values(&kept);
+        let values = self.values(moves);
         let system = self.system_of(&(self.rounded.model)(&values)?)?;
         let misfit = sample::opening(&system, basis, first..first + TRIED)?;
-        let (_, bends) = self.straight(&kept)?;
+        let (_, bends) = self.straight(moves, &self.scales())?;
         let misfit = bends.iter().fold(misfit, |most, bend| most.max(bend.abs()));
         Some((values, misfit))
     }
 
     /// The bends of the rails after these moves, and their derivatives by moves.
-    fn straight(&self, moves: &DVector<f64>) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    fn straight(
+        &self,
+        moves: &DVector<f64>,
+        scales: &[f64],
+    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
         let rails = super::rails::Rails::of(self.closure);
         let model = (self.rounded.model)(&self.values(moves))?;
-        let effect = self.in_roundings(self.rails.rows_of(&self.effects.bends));
+        let effect = scaled(self.rails.rows_of(&self.effects.bends), scales);
         Some((effect, self.rails.of(&rails.bends(model.geometry()))))
     }
 
-    /// Derivatives by the numbers as such by their moves.
-    fn in_roundings(&self, mut effect: DMatrix<f64>) -> DMatrix<f64> {
-        for (mut column, h) in effect.column_iter_mut().zip(self.rounded.roundings) {
-            column *= *h;
-        }
-        effect
+    /// What a move of one rounding is of each number.
+    fn scales(&self) -> Vec<f64> {
+        self.rounded.roundings.to_vec()
     }
 
     fn values(&self, moves: &DVector<f64>) -> Vec<f64> {
@@ -178,6 +187,14 @@ impl<'a> Fit<'a> {
             ..home.clone()
         })
     }
+}
+
+/// Derivatives by numbers as such by their moves.
+fn scaled(mut effect: DMatrix<f64>, scales: &[f64]) -> DMatrix<f64> {
+    for (mut column, scale) in effect.column_iter_mut().zip(scales) {
+        column *= *scale;
+    }
+    effect
 }
 
 impl Conditions {

@@ -9,9 +9,9 @@ use crate::text::tree::{Node, Steps};
 
 /// Numbers with more digits are not rounded.
 const DIGITS: i32 = 11;
-/// A number with so many digits less than others of its kind has the zeros that are left out, but for one
-/// number in a thousand.
-const FEWER: i32 = 3;
+/// A number that needs fewer decimals than others of its kind by more than this looks exact: of rounded
+/// ones one in a thousand does.
+const FEWER: i32 = 2;
 
 /// What coordinates are rounded to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,41 +45,47 @@ pub(super) struct Coordinates {
 }
 
 impl Coordinates {
-    /// What the file may have been rounded to, the likeliest first: to decimals, numbers that look exact
-    /// being so; the same without this; to digits that count.
+    /// What the file may have been rounded to, the likeliest first: to decimals, points and axes alike, or
+    /// each kind by itself, numbers that look exact being so; the same without this; to digits that count.
     pub fn guesses(root: &Node) -> impl Iterator<Item = Self> {
         let all = numbers(root);
-        let most = |of: &dyn Fn(&Coordinate) -> i32| all.iter().map(of).max().unwrap_or(0);
-        let decimals = [false, true].map(|axes| {
-            most(&|own| if own.is_axis == axes { own.digits.decimals } else { i32::MIN })
-        });
-        let significant = most(&|own| own.digits.significant);
-        let decimals_of = move |own: &Coordinate| decimals[usize::from(own.is_axis)];
-        let by_decimals = |own: &Coordinate| Some(10f64.powi(-decimals_of(own)));
-        let rounded = Digits::Decimals(decimals.into_iter().max().map_or(0, |d| d.max(0) as usize));
-        let likely = |own: &Coordinate| {
-            let full = own.digits.decimals > decimals_of(own) - FEWER;
-            full.then(|| by_decimals(own)).flatten()
+        let most = |axes: bool| {
+            let own = all.iter().filter(|own| own.is_axis == axes);
+            own.map(|own| own.digits.decimals).max()
+        };
+        let each = [most(false), most(true)];
+        let alike = each.into_iter().flatten().max().unwrap_or(0);
+        let significant = all.iter().map(|own| own.digits.significant).max().unwrap_or(0);
+        let by_decimals = |decimals: [i32; 2], fewest: i32| {
+            let rounding = |own: &Coordinate| {
+                let decimals = decimals[usize::from(own.is_axis)];
+                (own.digits.needed >= decimals - fewest).then(|| 10f64.powi(-decimals))
+            };
+            Self {
+                all: with(&all, rounding),
+                rounded: Digits::Decimals(alike.max(0) as usize),
+            }
         };
         let by_digits = |own: &Coordinate| {
             let first = own.value.abs().log10().floor();
             (own.value != 0.0).then(|| 10f64.powi(first as i32 + 1 - significant))
         };
-        let guess = |rounding: &dyn Fn(&Coordinate) -> Option<f64>, rounded| Self {
-            all: with(&all, rounding),
-            rounded,
-        };
-        let guesses = [
-            guess(&likely, rounded),
-            guess(&by_decimals, rounded),
-            guess(&by_digits, Digits::Significant(significant.max(0) as usize)),
-        ];
+        let each = each.map(|decimals| decimals.unwrap_or(alike));
+        let mut guesses = vec![by_decimals([alike; 2], FEWER), by_decimals(each, FEWER)];
+        guesses.push(by_decimals(each, i32::MAX / 2));
+        guesses.push(Self {
+            all: with(&all, by_digits),
+            rounded: Digits::Significant(significant.max(0) as usize),
+        });
+        if each[0] == each[1] {
+            guesses.remove(0);
+        }
         guesses.into_iter().filter(|guess| !guess.all.is_empty())
     }
 }
 
 /// Those numbers that have a rounding.
-fn with(all: &[Coordinate], rounding: &dyn Fn(&Coordinate) -> Option<f64>) -> Vec<Coordinate> {
+fn with(all: &[Coordinate], rounding: impl Fn(&Coordinate) -> Option<f64>) -> Vec<Coordinate> {
     let own = all.iter().filter_map(|own| {
         let rounding = rounding(own)?;
         Some(Coordinate { rounding, ..own.clone() })

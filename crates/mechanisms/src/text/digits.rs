@@ -8,6 +8,8 @@ use super::units;
 pub(crate) struct Digits {
     /// Digits behind the point, of the number in SI where its unit is a power of ten.
     pub(crate) decimals: i32,
+    /// The same without zeros at the end.
+    pub(crate) needed: i32,
     /// Digits that count.
     pub(crate) significant: i32,
     /// Its unit, in SI.
@@ -40,11 +42,14 @@ impl Digits {
     }
 
     fn counted(mantissa: &str, ten: i32, unit: f64, around: [&str; 2]) -> Self {
-        let behind = mantissa.split_once('.').map_or(0, |(_, behind)| behind.len());
+        let behind = mantissa.split_once('.').map_or("", |(_, behind)| behind);
+        let ten = ten + unit.log10().round() as i32;
+        let decimals = |behind: &str| behind.len() as i32 - ten;
         let digits = mantissa.bytes().filter(u8::is_ascii_digit);
         let significant = digits.skip_while(|digit| *digit == b'0').count();
         Self {
-            decimals: behind as i32 - ten - unit.log10().round() as i32,
+            decimals: decimals(behind),
+            needed: decimals(behind.trim_end_matches('0')),
             significant: significant as i32,
             unit,
             around: around.map(Into::into),
@@ -79,6 +84,8 @@ mod tests {
         assert_eq!(counted("0.250"), Some((3, 3)));
         assert_eq!(counted("-12.5e-3"), Some((4, 3)));
         assert_eq!(counted("0.0"), Some((1, 0)));
+        assert_eq!(digits("0.250").map(|d| d.needed), Some(2));
+        assert_eq!(digits("1.0").map(|d| d.needed), Some(0));
         assert_eq!(counted("7"), Some((0, 1)));
         assert_eq!(counted("\"14.25 mm\""), Some((5, 4)));
         assert_eq!(counted("\"= 1 + 2\""), None);

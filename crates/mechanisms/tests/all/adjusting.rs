@@ -1,101 +1,266 @@
-//! Mechanisms whose coordinates are rounded, and adjusted: every over-constrained prebuilt one.
+//! Mechanisms whose coordinates are rounded, and adjusted: every prebuilt one, beside itself as it is.
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{MemoryFiles, Registry, begin, beginnings, mechanism_from_str, write};
+use hyperstat_assembly::{Geometry, Model, Prepared};
+use hyperstat_mechanisms::{
+    Digits, Disk, Input, LoopClosure, Mechanism, MemoryFiles, NotAdjusted, Registry, Target,
+    batch_from_str, begin, beginnings, load, mechanism_from_str, write,
+};
 
-/// A prebuilt mechanism at the first pose of the job that one begins with, as a file.
-fn exported(kind: &str, pose: usize) -> Option<String> {
-    let text = begin(kind).unwrap();
+/// Most roundings that a coordinate may move by.
+const MOST: f64 = 5.0;
+
+fn read(text: &str) -> Mechanism {
     let registry = Registry::builtin();
-    let path = Path::new("begin.ron");
-    let batch =
-        hyperstat_mechanisms::batch_from_str(&text, path, &MemoryFiles::new(), &registry).unwrap();
-    let job = &batch.jobs[0];
-    if pose >= job.len() { return None; }
-    let mut model = job.model().unwrap();
-    let mut geometry = model.geometry().clone();
-    job.place(pose, &mut geometry).ok()?;
-    model.set_geometry(geometry).unwrap();
-    if pose >= job.len() { return None; }
-    Some(write(&model, &registry).unwrap())
+    mechanism_from_str(text, Path::new("r.ron"), &MemoryFiles::new(), &registry)
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
-/// The same with all numbers rounded to so many decimals, those of lengths, stiffnesses and so on, too.
-fn rounded(text: &str, decimals: usize) -> String {
-    let mut out = String::new();
-    let mut number = String::new();
-    for c in text.chars().chain(['\n']) {
-        let inside = !number.is_empty() && (c.is_ascii_digit() || ".e-+".contains(c));
-        let begins = number.is_empty()
-            && (c.is_ascii_digit() || c == '-')
-            && !out.ends_with(|c: char| c.is_alphanumeric() || c == '_');
-        if inside || begins {
-            number.push(c);
-            continue;
+/// Prebuilt mechanisms at poses of the jobs that one begins with, as files.
+fn exported() -> Vec<(String, String)> {
+    let registry = Registry::builtin();
+    let mut files = Vec::new();
+    for kind in beginnings().into_iter().filter(|kind| kind != "mechanism") {
+        let text = begin(&kind).unwrap();
+        let batch = batch_from_str(&text, Path::new("b.ron"), &MemoryFiles::new(), &registry);
+        let job = &batch.unwrap().jobs[0];
+        for pose in [0, 1].into_iter().filter(|pose| *pose < job.len()) {
+            let mut model = job.model().unwrap();
+            let mut geometry = model.geometry().clone();
+            job.place(pose, &mut geometry).unwrap();
+            model.set_geometry(geometry).unwrap();
+            files.push((format!("{kind}, pose {pose}"), write(&model, &registry).unwrap()));
         }
-        if let Ok(value) = number.parse::<f64>()
-            && number.contains('.')
-        {
-            let short = format!("{value:.decimals$}").parse::<f64>().unwrap();
-            out += &format!("{short:?}");
-        } else {
-            out += &number;
-        }
-        number.clear();
-        out.push(c);
     }
-    out
+    files
+}
+
+/// The same with the coordinates of points and axes rounded to so many decimals.
+fn rounded(text: &str, decimals: usize) -> String {
+    let short = |number: &str| match number.trim().parse::<f64>() {
+        Ok(value) => format!("{:?}", format!("{value:.decimals$}").parse::<f64>().unwrap()),
+        Err(_) => number.to_owned(),
+    };
+    let mut lines = Vec::new();
+    let mut in_points = false;
+    for line in text.lines() {
+        in_points = (in_points || line.contains("points: {")) && !line.trim().starts_with('}');
+        let mut line = line.to_owned();
+        let begins = if in_points { &[": ("][..] } else { &["axis: (", "axes: ((", "normal: ("] };
+        let begins = if in_points || line.contains("kind:") { begins } else { &[] };
+        for begin in begins {
+            let Some(start) = line.find(begin).map(|at| at + begin.len()) else { continue };
+            let end = start + line[start..].find("))").or(line[start..].find(')')).unwrap();
+            let parts = line[start..end].split_inclusive([',', '(', ')']);
+            let parts = parts.map(|part| {
+                let bare = part.trim_end_matches([',', '(', ')']);
+                let blank = &bare[..bare.len() - bare.trim_start().len()];
+                format!("{blank}{}{}", short(bare), &part[bare.len()..])
+            });
+            let parts: String = parts.collect();
+            line.replace_range(start..end, &parts);
+        }
+        lines.push(line);
+    }
+    lines.join("\n") + "\n"
+}
+
+/// Mobility and over-constraint.
+fn counts(model: &Model, geometry: &Geometry) -> (usize, usize) {
+    let prepared = Prepared::new(model.clone());
+    let at = prepared.at(geometry);
+    let kinematics = at.kinematics().unwrap();
+    (kinematics.mobility, kinematics.overconstraint)
+}
+
+/// Poses near home that the output can take: along each of its coordinates, as far as it follows.
+fn moved(closure: &LoopClosure) -> Vec<[Option<f64>; 6]> {
+    let home = closure.pose(&closure.home()).unwrap();
+    let steps = [0.02, -0.03, 0.025, 0.08, -0.06, 0.07];
+    let asked = (0..6).map(|k| {
+        let mut asked = [None; 6];
+        asked[k] = Some(home[k] + steps[k]);
+        asked
+    });
+    asked.filter(|asked| closure.place_at(&Target::Output(*asked)).is_ok()).collect()
+}
+
+/// Stiffness of the output there; `None` where it is held rigidly.
+fn stiffness(model: &Model, geometry: &Geometry) -> Option<Vec<f64>> {
+    let prepared = Prepared::new(model.clone());
+    let output = prepared.at(geometry).solve().unwrap().output;
+    output.stiffness.map(|k| k.iter().copied().collect())
 }
 
 #[test]
-fn trial() {
-    let registry = Registry::builtin();
-    let only = std::env::var("ONLY").ok();
-    for kind in beginnings() {
-        if kind == "mechanism" || only.as_ref().is_some_and(|only| *only != kind) {
-            continue;
-        }
-        for pose in [0, 1, 3] {
-        let Some(text) = exported(&kind, pose) else {continue};
-        one(&format!("{kind} {pose}"), &text);
-        }
-    }
-    for file in std::fs::read_dir("examples").unwrap() {
-        let path = file.unwrap().path();
-        if only.as_ref().is_some_and(|only| !path.to_string_lossy().contains(only)) {
-            continue;
-        }
-        let Ok(text) = std::fs::read_to_string(&path) else {continue};
-        if mechanism_from_str(&text, &path, &hyperstat_mechanisms::Disk, &registry).is_ok() {
-        one(&path.to_string_lossy(), &text);
-        }
-    }
-}
-fn one(kind: &str, text: &str) {
-    let registry = Registry::builtin();
-        for decimals in [3, 4, 5, 6, 7, 17] {
-            let text = rounded(&text, decimals);
-            let Ok(mechanism) = mechanism_from_str(&text, Path::new("r.ron"), &MemoryFiles::new(), &registry) else { continue; };
-            let start = std::time::Instant::now();
-            let near = mechanism.nearly_free();
-            let near_time = start.elapsed();
-            let start = std::time::Instant::now();
-            let found = mechanism.adjusted();
-            let time = start.elapsed();
-            let near = near.map(|f| f.missed.last().copied());
-            match found {
-                Err(error) => println!("{kind} {decimals}: {error:?} {time:?} near {near:?} {near_time:?}"),
+fn every_prebuilt_mechanism_gets_its_freedoms_back() {
+    let mut adjusted = 0;
+    for (name, text) in exported() {
+        let exact = read(&text);
+        assert_eq!(exact.adjusted().err(), Some(NotAdjusted::Exact), "{name}");
+        let closure = LoopClosure::new(&exact.model).unwrap();
+        let poses = moved(&closure);
+        for decimals in 3..=7 {
+            let name = format!("{name}, {decimals} decimals");
+            let mechanism = read(&rounded(&text, decimals));
+            let before = counts(&mechanism.model, mechanism.model.geometry());
+            let own = counts(&exact.model, exact.model.geometry());
+            let again = match mechanism.adjusted() {
+                Err(why) => {
+                    assert_eq!(why, NotAdjusted::Exact, "{name}");
+                    mechanism
+                }
                 Ok(found) => {
-                    let again = mechanism_from_str(&found.text, Path::new("r.ron"), &MemoryFiles::new(), &registry).unwrap();
+                    adjusted += 1;
+                    assert_eq!((found.freedoms, found.rounded), (own.0, Digits::Decimals(decimals)));
                     let most = found.moved.iter().map(|m| m.roundings).fold(0.0, f64::max);
-                    let missed: Vec<_> = found.missed.iter().map(|m| format!("{m:.0e}")).collect();
-                    println!(
-                        "{kind} {decimals}: {} freedoms, missed {}, {:?}, misfit {:.1e}, {} moved, most {most:.2}, {time:?}, again {:?} near {near:?} {near_time:?}",
-                        found.freedoms, missed.join(" "), found.rounded, found.misfit, found.moved.len(),
-                        again.adjusted().err()
-                    );
+                    assert!(most <= MOST, "{name}: {most}");
+                    let again = read(&found.text);
+                    assert_eq!(again.adjusted().err(), Some(NotAdjusted::Exact), "{name}");
+                    again
+                }
+            };
+            assert!(again.nearly_free().is_none(), "{name}");
+            assert_eq!(counts(&again.model, again.model.geometry()), own, "{name}, {before:?}");
+            compare(&exact.model, &closure, &again.model, &poses, 10f64.powi(-(decimals as i32)), &name);
+        }
+    }
+    assert!(adjusted > 20, "{adjusted}");
+}
+
+/// The adjusted mechanism moves as the one that was not rounded, and is as stiff.
+fn compare(
+    exact: &Model,
+    closure: &LoopClosure,
+    adjusted: &Model,
+    poses: &[[Option<f64>; 6]],
+    rounding: f64,
+    name: &str,
+) {
+    let own = LoopClosure::new(adjusted).unwrap();
+    assert_eq!(own.output_mobility(), closure.output_mobility(), "{name}");
+    for asked in poses {
+        let target = Target::Output(*asked);
+        let expected = closure.place_at(&target).unwrap().geometry;
+        let found = own.place_at(&target).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let found = found.geometry;
+        for (one, other) in expected.positions.iter().zip(&found.positions) {
+            let apart = (one - other).norm();
+            assert!(apart <= 40.0 * rounding, "{name}, {asked:?}: {apart:e}");
+        }
+        assert_eq!(counts(adjusted, &found), counts(exact, &expected), "{name}, {asked:?}");
+        if let (Some(one), Some(other)) = (stiffness(exact, &expected), stiffness(adjusted, &found)) {
+            for r in 0..6 {
+                for c in 0..6 {
+                    let scale = (one[7 * r] * one[7 * c]).abs().sqrt();
+                    let off = (one[6 * r + c] - other[6 * r + c]).abs() / scale;
+                    assert!(off <= 1e3 * rounding, "{name}, {asked:?}: {r} {c} {off:e}");
                 }
             }
         }
+    }
+}
+
+#[test]
+fn nothing_is_said_of_mechanisms_that_are_as_they_were_meant() {
+    let registry = Registry::builtin();
+    let mut seen = 0;
+    for folder in ["../../examples", "../../tests/reference"] {
+        for entry in Path::new(folder).read_dir().unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|extension| extension != "ron") {
+                continue;
+            }
+            let mut look = |mechanism: &Mechanism| {
+                let near = mechanism.nearly_free();
+                assert!(near.is_none(), "{}: {near:?}", path.display());
+                seen += 1;
+            };
+            match load(&path, &Disk, &registry).unwrap() {
+                Input::Mechanism(mechanism) => look(&mechanism),
+                Input::Batch(batch) => {
+                    batch.jobs.iter().filter_map(|job| job.mechanism()).for_each(look);
+                }
+            }
+        }
+    }
+    assert!(seen > 30, "{seen}");
+}
+
+/// The Exechon of the examples with three decimals.
+fn exechon(decimals: usize) -> String {
+    let text = std::fs::read_to_string("../../examples/exechon.ron").unwrap();
+    rounded(&text, decimals)
+}
+
+#[test]
+fn the_freedom_that_is_missed_is_known() {
+    let near = read(&exechon(3)).nearly_free().unwrap();
+    assert_eq!(near.freedoms, 3);
+    let [first, second, third] = near.missed[..] else { panic!("{:?}", near.missed) };
+    assert!(first < 1e-11 && second < 1e-11, "{first:e} {second:e}");
+    assert!((1e-5..1e-3).contains(&third), "{third:e}");
+    assert!(near.open > 1e-6, "{:e}", near.open);
+}
+
+#[test]
+fn comments_units_and_layout_stay() {
+    let text = exechon(4).replace(
+        "\"A1\": (-0.45, 0.0, 0.0),",
+        "\"A1\": (\"-45 cm\", /* left */ 0.0 , \"0 mm\"), // bolted",
+    );
+    let text = text.replace("\"M1\": (-0.2243, ", "\"M1\": ( \"-224.3 mm\", ");
+    assert!(text.contains("-224.3 mm"));
+    let found = read(&text).adjusted().unwrap();
+    assert!(found.text.contains("/* left */ 0.0 , \"0 mm\"), // bolted"), "{}", found.text);
+    assert!(found.text.contains(" mm\", -0.10"), "{}", found.text);
+    // Numbers apart, the files are the same.
+    let bare = |text: &str| {
+        let kept = text.chars().filter(|c| !c.is_ascii_digit() && !"-.e".contains(*c));
+        kept.collect::<String>()
+    };
+    assert_eq!(bare(&found.text), bare(&text));
+    assert_eq!(read(&found.text).adjusted().err(), Some(NotAdjusted::Exact));
+}
+
+#[test]
+fn expressions_stay_and_others_move() {
+    let text = exechon(4).replace("\"B3\": (0.15, -0.0235, 1.0353)", "\"B3\": (0.15, \"= -0.0235\", \"= P.z + 0.0353\")");
+    let mechanism = read(&text);
+    assert_eq!(mechanism.held_coordinates(), ["points.B3.1", "points.B3.2"]);
+    let found = mechanism.adjusted().unwrap();
+    assert!(found.text.contains("\"= -0.0235\", \"= P.z + 0.0353\""));
+    assert!(found.moved.iter().all(|m| m.roundings <= MOST && !m.path.contains("B3.1")));
+    assert_eq!(read(&found.text).adjusted().err(), Some(NotAdjusted::Exact));
+    let all = text.replace("points: {", "parameters: { \"zero\": 0.0 },\n    points: {");
+    let all: String = (all.lines())
+        .map(|line| {
+            let first = line.find(": (").filter(|_| line.contains("    \"") && !line.contains("at:"));
+            match first {
+                Some(at) if !line.contains('=') && !line.contains("young") => {
+                    let numbers = line[at + 3..].trim_end_matches("),").split(", ");
+                    let each: Vec<_> = numbers.map(|n| format!("\"= {n} + zero\"")).collect();
+                    format!("{}: ({}),\n", &line[..at], each.join(", "))
+                }
+                _ => format!("{line}\n").replace("(0.0, 0.9806, 0.1961)", "(\"= zero\", \"= 0.9806\", \"= 0.1961\")"),
+            }
+        })
+        .collect();
+    let mechanism = read(&all);
+    assert!(mechanism.held_coordinates().len() > 20);
+    // The axes alone cannot do it.
+    assert!(mechanism.adjusted().is_err());
+}
+
+#[test]
+fn json_is_adjusted_as_ron_is() {
+    let ron = exechon(4);
+    let json = hyperstat_mechanisms::to_json(&ron, Path::new("r.ron")).unwrap();
+    let [ron, json] = [&ron, &json].map(|text| read(text).adjusted().unwrap());
+    let moves = |found: &hyperstat_mechanisms::Adjustment| -> Vec<_> {
+        found.moved.iter().map(|m| (m.path.clone(), m.to)).collect()
+    };
+    assert_eq!(moves(&ron), moves(&json));
+    assert_eq!(read(&json.text).model.geometry(), read(&ron.text).model.geometry());
 }
