@@ -190,7 +190,10 @@ fn help(error: &StudyError) -> Option<String> {
         }
         StudyError::Pose { near, .. } => {
             let near = near.as_ref().map(|near| format!("{near}; else "));
-            format!("{}choose a pose in reach with `--pose`", near.unwrap_or_default())
+            format!(
+                "{}choose a pose in reach with `--pose`",
+                near.unwrap_or_default()
+            )
         }
         StudyError::FreeOutput { .. } => format!(
             "{}; `solve --allow-free` takes it as it is",

@@ -242,7 +242,10 @@ impl StudyError {
             )),
             Self::Pose { near, .. } => {
                 let near = near.as_ref().map(|near| format!("{near}; else "));
-                Some(format!("{}choose a pose in reach", near.unwrap_or_default()))
+                Some(format!(
+                    "{}choose a pose in reach",
+                    near.unwrap_or_default()
+                ))
             }
             Self::Unadjusted { why, held, .. } => Some(numbers_needed(*why, held)),
             Self::Unsolvable { source, drives, .. } => unsolvable(source, drives),
@@ -344,7 +347,11 @@ fn numbers_needed(why: NotAdjusted, held: &[String]) -> String {
     if held.is_empty() || why == NotAdjusted::Unknown {
         return "write its coordinates with all their digits, as `hyperstat export` does".into();
     }
-    let shown: Vec<String> = held.iter().take(SHOWN).map(|path| format!("`{path}`")).collect();
+    let shown: Vec<String> = held
+        .iter()
+        .take(SHOWN)
+        .map(|path| format!("`{path}`"))
+        .collect();
     let more = match held.len().saturating_sub(SHOWN) {
         0 => String::new(),
         more => format!(" and {more} more"),

@@ -27,11 +27,11 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    AdjustReport, Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, CountReport, FrameReport,
-    FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
-    ModeReport, ModesReport, MovedReport, NumberReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
-    SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
-    VirtualWork, Why, WorstReport,
+    AdjustReport, Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport,
+    CountReport, FrameReport, FrequencyReport, FrequencySensitivityReport, JointReport,
+    MeasuresReport, MisfitEffectReport, ModeReport, ModesReport, MovedReport, NumberReport,
+    OutputReport, PartReport, PrincipalReport, Rows, ScrewReport, SectionForces, SegmentReport,
+    SensitivityReport, SolveReport, StrainReport, StressReport, Sum, VirtualWork, Why, WorstReport,
 };
 pub use ask::{Answered, Question};
 pub use doubts::Watch;

@@ -19,9 +19,13 @@ pub(crate) fn adjust(report: &AdjustReport) -> String {
         ("freedoms", freedoms.to_string()),
         ("missed by", format!("{missed:.1e}")),
         ("loops open by", format!("{:.1e}", report.open)),
-        ("after moves", format!("{:.1e}", report.misfit)),
+        ("beams bent by", format!("{:.1e}", report.bent)),
+        ("after the moves", format!("{:.1e}", report.misfit)),
         ("rounded to", report.rounded.clone().unwrap_or_default()),
-        ("largest move", format!("{:.2} roundings", report.most_roundings)),
+        (
+            "largest move",
+            format!("{:.2} roundings", report.most_roundings),
+        ),
     ];
     for (name, value) in rows {
         let _ = writeln!(text, "  {name:<15}  {value}");

@@ -48,7 +48,9 @@ impl Effects {
             let ends = [geometry(-1.0)?, geometry(1.0)?];
             effects.add(closure, k, &ends, 2.0 * change);
             let [before, after] = ends.map(|end| rails.bends(&end));
-            effects.bends.set_column(k, &((after - before) / (2.0 * change)));
+            effects
+                .bends
+                .set_column(k, &((after - before) / (2.0 * change)));
         }
         Some(effects)
     }
@@ -59,7 +61,9 @@ impl Effects {
             let Some(node) = joint.nodes.into_iter().flatten().next() else {
                 continue;
             };
-            let [before, after] = ends.each_ref().map(|end| (end.positions[node.0], end.frames[j]));
+            let [before, after] = ends
+                .each_ref()
+                .map(|end| (end.positions[node.0], end.frames[j]));
             if before == after {
                 continue;
             }
@@ -91,10 +95,24 @@ impl Effects {
             let [first, second] = joint.bodies;
             for (body, sign) in [(second, 1.0), (first, -1.0)] {
                 for (moved, own) in chain(system, body) {
-                    self.on_loop(system, &posture, (closing, moved), sign * own, (row, rows), &mut effect);
+                    self.on_loop(
+                        system,
+                        &posture,
+                        (closing, moved),
+                        sign * own,
+                        (row, rows),
+                        &mut effect,
+                    );
                 }
             }
-            self.on_loop(system, &posture, (closing, closing), -1.0, (row, rows), &mut effect);
+            self.on_loop(
+                system,
+                &posture,
+                (closing, closing),
+                -1.0,
+                (row, rows),
+                &mut effect,
+            );
             row += rows;
         }
         effect
@@ -114,7 +132,9 @@ impl Effects {
         let end = &linkage.joints[closing];
         let body = |body: Option<usize>| body.map(|b| posture.bodies[b]).unwrap_or_default();
         let place = (body(end.bodies[1]) * end.home).translation.vector;
-        let axes = (body(end.bodies[0]) * end.home).rotation.to_rotation_matrix();
+        let axes = (body(end.bodies[0]) * end.home)
+            .rotation
+            .to_rotation_matrix();
         let joint = &linkage.joints[moved];
         let before = body(joint.bodies[0]);
         // Where the loop is closed, both bodies of its last joint agree on it.

@@ -63,9 +63,11 @@ impl<'a> Fit<'a> {
     /// The nearest geometry that has `count` freedoms by finite amounts.
     pub fn adjusted(&self, freedoms: &Freedoms, count: usize) -> Option<Adjusted> {
         let basis = Basis::new(&freedoms.motions, count);
-        let over = self.closure.system.closing_rows() + count - freedoms.values.len();
-        let conditions = over.max(1);
-        let mut samples = SAMPLES.max(self.rounded.values.len().div_ceil(conditions)).min(4 * SAMPLES);
+        let rows = self.closure.system.closing_rows() + count;
+        let conditions = rows.saturating_sub(freedoms.values.len()).max(1);
+        let mut samples = SAMPLES
+            .max(self.rounded.values.len().div_ceil(conditions))
+            .min(4 * SAMPLES);
         for _ in 0..ROUNDS {
             let moves = self.fitted(&basis, samples)?;
             let (values, misfit) = self.tried(&basis, samples, &moves)?;
@@ -75,6 +77,7 @@ impl<'a> Fit<'a> {
                     freedoms: count,
                     missed: freedoms.values[..count].to_vec(),
                     open: sample::opening(&self.closure.system, &basis, 0..TRIED)?,
+                    bent: self.rails.largest(&self.effects.bent),
                     misfit,
                 });
             }
@@ -127,7 +130,9 @@ impl<'a> Fit<'a> {
             // The nearest geometry of all at first; then from there to where the loops close.
             let change = match k < NEAREST {
                 true => Conditions::new(&parts, &moves).least(off)? - &moves,
-                false => Conditions::new(&parts, &DVector::zeros(moves.len())).least(10.0 * left)?,
+                false => {
+                    Conditions::new(&parts, &DVector::zeros(moves.len())).least(10.0 * left)?
+                }
             };
             for (sample, split) in samples.iter_mut().zip(&splits) {
                 let step = split.step(basis, &change);
@@ -172,7 +177,9 @@ impl<'a> Fit<'a> {
 
     fn values(&self, moves: &DVector<f64>) -> Vec<f64> {
         let both = self.rounded.values.iter().zip(self.rounded.roundings);
-        both.zip(moves.iter()).map(|((value, h), m)| value + m * h).collect()
+        both.zip(moves.iter())
+            .map(|((value, h), m)| value + m * h)
+            .collect()
     }
 
     fn system_at(&self, moves: &DVector<f64>) -> Option<System> {
@@ -207,7 +214,9 @@ impl Conditions {
         for (effect, misfit) in parts {
             let count = effect.nrows();
             matrix.rows_mut(row, count).copy_from(effect);
-            right.rows_mut(row, count).copy_from(&(*effect * moves - *misfit));
+            right
+                .rows_mut(row, count)
+                .copy_from(&(*effect * moves - *misfit));
             row += count;
         }
         Self { matrix, right }

@@ -28,10 +28,16 @@ pub(super) struct Freedoms {
 impl Freedoms {
     /// Of the system's home.
     pub fn of(system: &System) -> Self {
-        let jacobian = system.equations(&system.linkage.home(), &Goal::default()).jacobian;
+        let jacobian = system
+            .equations(&system.linkage.home(), &Goal::default())
+            .jacobian;
         let entries = jacobian.iter().filter(|entry| **entry != 0.0).count();
         let (values, motions) = motions(&jacobian);
-        Self { values, motions, entries }
+        Self {
+            values,
+            motions,
+            entries,
+        }
     }
 
     /// Number of motions that break no condition.
@@ -87,7 +93,9 @@ fn motions(jacobian: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
         }
         motions.columns_mut(0, left).copy_from(&turned);
         let largest = values[left - 1];
-        let small = values[..left].iter().filter(|value| **value <= TOLD * largest);
+        let small = values[..left]
+            .iter()
+            .filter(|value| **value <= TOLD * largest);
         left = if largest > NOTHING { small.count() } else { 0 };
     }
     (values, motions)

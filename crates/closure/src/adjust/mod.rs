@@ -44,6 +44,8 @@ pub struct Adjusted {
     pub missed: Vec<f64>,
     /// By how much loops open along the freedoms in the geometry that is written (over the size, or rad).
     pub open: f64,
+    /// The largest sine of an angle between the travel of a joint and the beam that it is to slide along.
+    pub bent: f64,
     /// By how much loops stay open in the adjusted geometry, in configurations that took no part in
     /// the adjustment (over the size, or rad).
     pub misfit: f64,
@@ -81,7 +83,8 @@ pub enum Unadjusted {
 
 impl LoopClosure {
     /// The geometry nearest to the one of this mechanism, which `rounded` says the numbers of, that has by
-    /// finite amounts the freedoms which it nearly has; no number moves by more than `most` roundings.
+    /// finite amounts the freedoms which it nearly has, and in which the beams are straight that joints
+    /// slide along; no number moves by more than `most` roundings.
     ///
     /// # Errors
     /// It has them already, or there is no such geometry.
@@ -105,11 +108,20 @@ impl LoopClosure {
             let found = fit.adjusted(&freedoms, count)?;
             (found.most(rounded) <= most).then_some(found)
         });
-        let finite = || rails.none(&effects.bent) && freedoms.are_finite(&self.system, freedoms.exact());
+        let finite =
+            || rails.none(&effects.bent) && freedoms.are_finite(&self.system, freedoms.exact());
         found.ok_or_else(|| match finite() {
             true => Unadjusted::Exact,
             false => Unadjusted::Nothing,
         })
+    }
+
+    /// Whether roundings like these may have taken a freedom, or left it at home alone: if not,
+    /// [`LoopClosure::adjusted`] has beams alone to make straight.
+    pub fn may_be_rounded(&self, rounded: &Rounded<'_>) -> bool {
+        let freedoms = Freedoms::of(&self.system);
+        let wanted = freedoms.candidates(&self.system, self.relative(rounded));
+        !wanted.is_empty()
     }
 
     /// The largest of the roundings, lengths over the size.

@@ -91,7 +91,13 @@ impl Rails {
 impl Bends {
     /// Whether all are straight.
     pub fn none(&self, bends: &DVector<f64>) -> bool {
-        self.rows.iter().all(|row| bends[*row].abs() <= STRAIGHT)
+        self.largest(bends) <= STRAIGHT
+    }
+
+    /// The largest of them.
+    pub fn largest(&self, bends: &DVector<f64>) -> f64 {
+        let own = self.rows.iter().map(|row| bends[*row].abs());
+        own.fold(0.0, f64::max)
     }
 
     /// The rows of these among those of all rails.

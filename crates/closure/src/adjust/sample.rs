@@ -114,9 +114,18 @@ impl Sample {
         if rows < columns {
             return None;
         }
-        let factor = across.qr();
         let mut misfit = equations.misfit;
         let mut effect = by_geometry.clone();
+        if columns == 0 {
+            // Nothing moves across, and there is no decomposition of nothing.
+            return Some(Split {
+                shift: DVector::zeros(0),
+                moved: DMatrix::zeros(0, effect.ncols()),
+                misfit,
+                effect,
+            });
+        }
+        let factor = across.qr();
         factor.q_tr_mul(&mut misfit);
         factor.q_tr_mul(&mut effect);
         let inverse = factor.unpack_r().try_inverse()?;

@@ -55,7 +55,11 @@ impl Coordinates {
         };
         let each = [most(false), most(true)];
         let alike = each.into_iter().flatten().max().unwrap_or(0);
-        let significant = all.iter().map(|own| own.digits.significant).max().unwrap_or(0);
+        let significant = all
+            .iter()
+            .map(|own| own.digits.significant)
+            .max()
+            .unwrap_or(0);
         let by_decimals = |decimals: [i32; 2], fewest: i32| {
             let rounding = |own: &Coordinate| {
                 let decimals = decimals[usize::from(own.is_axis)];
@@ -88,7 +92,10 @@ impl Coordinates {
 fn with(all: &[Coordinate], rounding: impl Fn(&Coordinate) -> Option<f64>) -> Vec<Coordinate> {
     let own = all.iter().filter_map(|own| {
         let rounding = rounding(own)?;
-        Some(Coordinate { rounding, ..own.clone() })
+        Some(Coordinate {
+            rounding,
+            ..own.clone()
+        })
     });
     own.collect()
 }

@@ -30,6 +30,8 @@ pub struct Adjustment {
     pub missed: Vec<f64>,
     /// By how much its loops open along the freedoms as it is written (over the size, or rad).
     pub open: f64,
+    /// The largest sine of an angle between the travel of a joint and the beam that it is to slide along.
+    pub bent: f64,
     /// What the coordinates were rounded to.
     pub rounded: Digits,
     /// By how much loops stay open in the adjusted mechanism, in configurations that took no part
@@ -72,16 +74,25 @@ pub enum NotAdjusted {
     Unknown,
 }
 
+/// What is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Asked {
+    /// Freedoms, and straight beams.
+    All,
+    /// Nothing, where only beams are not straight.
+    Freedoms,
+}
+
 impl Mechanism {
-    /// The nearest mechanism that has by finite amounts the freedoms which this one nearly has: points and
-    /// axes that are written as numbers move, by the least amount on the whole, each measured by its
-    /// rounding.
+    /// The nearest mechanism that has by finite amounts the freedoms which this one nearly has, and beams
+    /// that are straight where joints slide along them: points and axes that are written as numbers
+    /// move, by the least amount on the whole, each measured by its rounding.
     ///
     /// # Errors
     /// Why there is none.
     pub fn adjusted(&self) -> Result<Adjustment, NotAdjusted> {
         let closure = LoopClosure::new(&self.model).map_err(|_| NotAdjusted::Unknown)?;
-        self.adjust(&closure, |_, _| true)
+        self.adjust(&closure, Asked::All, |_, _| true)
     }
 
     /// The same where rounding alone explains that freedoms are missed: nothing is said of a mechanism
@@ -90,12 +101,12 @@ impl Mechanism {
         let coordinates: usize = (self.model.joints().iter())
             .map(|joint| joint.released().len())
             .sum();
-        if coordinates > SMALL {
+        if coordinates == 0 || coordinates > SMALL {
             return None;
         }
         let closure = LoopClosure::new(&self.model).ok()?;
         let explained = |found: &Adjusted, rounded: &Rounded<'_>| found.mean(rounded) <= MEAN;
-        let found = self.adjust(&closure, explained).ok()?;
+        let found = self.adjust(&closure, Asked::Freedoms, explained).ok()?;
         (found.open > CLOSED).then_some(found)
     }
 
@@ -107,6 +118,7 @@ impl Mechanism {
     fn adjust(
         &self,
         closure: &LoopClosure,
+        asked: Asked,
         holds: impl Fn(&Adjusted, &Rounded<'_>) -> bool,
     ) -> Result<Adjustment, NotAdjusted> {
         let mut why = NotAdjusted::NoNumbers;
@@ -119,6 +131,9 @@ impl Mechanism {
                 roundings: &roundings,
                 model: &model,
             };
+            if asked == Asked::Freedoms && !closure.may_be_rounded(&rounded) {
+                continue;
+            }
             match closure.adjusted(&rounded, MOST) {
                 Ok(found) if holds(&found, &rounded) => {
                     return Ok(self.adjustment(&coordinates, &found));
@@ -156,6 +171,7 @@ impl Mechanism {
             freedoms: found.freedoms,
             missed: found.missed.clone(),
             open: found.open,
+            bent: found.bent,
             rounded: coordinates.rounded,
             misfit: found.misfit,
             moved: (moved.iter())

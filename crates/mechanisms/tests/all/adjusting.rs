@@ -30,7 +30,10 @@ fn exported() -> Vec<(String, String)> {
             let mut geometry = model.geometry().clone();
             job.place(pose, &mut geometry).unwrap();
             model.set_geometry(geometry).unwrap();
-            files.push((format!("{kind}, pose {pose}"), write(&model, &registry).unwrap()));
+            files.push((
+                format!("{kind}, pose {pose}"),
+                write(&model, &registry).unwrap(),
+            ));
         }
     }
     files
@@ -39,7 +42,10 @@ fn exported() -> Vec<(String, String)> {
 /// The same with the coordinates of points and axes rounded to so many decimals.
 fn rounded(text: &str, decimals: usize) -> String {
     with_coordinates(text, |value| {
-        format!("{:?}", format!("{value:.decimals$}").parse::<f64>().unwrap())
+        format!(
+            "{:?}",
+            format!("{value:.decimals$}").parse::<f64>().unwrap()
+        )
     })
 }
 
@@ -54,11 +60,25 @@ fn with_coordinates(text: &str, written: impl Fn(f64) -> String) -> String {
     for line in text.lines() {
         in_points = (in_points || line.contains("points: {")) && !line.trim().starts_with('}');
         let mut line = line.to_owned();
-        let begins = if in_points { &[": ("][..] } else { &["axis: (", "axes: ((", "normal: ("] };
-        let begins = if in_points || line.contains("kind:") { begins } else { &[] };
+        let begins = if in_points {
+            &[": ("][..]
+        } else {
+            &["axis: (", "axes: ((", "normal: ("]
+        };
+        let begins = if in_points || line.contains("kind:") {
+            begins
+        } else {
+            &[]
+        };
         for begin in begins {
-            let Some(start) = line.find(begin).map(|at| at + begin.len()) else { continue };
-            let end = start + line[start..].find("))").or(line[start..].find(')')).unwrap();
+            let Some(start) = line.find(begin).map(|at| at + begin.len()) else {
+                continue;
+            };
+            let end = start
+                + line[start..]
+                    .find("))")
+                    .or(line[start..].find(')'))
+                    .unwrap();
             let parts = line[start..end].split_inclusive([',', '(', ')']);
             let parts = parts.map(|part| {
                 let bare = part.trim_end_matches([',', '(', ')']);
@@ -90,7 +110,9 @@ fn moved(closure: &LoopClosure) -> Vec<[Option<f64>; 6]> {
         asked[k] = Some(home[k] + steps[k]);
         asked
     });
-    asked.filter(|asked| closure.place_at(&Target::Output(*asked)).is_ok()).collect()
+    asked
+        .filter(|asked| closure.place_at(&Target::Output(*asked)).is_ok())
+        .collect()
 }
 
 /// Stiffness of the output there; `None` where it is held rigidly.
@@ -120,7 +142,10 @@ fn every_prebuilt_mechanism_gets_its_freedoms_back() {
                 }
                 Ok(found) => {
                     adjusted += 1;
-                    assert_eq!((found.freedoms, found.rounded), (own.0, Digits::Decimals(decimals)));
+                    assert_eq!(
+                        (found.freedoms, found.rounded),
+                        (own.0, Digits::Decimals(decimals))
+                    );
                     let most = found.moved.iter().map(|m| m.roundings).fold(0.0, f64::max);
                     assert!(most <= MOST, "{name}: {most}");
                     let again = read(&found.text);
@@ -129,8 +154,19 @@ fn every_prebuilt_mechanism_gets_its_freedoms_back() {
                 }
             };
             assert!(again.nearly_free().is_none(), "{name}");
-            assert_eq!(counts(&again.model, again.model.geometry()), own, "{name}, {before:?}");
-            compare(&exact.model, &closure, &again.model, &poses, 10f64.powi(-(decimals as i32)), &name);
+            assert_eq!(
+                counts(&again.model, again.model.geometry()),
+                own,
+                "{name}, {before:?}"
+            );
+            compare(
+                &exact.model,
+                &closure,
+                &again.model,
+                &poses,
+                10f64.powi(-(decimals as i32)),
+                &name,
+            );
         }
     }
     assert!(adjusted > 20, "{adjusted}");
@@ -150,14 +186,21 @@ fn compare(
     for asked in poses {
         let target = Target::Output(*asked);
         let expected = closure.place_at(&target).unwrap().geometry;
-        let found = own.place_at(&target).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let found = own
+            .place_at(&target)
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
         let found = found.geometry;
         for (one, other) in expected.positions.iter().zip(&found.positions) {
             let apart = (one - other).norm();
             assert!(apart <= 40.0 * rounding, "{name}, {asked:?}: {apart:e}");
         }
-        assert_eq!(counts(adjusted, &found), counts(exact, &expected), "{name}, {asked:?}");
-        if let (Some(one), Some(other)) = (stiffness(exact, &expected), stiffness(adjusted, &found)) {
+        assert_eq!(
+            counts(adjusted, &found),
+            counts(exact, &expected),
+            "{name}, {asked:?}"
+        );
+        if let (Some(one), Some(other)) = (stiffness(exact, &expected), stiffness(adjusted, &found))
+        {
             for r in 0..6 {
                 for c in 0..6 {
                     let scale = (one[7 * r] * one[7 * c]).abs().sqrt();
@@ -187,7 +230,11 @@ fn nothing_is_said_of_mechanisms_that_are_as_they_were_meant() {
             match load(&path, &Disk, &registry).unwrap() {
                 Input::Mechanism(mechanism) => look(&mechanism),
                 Input::Batch(batch) => {
-                    batch.jobs.iter().filter_map(|job| job.mechanism()).for_each(look);
+                    batch
+                        .jobs
+                        .iter()
+                        .filter_map(|job| job.mechanism())
+                        .for_each(look);
                 }
             }
         }
@@ -205,7 +252,9 @@ fn exechon(decimals: usize) -> String {
 fn the_freedom_that_is_missed_is_known() {
     let near = read(&exechon(3)).nearly_free().unwrap();
     assert_eq!(near.freedoms, 3);
-    let [first, second, third] = near.missed[..] else { panic!("{:?}", near.missed) };
+    let [first, second, third] = near.missed[..] else {
+        panic!("{:?}", near.missed)
+    };
     assert!(first < 1e-11 && second < 1e-11, "{first:e} {second:e}");
     assert!((1e-5..1e-3).contains(&third), "{third:e}");
     assert!(near.open > 1e-6, "{:e}", near.open);
@@ -220,11 +269,17 @@ fn comments_units_and_layout_stay() {
     let text = text.replace("\"M1\": (-0.2243, ", "\"M1\": ( \"-224.3 mm\", ");
     assert!(text.contains("-224.3 mm"));
     let found = read(&text).adjusted().unwrap();
-    assert!(found.text.contains("/* left */ 0.0 , \"0 mm\"), // bolted"), "{}", found.text);
+    assert!(
+        found.text.contains("/* left */ 0.0 , \"0 mm\"), // bolted"),
+        "{}",
+        found.text
+    );
     assert!(found.text.contains(" mm\", -0.10"), "{}", found.text);
     // Numbers apart, the files are the same.
     let bare = |text: &str| {
-        let kept = text.chars().filter(|c| !c.is_ascii_digit() && !"-.e".contains(*c));
+        let kept = text
+            .chars()
+            .filter(|c| !c.is_ascii_digit() && !"-.e".contains(*c));
         kept.collect::<String>()
     };
     assert_eq!(bare(&found.text), bare(&text));
@@ -233,12 +288,20 @@ fn comments_units_and_layout_stay() {
 
 #[test]
 fn expressions_stay_and_others_move() {
-    let text = exechon(4).replace("\"B3\": (0.15, -0.0235, 1.0353)", "\"B3\": (0.15, \"= -0.0235\", \"= P.z + 0.0353\")");
+    let text = exechon(4).replace(
+        "\"B3\": (0.15, -0.0235, 1.0353)",
+        "\"B3\": (0.15, \"= -0.0235\", \"= P.z + 0.0353\")",
+    );
     let mechanism = read(&text);
     assert_eq!(mechanism.held_coordinates(), ["points.B3.1", "points.B3.2"]);
     let found = mechanism.adjusted().unwrap();
     assert!(found.text.contains("\"= -0.0235\", \"= P.z + 0.0353\""));
-    assert!(found.moved.iter().all(|m| m.roundings <= MOST && !m.path.contains("B3.1")));
+    assert!(
+        found
+            .moved
+            .iter()
+            .all(|m| m.roundings <= MOST && !m.path.contains("B3.1"))
+    );
     assert_eq!(read(&found.text).adjusted().err(), Some(NotAdjusted::Exact));
     let all = with_coordinates(&exechon(4), |value| format!("\"= {value:?}\""));
     let mechanism = read(&all);
@@ -255,5 +318,45 @@ fn json_is_adjusted_as_ron_is() {
         found.moved.iter().map(|m| (m.path.clone(), m.to)).collect()
     };
     assert_eq!(moves(&ron), moves(&json));
-    assert_eq!(read(&json.text).model.geometry(), read(&ron.text).model.geometry());
+    assert_eq!(
+        read(&json.text).model.geometry(),
+        read(&ron.text).model.geometry()
+    );
+}
+
+#[test]
+fn a_point_of_a_group_moves_in_all_copies() {
+    let text = std::fs::read_to_string("../../examples/delta_limbs.ron").unwrap();
+    let exact = read(&text);
+    let rounded = text.replace(
+        "\"Cb\": (\"= half\", \"= C.y\", \"= C.z\")",
+        "\"Cb\": (0.0601, \"60.0 mm\", 0.5001) /* as measured */",
+    );
+    assert_ne!(rounded, text);
+    let mechanism = read(&rounded);
+    let found = mechanism.adjusted().unwrap();
+    let paths: Vec<_> = found.moved.iter().map(|m| m.path.as_str()).collect();
+    assert_eq!(
+        paths,
+        ["groups.limb.points.Cb.0", "groups.limb.points.Cb.2"]
+    );
+    assert!(found.text.contains(", \"60.0 mm\", 0.5") && found.text.contains("/* as measured */"));
+    let again = read(&found.text);
+    let [one, other] = [&exact, &again].map(|m| &m.model.geometry().positions);
+    for (one, other) in one.iter().zip(other) {
+        assert!((one - other).norm() < 1e-12, "{one} {other}");
+    }
+}
+
+#[test]
+fn digits_that_count_are_known_too() {
+    let text = std::fs::read_to_string("../../examples/exechon.ron").unwrap();
+    let text = with_coordinates(&text, |value| {
+        format!("{:?}", format!("{value:.3e}").parse::<f64>().unwrap())
+    });
+    let found = read(&text).adjusted().unwrap();
+    let own = read(&found.text);
+    assert_eq!(counts(&own.model, own.model.geometry()), (3, 2));
+    let most = found.moved.iter().map(|m| m.roundings).fold(0.0, f64::max);
+    assert!(most <= MOST, "{most}");
 }

@@ -20,7 +20,9 @@ pub struct AdjustReport {
     pub missed: Vec<f64>,
     /// By how much the loops opened along the freedoms (over the size, or rad).
     pub open: f64,
-    /// The same after the moves, in configurations that took no part in finding them.
+    /// The largest sine of an angle between the travel of a joint and the beam that it is to slide along.
+    pub bent: f64,
+    /// By how much the loops open after the moves, in configurations that took no part in finding them.
     pub misfit: f64,
     /// What the coordinates were rounded to, in words.
     pub rounded: Option<String>,
@@ -66,10 +68,7 @@ impl AdjustReport {
     ///
     /// # Errors
     /// It nearly has freedoms, and no moves of its numbers give them.
-    pub fn new(
-        mechanism: &Mechanism,
-        path: &Path,
-    ) -> Result<(Self, Option<String>), StudyError> {
+    pub fn new(mechanism: &Mechanism, path: &Path) -> Result<(Self, Option<String>), StudyError> {
         let name = mechanism.model.name.clone();
         match mechanism.adjusted() {
             Ok(found) => Ok((Self::of(name, &found), Some(found.text))),
@@ -88,6 +87,7 @@ impl AdjustReport {
             freedoms: None,
             missed: Vec::new(),
             open: 0.0,
+            bent: 0.0,
             misfit: 0.0,
             rounded: None,
             moved: Vec::new(),
@@ -119,6 +119,7 @@ impl AdjustReport {
             freedoms: Some(found.freedoms),
             missed: found.missed.clone(),
             open: found.open,
+            bent: found.bent,
             misfit: found.misfit,
             rounded: Some(rounding(found.rounded)),
             most_roundings: moved.iter().map(|own| own.roundings).fold(0.0, f64::max),

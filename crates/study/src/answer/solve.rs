@@ -16,8 +16,8 @@ use super::{
     FrequencyReport, ModesReport, Rows, doubts, inner_displacements, numbers, redundancies, rows,
 };
 use crate::doubts::{of_model, of_solution};
-use crate::near::of_mechanism;
 use crate::entries::Entries;
+use crate::near::of_mechanism;
 use crate::study::Study;
 use crate::verification::Verification;
 
