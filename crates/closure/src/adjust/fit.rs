@@ -75,6 +75,7 @@ impl<'a> Fit<'a> {
                 return Some(Adjusted {
                     values,
                     freedoms: count,
+                    wanted: count,
                     missed: freedoms.values[..count].to_vec(),
                     open: sample::opening(&self.closure.system, &basis, 0..TRIED)?,
                     bent: self.rails.largest(&self.effects.bent),

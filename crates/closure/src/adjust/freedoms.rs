@@ -9,6 +9,8 @@ use crate::equations::{Goal, System};
 const EXACT: f64 = 1e-11;
 /// How many times the next singular value is larger than the last of the freedoms.
 const GAP: f64 = 4.0;
+/// The same where nobody doubts it.
+const CLEAR: f64 = 30.0;
 /// Singular values above this are never those of freedoms.
 const LARGE: f64 = 0.03;
 /// Loops that stay open by less are closed.
@@ -61,6 +63,14 @@ impl Freedoms {
             wanted.push(exact);
         }
         wanted
+    }
+
+    /// Whether the last of so many freedoms is far from what is none.
+    pub fn is_clear(&self, count: usize) -> bool {
+        let next = self.values.get(count).copied().unwrap_or(f64::INFINITY);
+        count
+            .checked_sub(1)
+            .is_some_and(|last| next > CLEAR * self.values[last])
     }
 
     /// Whether the loops stay closed along this many of the freedoms.

@@ -39,6 +39,9 @@ pub struct Adjusted {
     pub values: Vec<f64>,
     /// Freedoms of the mechanism, all drives released.
     pub freedoms: usize,
+    /// The most freedoms that the geometry which is written may have been meant to have: more than
+    /// [`Adjusted::freedoms`] where no geometry so near has them.
+    pub wanted: usize,
     /// How far each of the freedoms is missed in the geometry that is written, the least first: singular
     /// values of the conditions of the loops, lengths over the mechanism's size.
     pub missed: Vec<f64>,
@@ -104,13 +107,16 @@ impl LoopClosure {
             _ => wanted,
         };
         let fit = Fit::new(self, rounded, &effects, &rails);
+        let largest = wanted.first().copied().unwrap_or(0);
         let found = wanted.into_iter().find_map(|count| {
-            let found = fit.adjusted(&freedoms, count)?;
+            let mut found = fit.adjusted(&freedoms, count)?;
+            found.wanted = largest;
             (found.most(rounded) <= most).then_some(found)
         });
-        let finite =
-            || rails.none(&effects.bent) && freedoms.are_finite(&self.system, freedoms.exact());
-        found.ok_or_else(|| match finite() {
+        let exact = freedoms.exact();
+        let meant = largest <= exact || !freedoms.is_clear(largest);
+        let finite = || rails.none(&effects.bent) && freedoms.are_finite(&self.system, exact);
+        found.ok_or_else(|| match meant && finite() {
             true => Unadjusted::Exact,
             false => Unadjusted::Nothing,
         })

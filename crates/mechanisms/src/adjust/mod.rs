@@ -16,6 +16,8 @@ pub const MOST: f64 = 5.0;
 /// The root of the mean square of roundings is under a third of a unit: moves that are larger on the
 /// whole than half a unit were not made by rounding.
 const MEAN: f64 = 0.5;
+/// The coarsest rounding that is looked for where no number has one.
+const COARSE: f64 = 1e-3;
 /// Joint coordinates of a mechanism that is looked at without being asked to.
 const SMALL: usize = 300;
 
@@ -92,7 +94,7 @@ impl Mechanism {
     /// Why there is none.
     pub fn adjusted(&self) -> Result<Adjustment, NotAdjusted> {
         let closure = LoopClosure::new(&self.model).map_err(|_| NotAdjusted::Unknown)?;
-        self.adjust(&closure, Asked::All, |_, _| true)
+        self.adjust(&closure, Asked::All)
     }
 
     /// The same where rounding alone explains that freedoms are missed: nothing is said of a mechanism
@@ -105,8 +107,7 @@ impl Mechanism {
             return None;
         }
         let closure = LoopClosure::new(&self.model).ok()?;
-        let explained = |found: &Adjusted, rounded: &Rounded<'_>| found.mean(rounded) <= MEAN;
-        let found = self.adjust(&closure, Asked::Freedoms, explained).ok()?;
+        let found = self.adjust(&closure, Asked::Freedoms).ok()?;
         (found.open > CLOSED).then_some(found)
     }
 
@@ -115,13 +116,10 @@ impl Mechanism {
         coordinates::held(self.root())
     }
 
-    fn adjust(
-        &self,
-        closure: &LoopClosure,
-        asked: Asked,
-        holds: impl Fn(&Adjusted, &Rounded<'_>) -> bool,
-    ) -> Result<Adjustment, NotAdjusted> {
+    fn adjust(&self, closure: &LoopClosure, asked: Asked) -> Result<Adjustment, NotAdjusted> {
         let mut why = NotAdjusted::NoNumbers;
+        let mut sure = asked == Asked::All;
+        let mut best: Option<(Coordinates, Adjusted)> = None;
         for coordinates in Coordinates::guesses(self.root()) {
             let model = |values: &[f64]| self.with_coordinates(&coordinates.all, values);
             let values: Vec<f64> = coordinates.all.iter().map(|own| own.value).collect();
@@ -135,14 +133,38 @@ impl Mechanism {
                 continue;
             }
             match closure.adjusted(&rounded, MOST) {
-                Ok(found) if holds(&found, &rounded) => {
-                    return Ok(self.adjustment(&coordinates, &found));
+                // Who did not ask, or has a mechanism that may be meant as it is, is told what rounding
+                // explains, and nothing else.
+                Ok(found) if sure || found.mean(&rounded) <= MEAN => {
+                    let more = |(_, own): &(_, Adjusted)| found.freedoms > own.freedoms;
+                    let all = found.freedoms == found.wanted;
+                    if best.as_ref().is_none_or(more) {
+                        best = Some((coordinates, found));
+                    }
+                    // With larger roundings there may be more.
+                    if all {
+                        break;
+                    }
                 }
-                Err(Unadjusted::Exact) => return Err(NotAdjusted::Exact),
-                _ => why = NotAdjusted::Nothing,
+                Err(Unadjusted::Exact) => (why, sure) = (NotAdjusted::Exact, false),
+                _ if why == NotAdjusted::NoNumbers => why = NotAdjusted::Nothing,
+                _ => {}
             }
         }
-        Err(why)
+        if why == NotAdjusted::NoNumbers && !Self::misses_freedoms(closure) {
+            why = NotAdjusted::Exact;
+        }
+        best.map(|(coordinates, found)| self.adjustment(&coordinates, &found))
+            .ok_or(why)
+    }
+
+    /// Whether freedoms are missed as if by the coarsest rounding, whatever numbers there are.
+    fn misses_freedoms(closure: &LoopClosure) -> bool {
+        closure.may_be_rounded(&Rounded {
+            values: &[0.0],
+            roundings: &[COARSE],
+            model: &|_| None,
+        })
     }
 
     /// The model with other values of some coordinates.
