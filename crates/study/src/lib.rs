@@ -17,6 +17,7 @@ mod error;
 pub mod figure;
 pub mod files;
 mod measures;
+mod near;
 mod number;
 #[cfg(feature = "figures")]
 mod page;
@@ -32,11 +33,11 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, CountReport, FrameReport,
-    FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
-    ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
-    SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
-    VirtualWork, Why, WorstReport,
+    AdjustReport, Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport,
+    CountReport, FrameReport, FrequencyReport, FrequencySensitivityReport, JointReport,
+    MeasuresReport, MisfitEffectReport, ModeReport, ModesReport, MovedReport, NumberReport,
+    OutputReport, PartReport, PrincipalReport, Rows, ScrewReport, SectionForces, SegmentReport,
+    SensitivityReport, SolveReport, StrainReport, StressReport, Sum, VirtualWork, Why, WorstReport,
 };
 pub use ask::{Answered, Question};
 pub use compare::{
