@@ -10,6 +10,7 @@ pub(crate) mod values;
 use std::collections::{HashMap, HashSet};
 
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
+use hyperstat_joints::Dof;
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
@@ -454,6 +455,12 @@ impl Model {
     /// All joints.
     pub fn joints(&self) -> &[Connection] {
         &self.joints
+    }
+
+    /// The drives of all joints, in their order ([`Connection::drives`]).
+    pub fn drives(&self) -> impl Iterator<Item = (JointId, Dof)> {
+        let joints = self.joints.iter().enumerate();
+        joints.flat_map(|(k, joint)| joint.drives().iter().map(move |dof| (JointId(k), dof)))
     }
     /// The loads on nodes.
     pub fn loads(&self) -> &[Load] {

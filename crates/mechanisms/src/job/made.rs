@@ -182,8 +182,8 @@ impl Job {
     }
 
     /// Sets a field of the job to what would stand there in a batch file: `loads`, `cases`, `gravity`,
-    /// `masses`, `misfits`, `preloads`, `modes`, `figures`, `vary`, `zip` or `parameters`. What it had there is replaced; an empty text takes it
-    /// away.
+    /// `masses`, `misfits`, `preloads`, `modes`, `columns`, `figures`, `vary`, `zip` or `parameters`. What it had
+    /// there is replaced; an empty text takes it away.
     ///
     /// # Errors
     /// An unknown field, what is wrong with its value. The job is then as it was.

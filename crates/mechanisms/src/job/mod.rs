@@ -1,6 +1,7 @@
 //! Batch files: jobs, their poses, what they vary.
 
 pub(crate) mod batch;
+pub(crate) mod columns;
 pub(crate) mod commanded;
 pub(crate) mod design;
 pub(crate) mod figures;
@@ -12,5 +13,6 @@ pub(crate) mod parameters;
 pub(crate) mod poses;
 pub(crate) mod subject;
 pub(crate) mod targets;
+pub(crate) mod template;
 pub(crate) mod value_names;
 pub(crate) mod vary;

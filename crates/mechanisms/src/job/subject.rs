@@ -5,18 +5,18 @@ use std::sync::OnceLock;
 
 use hyperstat_closure::Target;
 use hyperstat_model::{Geometry, LANES, Model, NodeId, ValuePlace};
-use nalgebra::{Rotation3, Vector3};
 
-use super::mover::{Mover, Placing};
+use super::mover::{Mover, Placed, Placing};
 use super::poses::Poses;
 use super::targets::{Asked, Targets};
+use super::template::{Template, given, template};
 use crate::error::LoadError;
 use crate::file::home::Home;
 use crate::file::include;
 use crate::file::loads::Acting;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::{PrebuiltKind, Registry};
-use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
+use crate::prebuilt::{Following, PoseCoordinate, PoseError, Prebuilt};
 use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -63,14 +63,9 @@ pub(crate) enum Subject {
         mechanism: Box<dyn Prebuilt>,
         /// The model with its loads in a pose that can be reached.
         template: Result<Box<Template>, PoseError>,
+        /// Made for the first pose whose drives are asked for; none where loop closure cannot follow.
+        following: OnceLock<Option<Box<Following>>>,
     },
-}
-
-/// A model in a pose that can be reached.
-#[derive(Debug)]
-pub(crate) struct Template {
-    model: Model,
-    pose: [f64; 6],
 }
 
 impl Recipe {
@@ -171,6 +166,7 @@ impl Recipe {
         match checked {
             Checked::File(mechanism) => Ok(Subject::of(mechanism)),
             Checked::Prebuilt(mechanism, acting) => {
+                let similar = similar.and_then(Subject::template_pose);
                 let mut template = template(mechanism.as_ref(), poses, similar);
                 if let Ok(template) = &mut template {
                     let home = Home::Output(template.turned(mechanism.as_ref()));
@@ -179,21 +175,10 @@ impl Recipe {
                 Ok(Subject::Prebuilt {
                     mechanism,
                     template,
+                    following: OnceLock::new(),
                 })
             }
         }
-    }
-}
-
-impl Template {
-    /// The rotation of the output from its home orientation.
-    fn turned(&self, mechanism: &dyn Prebuilt) -> Rotation3<f64> {
-        let (target, count) = given(mechanism, &self.pose);
-        let mut geometry = self.model.geometry().clone();
-        // It has been reached before.
-        let pose = mechanism.place(&target[..count], &mut geometry);
-        let [.., x, y, z] = pose.unwrap_or(self.pose);
-        Rotation3::new(Vector3::new(x, y, z))
     }
 }
 
@@ -271,6 +256,17 @@ impl Subject {
         }
     }
 
+    /// The pose of a prebuilt mechanism's model.
+    fn template_pose(&self) -> Option<[f64; 6]> {
+        match self {
+            Self::Prebuilt {
+                template: Ok(template),
+                ..
+            } => Some(template.pose),
+            _ => None,
+        }
+    }
+
     /// The model in a pose that can be reached.
     pub(crate) fn model(&self) -> Result<Model, PoseError> {
         match self {
@@ -288,6 +284,7 @@ impl Subject {
         let Self::Prebuilt {
             mechanism,
             template: Ok(template),
+            ..
         } = self
         else {
             return Vec::new();
@@ -353,16 +350,22 @@ impl Subject {
         range: Range<usize>,
         geometries: &mut [Geometry],
         placing: &mut Placing,
-    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
+    ) -> Placed {
+        placing.forget_drives();
         match self {
             Self::File { mechanism, mover } => {
                 if let Poses::Asked(targets) = poses {
                     let mover = moved(mechanism, mover);
-                    return mover.place_lanes(targets, range, geometries, placing);
+                    let placed = mover.place_lanes(targets, range, geometries, placing);
+                    placing.keep_found(&placed);
+                    return placed;
                 }
                 let mut placed = [const { None }; LANES];
                 for (lane, pose) in range.enumerate() {
                     placed[lane] = Some(self.place(poses, pose, &mut geometries[lane]));
+                }
+                if placing.keeps_drives() {
+                    placing.keep_home(&placed, mechanism.model.drives().count());
                 }
                 placed
             }
@@ -371,8 +374,32 @@ impl Subject {
                 for (target, pose) in targets.iter_mut().zip(range.clone()) {
                     *target = given(mechanism.as_ref(), &poses.get(pose)).0;
                 }
-                mechanism.place_lanes(&targets[..range.len()], geometries)
+                let placed = mechanism.place_lanes(&targets[..range.len()], geometries);
+                self.keep_followed(&placed, geometries, placing);
+                placed
             }
+        }
+    }
+
+    /// Keeps the drives of a prebuilt mechanism in these poses, where they are asked for.
+    fn keep_followed(&self, placed: &Placed, geometries: &[Geometry], placing: &mut Placing) {
+        let Self::Prebuilt {
+            mechanism,
+            template: Ok(template),
+            following,
+        } = self
+        else {
+            return;
+        };
+        if !placing.keeps_drives() {
+            return;
+        }
+        let following = following.get_or_init(|| {
+            let pose = template.whole(mechanism.as_ref());
+            Following::new(&template.model, &pose).ok().map(Box::new)
+        });
+        if let Some(following) = following {
+            placing.keep_followed(placed, geometries, following);
         }
     }
 
@@ -383,13 +410,18 @@ impl Subject {
         geometry: &mut Geometry,
         placing: &mut Placing,
     ) -> Result<[f64; 6], PoseError> {
+        placing.forget_drives();
         match (self, target) {
             (Self::File { mechanism, mover }, _) => {
-                moved(mechanism, mover).bring(target, geometry, placing)
+                let pose = moved(mechanism, mover).bring(target, geometry, placing)?;
+                placing.keep_found(&alone(pose));
+                Ok(pose)
             }
             (Self::Prebuilt { mechanism, .. }, Target::Output(asked)) => {
                 let (target, count) = followed(mechanism.as_ref(), asked)?;
-                mechanism.place(&target[..count], geometry)
+                let pose = mechanism.place(&target[..count], geometry)?;
+                self.keep_followed(&alone(pose), std::slice::from_ref(geometry), placing);
+                Ok(pose)
             }
             (Self::Prebuilt { mechanism, .. }, Target::Drives(_)) => Err(PoseError::Drives {
                 kind: mechanism.kind().into(),
@@ -412,6 +444,13 @@ impl Subject {
             Self::Prebuilt { .. } => None,
         }
     }
+}
+
+/// One pose that was reached.
+fn alone(pose: [f64; 6]) -> Placed {
+    let mut placed = [const { None }; LANES];
+    placed[0] = Some(Ok(pose));
+    placed
 }
 
 /// The output's pose in a model's own configuration.
@@ -451,56 +490,4 @@ fn followed(
         }
     }
     Ok(given(mechanism, &asked.map(Option::unwrap_or_default)))
-}
-
-/// Of a whole pose the coordinates that `mechanism` is given, first, and their number.
-fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
-    let coordinates = mechanism.coordinates();
-    let mut target = [0.0; 6];
-    for (value, coordinate) in target.iter_mut().zip(coordinates) {
-        *value = pose[coordinate.index()];
-    }
-    (target, coordinates.len())
-}
-
-/// The model in the first of these poses that can be reached: the job's first [`TRIED`] poses, that
-/// of a `similar` design, the poses of [`probes`], the rest of the job's; the first pose's error
-/// where none can. The loads are checked in a pose that the job does not have, too: the names of a
-/// mechanism are the same in every pose.
-fn template(
-    mechanism: &dyn Prebuilt,
-    poses: &Poses,
-    similar: Option<&Subject>,
-) -> Result<Box<Template>, PoseError> {
-    let build = |pose: [f64; 6]| {
-        let (target, count) = given(mechanism, &pose);
-        let model = mechanism.model(&target[..count])?;
-        Ok(Box::new(Template { model, pose }))
-    };
-    let reached = match similar {
-        Some(Subject::Prebuilt { template, .. }) => template.as_ref().ok().map(|t| t.pose),
-        _ => None,
-    };
-    let first = poses.len().min(TRIED);
-    let tried = (1..first).map(|pose| poses.get(pose)).chain(reached);
-    let rest = (first..poses.len()).map(|pose| poses.get(pose));
-    let mut others = tried.chain(probes(mechanism.coordinates())).chain(rest);
-    build(poses.get(0)).or_else(|error| others.find_map(|pose| build(pose).ok()).ok_or(error))
-}
-
-/// Number of poses of a job that are tried before any other: a large grid may be out of reach.
-const TRIED: usize = 1000;
-
-/// Poses of which a mechanism of any size between a millimetre and a kilometre is likely to reach
-/// one: home, and one coordinate at a time on either side of it, by steps of 3 %.
-fn probes(coordinates: &[PoseCoordinate]) -> impl Iterator<Item = [f64; 6]> {
-    let values = || (0..=468).flat_map(|k| [1.0, -1.0].map(|sign| sign * 1e-3 * 1.03_f64.powi(k)));
-    let moved = coordinates.iter().flat_map(move |coordinate| {
-        values().map(|value| {
-            let mut pose = [0.0; 6];
-            pose[coordinate.index()] = value;
-            pose
-        })
-    });
-    std::iter::once([0.0; 6]).chain(moved)
 }

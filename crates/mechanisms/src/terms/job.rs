@@ -60,6 +60,11 @@ pub(crate) const JOB: Record = Record::new(
             Any(&[FREQUENCIES, Of(&MODES)]),
             "natural frequencies at every pose",
         ),
+        optional(
+            "columns",
+            List(&OneKind(&COLUMN)),
+            "more columns of the table",
+        ),
     ],
 );
 
@@ -94,6 +99,23 @@ pub(crate) const POSES: Kinds = Kinds {
         ),
     ],
 };
+
+/// Columns on request.
+pub(crate) const COLUMN: Kinds = Kinds {
+    name: "columns",
+    kinds: &[
+        kind("Drives", "positions of the drives", &[]),
+        kind("DriveForces", "forces and moments of the drives", &[]),
+        of_value("Wrench", "the wrench in a joint, by its name", Text),
+        kind("Stress", "the largest stress, and where", &[]),
+        kind("Utilisation", "the largest utilisation, and where", &[]),
+        kind("Mass", "mass of what moves", &[]),
+        kind("Measures", "every measure", &[]),
+        kind("Frequencies", "natural frequencies", &[COUNT]),
+        kind("Budget", "shares in the deflection", &[]),
+    ],
+};
+const COUNT: Field = optional("count", FREQUENCIES, "how many");
 
 /// Evenly spaced values.
 pub(crate) const RANGE: Kinds = Kinds {
