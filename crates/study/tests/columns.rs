@@ -42,7 +42,9 @@ fn job(text: &str) -> Job {
 /// The prebuilt mechanism of this kind, whose material yields.
 fn prebuilt(kind: &str) -> Job {
     let text = begin(kind).expect("a kind");
-    job(&text.replace("density: 7850.0", "density: 7850.0, yield: 3.5e8"))
+    job(&text
+        .replace("poisson: 0.3,", "yield: 3.5e8, poisson: 0.3,")
+        .replace("poisson: 0.33,", "yield: 2e8, poisson: 0.33,"))
 }
 
 fn output(model: &Model) -> (String, String) {
@@ -508,7 +510,7 @@ fn what_cannot_be_asked_for_is_told_with_what_would_be_right() {
             "[Wrench(\"D1\")]",
             "columns:1:9: the mechanism has no joint `D1`; the joints are",
         ),
-        ("[Wrench(\"Ab1\")]", "did you mean `"),
+        ("[Wrench(\"Ba11\")]", "did you mean `"),
         (
             "[Wrench]",
             "expected the name of a joint, `Wrench(\"B1\")`, found `Wrench`",

@@ -163,7 +163,7 @@ impl Job {
         let modes = fields.get("modes").map(modes::read).transpose()?;
         let has_modes = modes.is_some();
         let mut first_design = 0;
-        let designs = match Variation::read(fields, recipe.root(), poses.len())? {
+        let designs = match Variation::read(fields, &recipe, poses.len())? {
             Some(variation) => {
                 let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;

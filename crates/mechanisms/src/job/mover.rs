@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use hyperstat_closure::{Lanes, LoopClosure, Target, Work};
-use hyperstat_model::{Geometry, LANES, Model};
+use hyperstat_model::{Geometry, LANES};
 
 use super::targets::{Asked, Targets};
+use crate::file::mechanism::Mechanism;
 use crate::prebuilt::{Following, PoseError};
 
 /// What a thread keeps from pose to pose: room for numbers, no results.
@@ -42,7 +43,7 @@ impl Placing {
     }
 
     /// Values of the drives (m, rad) in a pose of the last call by its lane, in the order of
-    /// [`Model::drives`], relative to the configuration of [`Design::model`](crate::Design::model); `None`
+    /// [`Model::drives`](hyperstat_model::Model::drives), relative to the configuration of [`Design::model`](crate::Design::model); `None`
     /// where they are not kept, or not known.
     pub fn drives(&self, lane: usize) -> Option<&[f64]> {
         self.drives.as_ref()?.values.get(lane)?.as_deref()
@@ -119,9 +120,9 @@ pub(crate) struct Mover {
 }
 
 impl Mover {
-    pub(crate) fn new(model: &Model) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
         Self {
-            closure: LoopClosure::new(model).map_err(PoseError::from),
+            closure: mechanism.loops(),
         }
     }
 

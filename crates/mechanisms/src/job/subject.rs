@@ -1,17 +1,14 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use std::ops::Range;
 use std::sync::OnceLock;
 
-use hyperstat_closure::Target;
-use hyperstat_model::{Geometry, LANES, Model, NodeId, ValuePlace};
+use hyperstat_model::{Model, ValuePlace};
 
-use super::mover::{Mover, Placed, Placing};
+use super::mover::Mover;
 use super::poses::Poses;
 use super::targets::{Asked, Targets};
 use super::template::{Template, given, template};
 use crate::error::LoadError;
-use crate::file::home::Home;
 use crate::file::include;
 use crate::file::loads::Acting;
 use crate::file::mechanism::Mechanism;
@@ -23,7 +20,7 @@ use crate::text::fragment::Fragment;
 use crate::text::scope::Scope;
 use crate::text::source::Place;
 use crate::text::tree::Node;
-use crate::text::{csv, named, names};
+use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug, Clone)]
@@ -140,16 +137,21 @@ impl Recipe {
 
     /// Reads and checks the mechanism: [`Recipe::root`], or that with other values in some places.
     pub(crate) fn read(&self, root: &Node) -> Result<Checked, LoadError> {
+        self.read_under(root, &self.acting)
+    }
+
+    /// The same with what acts.
+    pub(super) fn read_under(&self, root: &Node, acting: &Acting) -> Result<Checked, LoadError> {
         match &self.kind {
             None => {
                 let mut mechanism = Mechanism::read(root.clone(), &self.registry)?;
-                mechanism.replace(&self.acting)?;
+                mechanism.replace(acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
             Some(kind) => {
                 let tree = Scope::tree(root)?;
                 let mechanism = kind.read(Fragment::of_node(&tree))?;
-                let acting = Box::new(self.acting.in_scope(root)?);
+                let acting = Box::new(acting.in_scope(root)?);
                 Ok(Checked::Prebuilt(mechanism, acting))
             }
         }
@@ -169,8 +171,7 @@ impl Recipe {
                 let similar = similar.and_then(Subject::template_pose);
                 let mut template = template(mechanism.as_ref(), poses, similar);
                 if let Ok(template) = &mut template {
-                    let home = Home::Output(template.turned(mechanism.as_ref()));
-                    acting.read(&mut template.model, &home)?;
+                    template.act(&acting)?;
                 }
                 Ok(Subject::Prebuilt {
                     mechanism,
@@ -316,119 +317,6 @@ impl Subject {
         }
     }
 
-    /// Brings a geometry of its model to pose `number` (from 0); returns the whole pose.
-    pub(crate) fn place(
-        &self,
-        poses: &Poses,
-        number: usize,
-        geometry: &mut Geometry,
-    ) -> Result<[f64; 6], PoseError> {
-        match self {
-            Self::File { mechanism, mover } => {
-                if let Poses::Asked(targets) = poses {
-                    return moved(mechanism, mover).place(targets, number, geometry);
-                }
-                let model = &mechanism.model;
-                let own = model.geometry();
-                geometry.positions.clone_from(&own.positions);
-                geometry.y_axes.clone_from(&own.y_axes);
-                geometry.frames.clone_from(&own.frames);
-                geometry.rotations.clone_from(&own.rotations);
-                Ok(own_pose(model))
-            }
-            Self::Prebuilt { mechanism, .. } => {
-                let (target, count) = given(mechanism.as_ref(), &poses.get(number));
-                mechanism.place(&target[..count], geometry)
-            }
-        }
-    }
-
-    /// The same for several geometries, each with a pose of its own.
-    pub(crate) fn place_lanes(
-        &self,
-        poses: &Poses,
-        range: Range<usize>,
-        geometries: &mut [Geometry],
-        placing: &mut Placing,
-    ) -> Placed {
-        placing.forget_drives();
-        match self {
-            Self::File { mechanism, mover } => {
-                if let Poses::Asked(targets) = poses {
-                    let mover = moved(mechanism, mover);
-                    let placed = mover.place_lanes(targets, range, geometries, placing);
-                    placing.keep_found(&placed);
-                    return placed;
-                }
-                let mut placed = [const { None }; LANES];
-                for (lane, pose) in range.enumerate() {
-                    placed[lane] = Some(self.place(poses, pose, &mut geometries[lane]));
-                }
-                if placing.keeps_drives() {
-                    placing.keep_home(&placed, mechanism.model.drives().count());
-                }
-                placed
-            }
-            Self::Prebuilt { mechanism, .. } => {
-                let mut targets = [[0.0; 6]; LANES];
-                for (target, pose) in targets.iter_mut().zip(range.clone()) {
-                    *target = given(mechanism.as_ref(), &poses.get(pose)).0;
-                }
-                let placed = mechanism.place_lanes(&targets[..range.len()], geometries);
-                self.keep_followed(&placed, geometries, placing);
-                placed
-            }
-        }
-    }
-
-    /// Keeps the drives of a prebuilt mechanism in these poses, where they are asked for.
-    fn keep_followed(&self, placed: &Placed, geometries: &[Geometry], placing: &mut Placing) {
-        let Self::Prebuilt {
-            mechanism,
-            template: Ok(template),
-            following,
-        } = self
-        else {
-            return;
-        };
-        if !placing.keeps_drives() {
-            return;
-        }
-        let following = following.get_or_init(|| {
-            let pose = template.whole(mechanism.as_ref());
-            Following::new(&template.model, &pose).ok().map(Box::new)
-        });
-        if let Some(following) = following {
-            placing.keep_followed(placed, geometries, following);
-        }
-    }
-
-    /// Brings a geometry of its model to a target; returns the whole pose.
-    pub(crate) fn bring(
-        &self,
-        target: &Target<'_>,
-        geometry: &mut Geometry,
-        placing: &mut Placing,
-    ) -> Result<[f64; 6], PoseError> {
-        placing.forget_drives();
-        match (self, target) {
-            (Self::File { mechanism, mover }, _) => {
-                let pose = moved(mechanism, mover).bring(target, geometry, placing)?;
-                placing.keep_found(&alone(pose));
-                Ok(pose)
-            }
-            (Self::Prebuilt { mechanism, .. }, Target::Output(asked)) => {
-                let (target, count) = followed(mechanism.as_ref(), asked)?;
-                let pose = mechanism.place(&target[..count], geometry)?;
-                self.keep_followed(&alone(pose), std::slice::from_ref(geometry), placing);
-                Ok(pose)
-            }
-            (Self::Prebuilt { mechanism, .. }, Target::Drives(_)) => Err(PoseError::Drives {
-                kind: mechanism.kind().into(),
-            }),
-        }
-    }
-
     /// The coordinates that a prebuilt mechanism takes; none of a file.
     pub(crate) fn coordinates(&self) -> &[PoseCoordinate] {
         match self {
@@ -444,50 +332,4 @@ impl Subject {
             Self::Prebuilt { .. } => None,
         }
     }
-}
-
-/// One pose that was reached.
-fn alone(pose: [f64; 6]) -> Placed {
-    let mut placed = [const { None }; LANES];
-    placed[0] = Some(Ok(pose));
-    placed
-}
-
-/// The output's pose in a model's own configuration.
-fn own_pose(model: &Model) -> [f64; 6] {
-    let position = |node: NodeId| model.geometry().positions[node.0];
-    let [x, y, z] = model.output().map(position).unwrap_or_default().into();
-    [x, y, z, 0.0, 0.0, 0.0]
-}
-
-/// What moves a mechanism of a file.
-fn moved<'m>(mechanism: &Mechanism, mover: &'m OnceLock<Box<Mover>>) -> &'m Mover {
-    mover.get_or_init(|| Box::new(Mover::new(&mechanism.model)))
-}
-
-/// Of what is asked of the output the coordinates that `mechanism` is given, first, and their number:
-/// all that it takes, and zeros alone of the others, as in a table of poses.
-fn followed(
-    mechanism: &dyn Prebuilt,
-    asked: &[Option<f64>; 6],
-) -> Result<([f64; 6], usize), PoseError> {
-    let coordinates = mechanism.coordinates();
-    let asks = |coordinate: &&PoseCoordinate| asked[coordinate.index()].is_some();
-    let found = coordinates.iter().filter(asks).count();
-    if found < coordinates.len() {
-        return Err(PoseError::Coordinates {
-            kind: mechanism.kind().into(),
-            expected: coordinates.len(),
-            found,
-        });
-    }
-    let follows = |index| coordinates.iter().any(|own| own.index() == index);
-    for (index, name) in csv::COLUMNS.iter().enumerate() {
-        if asked[index].is_some_and(|value| value != 0.0) && !follows(index) {
-            return Err(PoseError::Unreachable {
-                what: format!("`{}` cannot follow {name}", mechanism.kind()),
-            });
-        }
-    }
-    Ok(given(mechanism, &asked.map(Option::unwrap_or_default)))
 }

@@ -1,9 +1,13 @@
 //! A prebuilt mechanism in a pose that it reaches, from which a job's models are made.
 
-use hyperstat_model::Model;
+use hyperstat_model::{Model, NodeId};
 use nalgebra::{Rotation3, Vector3};
 
 use super::poses::Poses;
+use crate::error::LoadError;
+use crate::file::end::End;
+use crate::file::home::Home;
+use crate::file::loads::Acting;
 use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 
 /// A model in a pose that can be reached.
@@ -11,22 +15,34 @@ use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
 pub(crate) struct Template {
     pub(super) model: Model,
     pub(super) pose: [f64; 6],
+    /// The whole pose of the mechanism's own output.
+    pub(super) whole: [f64; 6],
+    pub(super) end: End,
 }
 
 impl Template {
-    /// The rotation of the output from its home orientation.
-    pub(super) fn turned(&self, mechanism: &dyn Prebuilt) -> Rotation3<f64> {
-        let [.., x, y, z] = self.whole(mechanism);
-        Rotation3::new(Vector3::new(x, y, z))
+    fn new(model: Model, pose: [f64; 6], mechanism: &dyn Prebuilt) -> Self {
+        let (target, count) = given(mechanism, &pose);
+        // It has been reached before.
+        let whole = mechanism.place(&target[..count], &mut model.geometry().clone());
+        Self {
+            whole: whole.unwrap_or(pose),
+            end: End::at(model.output().unwrap_or(NodeId(0))),
+            model,
+            pose,
+        }
     }
 
-    /// The whole pose of the output.
-    pub(super) fn whole(&self, mechanism: &dyn Prebuilt) -> [f64; 6] {
-        let (target, count) = given(mechanism, &self.pose);
-        let mut geometry = self.model.geometry().clone();
-        // It has been reached before.
-        let pose = mechanism.place(&target[..count], &mut geometry);
-        pose.unwrap_or(self.pose)
+    /// Reads what a job says of what acts on it, and of its output.
+    pub(super) fn act(&mut self, acting: &Acting) -> Result<(), LoadError> {
+        let [.., x, y, z] = self.whole;
+        let turned = Rotation3::new(Vector3::new(x, y, z));
+        let output = self.end.read(acting, &mut self.model, &turned)?;
+        acting.read(&mut self.model, &Home::Output(turned))?;
+        if acting.output().or(acting.tool()).is_some() {
+            self.model.set_output(output);
+        }
+        Ok(())
     }
 }
 
@@ -52,7 +68,7 @@ pub(super) fn template(
     let build = |pose: [f64; 6]| {
         let (target, count) = given(mechanism, &pose);
         let model = mechanism.model(&target[..count])?;
-        Ok(Box::new(Template { model, pose }))
+        Ok(Box::new(Template::new(model, pose, mechanism)))
     };
     let first = poses.len().min(TRIED);
     let tried = (1..first).map(|pose| poses.get(pose)).chain(similar);

@@ -9,7 +9,7 @@ use super::bodies::TABLE;
 use super::figures::FIGURE;
 use super::joints::{MISFIT, PRELOAD};
 use super::mechanism::PARAMETERS;
-use super::parts::vector;
+use super::parts::{NODE, vector};
 use super::{Field, Kinds, NO_END, Record, Type, kind, needed, of_value, optional};
 
 pub(crate) const BATCH: Record = Record::new(
@@ -47,6 +47,16 @@ pub(crate) const JOB: Record = Record::new(
             "preloads",
             Map(&Of(&PRELOAD)),
             "preloads by the joint's name, in place of the file's",
+        ),
+        optional(
+            "output",
+            NODE,
+            "body and point, in place of the mechanism's own",
+        ),
+        optional(
+            "tool",
+            vector("m"),
+            "a point fixed in the output's body, from the output in home axes: the new output",
         ),
         optional("figures", List(&OneKind(&FIGURE)), "figures to draw"),
         optional(
