@@ -178,9 +178,7 @@ impl Designs {
     /// The ways to what varies of the mechanism, in its tree.
     pub(crate) fn steps(&self) -> Vec<Steps> {
         let places = self.variation.places();
-        places
-            .filter_map(|steps| Recipe::in_mechanism(steps))
-            .collect()
+        places.filter_map(Recipe::in_mechanism).collect()
     }
 
     /// The mechanism's tree in a design.
