@@ -7,7 +7,10 @@ use std::path::Path;
 use hyperstat_assembly::Model;
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt};
 use hyperstat_mechanisms::{LoopClosure, MemoryFiles, Registry, Target, batch_from_str, begin};
-use hyperstat_study::sweep::{Cell, Chunk, Columns, Record, Sweep, Threads, Way};
+use hyperstat_study::figure;
+use hyperstat_study::sweep::{
+    Cell, Chunk, Columns, Record, Statistics, Sweep, Threads, Way, measure,
+};
 use hyperstat_study::table::{self, TableFormat, TableReader, TableWriter};
 use hyperstat_study::{Along, Asked, Job, Question, Study};
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -584,4 +587,54 @@ fn what_cannot_be_asked_for_is_told_with_what_would_be_right() {
         .set("vary", "{ \"parameters.stress\": [0.24, 0.25] }")
         .expect("a parameter");
     Sweep::new(&clash, Way::Lanes).expect("other names");
+}
+
+#[test]
+fn maps_take_columns_on_request() {
+    let mut job = prebuilt("Delta");
+    let map = "[Map(value: \"stress\", plane: z(0.45))]";
+    job.set("figures", map).expect("a figure");
+    let check = |job: &Job| figure::check(job, &table::numeric(&Columns::of(job)));
+    let error = check(&job).expect_err("no such column");
+    let help = error.help().expect("a help");
+    assert_eq!(help, "it needs `columns: [Stress]` in the job");
+    job.set("columns", "[Stress]").expect("columns");
+    check(&job).expect("a column");
+}
+
+/// Where a number is least and largest, in the drives of a table of drives; numbers below zero, too.
+#[test]
+fn summaries_have_the_columns_and_the_coordinates_that_are_commanded() {
+    let grid = "Grid(x: (-0.1, 0.1, 2), y: (0.3, 0.4, 2))";
+    let mut driven = job(&FIVE_BAR.replace(grid, "Drives(Csv(\"drives.csv\"))"));
+    driven
+        .set("columns", "[Drives, Measures, Stress]")
+        .expect("columns");
+    let (_, records) = found(&driven);
+    let mut statistics = Statistics::of(&driven);
+    for (row, record) in records.iter().enumerate() {
+        if let Some(values) = measure(record) {
+            statistics.add(row, &record.pose, &values);
+        }
+        statistics.add_asked(row, record);
+    }
+    let report = statistics.report_of(&driven).expect("poses");
+    let of = |name: &str| {
+        let mut all = report.iter().filter(|own| own.measure == name);
+        let only = all.next().expect("a measure");
+        assert!(all.next().is_none(), "{name} is told twice");
+        only
+    };
+    let position = of("A1.v.position");
+    assert_eq!((position.poses, position.unit), (3, "rad"));
+    assert_eq!((position.min.row, position.max.row), (2, 1));
+    assert_eq!(position.min.commanded.get("A1.v"), Some(&-0.2));
+    assert_eq!(position.max.commanded.get("A2.v"), Some(&0.0147));
+    let low = position.percentiles[0].value;
+    assert!((low / -0.2 - 1.0).abs() < 1e-3, "{low}");
+    let names = of("softest_force").max.commanded.iter();
+    assert_eq!(names.map(|(name, _)| name).collect::<Vec<_>>(), ["A1.v", "A2.v"]);
+    of("deflection");
+    assert!(of("stress").max.value >= 0.0);
+    assert!(!report.iter().any(|own| own.measure == "stress_at"));
 }
