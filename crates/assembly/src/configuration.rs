@@ -161,6 +161,13 @@ impl<'a> Configuration<'a> {
         })
     }
 
+    /// What the model's loads, and those of each of its cases, do: the states of [`Configuration::solve`].
+    pub(crate) fn states(&self) -> Result<Vec<State>, SolveError> {
+        let plan = self.plan()?;
+        let acting = Acting::of_model(&self.posture())?;
+        Ok(self.solve_all(plan, &acting, Asked::States)?.states)
+    }
+
     /// What each of these sets of loads alone does: without the model's loads, weight and
     /// temperatures. The factorization of a solve serves them too.
     ///

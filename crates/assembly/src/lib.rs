@@ -29,10 +29,11 @@ mod solve;
 mod state;
 
 pub use answer::curve::segment_displacement;
+pub use answer::mass::moving_mass;
 pub use answer::measures;
 pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
-pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations};
+pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations, worst_stress};
 pub use configuration::Configuration;
 pub use error::SolveError;
 pub use hyperstat_model::{

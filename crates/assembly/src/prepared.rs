@@ -3,7 +3,7 @@
 use hyperstat_model::{Geometry, LANES, ModalOptions, Model};
 
 use crate::answer::pose_result::PoseResult;
-use crate::answer::solution::Solution;
+use crate::answer::solution::{Solution, State};
 use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
@@ -207,6 +207,28 @@ impl Prepared {
     /// As [`Prepared::sweep`].
     pub fn sweep_single(&self, single: &mut Single) -> Result<PoseResult, SolveError> {
         self.plan()?.sweep_single(&self.model, single)
+    }
+
+    /// What the model's loads, and then those of each of its cases, do at a pose of [`Lanes::geometry_mut`]:
+    /// the states that [`Configuration::solve`] finds there, by the numeric pass and its recovery alone where
+    /// nothing moves without energy. `lanes` are of this mechanism.
+    ///
+    /// # Errors
+    /// As [`Configuration::solve`].
+    pub fn states(&self, lanes: &mut Lanes, pose: usize) -> Result<Vec<State>, SolveError> {
+        let plan = self.plan()?;
+        match lanes.states(plan, &self.model, pose)? {
+            Some(states) => Ok(states),
+            None => self.at(lanes.geometry_mut(pose))?.states(),
+        }
+    }
+
+    /// The same at the pose of [`Single::geometry_mut`].
+    ///
+    /// # Errors
+    /// As [`Prepared::states`].
+    pub fn states_single(&self, single: &mut Single) -> Result<Vec<State>, SolveError> {
+        self.states(single.lanes_mut(), 0)
     }
 
     /// The mechanism made ready for natural frequencies.

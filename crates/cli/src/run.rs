@@ -125,7 +125,7 @@ fn run_job(
     let file = AtomicFile::create(&path).map_err(cannot_write)?;
     let mut table = TableWriter::new(file, format, &Columns::of(job)).map_err(cannot_write)?;
     let mut summary = Summary::new(job, 0);
-    let mut statistics = Statistics::default();
+    let mut statistics = Statistics::of(job);
     let mut trajectory = figure::Trajectory::wanted_by(job);
     let mut watch = Watch::new(job);
     let render = |chunk: &mut Chunk| {
@@ -152,6 +152,11 @@ fn run_job(
                     statistics.add(row, &chunk.records[k].pose, values);
                 }
             }
+            if args.summary {
+                for (row, record) in chunk.rows.clone().zip(&chunk.records) {
+                    statistics.add_asked(row, record);
+                }
+            }
             if let Some(trajectory) = &mut trajectory {
                 trajectory.add(chunk.rows.start, &chunk.records);
             }
@@ -164,7 +169,7 @@ fn run_job(
     let mut outcome = Outcome::new(summary);
     outcome.files.push(path.clone());
     outcome.warnings = watch.warnings(job);
-    if let Some(found) = args.summary.then(|| statistics.report()).flatten() {
+    if let Some(found) = args.summary.then(|| statistics.report_of(job)).flatten() {
         let path = summary_path(job, args);
         outputs::write(&path, json(&found)?.as_bytes())?;
         outcome.files.push(path);

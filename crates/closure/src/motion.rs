@@ -46,8 +46,7 @@ impl JointMotion {
         let geometry = model.geometry();
         let free = connection.released();
         let basis = connection.joint.basis();
-        let held = connection.locked.union(connection.elastic());
-        let drives = connection.joint.free().intersection(held);
+        let drives = connection.drives();
         let turns = DofSet::new(&[Dof::U, Dof::V, Dof::W]);
         let ball = free.intersection(turns) == turns
             && drives.intersection(turns).is_empty()

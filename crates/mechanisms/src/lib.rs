@@ -33,6 +33,7 @@ pub use file::mechanism::Mechanism;
 pub use file::registry::{Argument, Arguments, Orientation, ParsedJoint, Registry};
 pub use hyperstat_closure::{Drive, LoopClosure, Reached, Target, Work};
 pub use job::batch::{Batch, Job};
+pub use job::columns::Column;
 pub use job::commanded::Commanded;
 pub use job::design::Design;
 pub use job::figures::{Along, ColorScale, Figure, Scale};

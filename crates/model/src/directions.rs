@@ -37,6 +37,13 @@ impl Connection {
     pub fn elastic(&self) -> DofSet {
         Elasticity::of(self).elastic
     }
+
+    /// The drives: directions that are free by the joint's kind, and locked or elastic.
+    pub fn drives(&self) -> DofSet {
+        self.joint
+            .free()
+            .intersection(self.locked.union(self.elastic()))
+    }
 }
 
 impl Directions {

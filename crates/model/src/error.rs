@@ -21,6 +21,12 @@ pub enum ModelError {
         /// Name of the point.
         point: String,
     },
+    /// A point that is added to a body that is not rigid.
+    #[error("body `{body}` is not rigid: no point can be added to it")]
+    NotRigid {
+        /// Name of the body.
+        body: String,
+    },
     /// Two bodies, or two joints, of one name.
     #[error("the name `{name}` is used twice")]
     RepeatedName {

@@ -10,6 +10,7 @@ pub(crate) mod values;
 use std::collections::{HashMap, HashSet};
 
 use hyperstat_elements::{FlexibleBody, Material, RigidMass, Section, element_frame};
+use hyperstat_joints::Dof;
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 
 use crate::error::ModelError;
@@ -259,6 +260,47 @@ impl Model {
         Ok(body)
     }
 
+    /// Adds a point to a rigid body, at this position (m). Its node is the last of the model.
+    ///
+    /// # Errors
+    /// A body that is not one of this model or not rigid, a point that it has already, a position that is
+    /// not finite.
+    pub fn add_point(
+        &mut self,
+        body: BodyId,
+        point: &str,
+        position: Point3<f64>,
+    ) -> Result<NodeId, ModelError> {
+        self.check_body(body)?;
+        let own = &self.bodies[body.0];
+        let name = || own.name.clone();
+        if own.kind != BodyKind::Rigid {
+            return Err(ModelError::NotRigid { body: name() });
+        }
+        if self.node_of(body, point).is_some() {
+            let point = point.into();
+            return Err(ModelError::RepeatedPoint {
+                body: name(),
+                point,
+            });
+        }
+        if !position.coords.iter().all(|c| c.is_finite()) {
+            return Err(ModelError::NotFinite { what: "a position" });
+        }
+        self.revision = fresh_revision();
+        let node = NodeId(self.nodes.len());
+        self.nodes.push(Node {
+            body,
+            point: point.into(),
+        });
+        self.geometry.positions.push(position);
+        self.bodies[body.0].nodes.push(node);
+        let sorted = &mut self.by_point[body.0];
+        let place = sorted.partition_point(|own| &*self.nodes[own.0].point < point);
+        sorted.insert(place, node);
+        Ok(node)
+    }
+
     /// Adds a joint whose frame (columns x, y, z in global axes) is `frame`.
     ///
     /// # Errors
@@ -454,6 +496,12 @@ impl Model {
     /// All joints.
     pub fn joints(&self) -> &[Connection] {
         &self.joints
+    }
+
+    /// The drives of all joints, in their order ([`Connection::drives`]).
+    pub fn drives(&self) -> impl Iterator<Item = (JointId, Dof)> {
+        let joints = self.joints.iter().enumerate();
+        joints.flat_map(|(k, joint)| joint.drives().iter().map(move |dof| (JointId(k), dof)))
     }
     /// The loads on nodes.
     pub fn loads(&self) -> &[Load] {

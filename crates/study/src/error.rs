@@ -82,6 +82,14 @@ pub enum StudyError {
         /// Names of its cases.
         known: Vec<String>,
     },
+    /// Two columns of a table that would have one name.
+    #[error("the table would have two columns `{name}`")]
+    SameColumn {
+        /// Where one of them is asked for.
+        location: Box<Location>,
+        /// The name.
+        name: String,
+    },
     /// A pose that the mechanism cannot take.
     #[error("job `{job}`, pose {pose}: {source}")]
     Pose {
@@ -177,6 +185,7 @@ impl StudyError {
             Self::JobMap { location, .. } => Some(location),
             Self::NoSuchPose { location, .. }
             | Self::NoSuchDesign { location, .. }
+            | Self::SameColumn { location, .. }
             | Self::Pose { location, .. }
             | Self::Unsolvable { location, .. }
             | Self::FreeOutput { location, .. }
@@ -195,6 +204,7 @@ impl StudyError {
             Self::NoSuchPose { .. } => "unknown-pose",
             Self::NoSuchDesign { .. } => "unknown-design",
             Self::UnknownCase { .. } => "unknown-case",
+            Self::SameColumn { .. } => "same-column",
             Self::Pose { source, .. } => match **source {
                 PoseError::Unreachable { .. } => "unreachable",
                 PoseError::Singular { .. } => "singular",
@@ -237,6 +247,11 @@ impl StudyError {
                 [] => "it has no cases: leave the case out".into(),
                 known => format!("its cases are {}", known.join(", ")),
             }),
+            Self::SameColumn { .. } => Some(
+                "rename the parameter, case, body or joint that has it, or name a varied parameter \
+                 `parameters.…`; or leave the columns out"
+                    .into(),
+            ),
             Self::NoSuchPose { count: 1, .. } => Some("leave the pose out".into()),
             Self::NoSuchPose { count, .. } => Some(format!(
                 "choose a pose from 0 to {}",

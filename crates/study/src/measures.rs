@@ -41,6 +41,21 @@ pub(crate) enum Rule {
     Work,
 }
 
+impl Rule {
+    /// Whether it is of the displacement, which every case has its own of.
+    pub(crate) fn is_of_loads(self) -> bool {
+        matches!(self, Self::Length(_))
+    }
+
+    /// The measure, where it needs nothing but the displacement.
+    pub(crate) fn of_displacement(self, displacement: &Vector6<f64>) -> Option<f64> {
+        match self {
+            Self::Length(block) => Some(displacement.fixed_rows::<3>(block).norm()),
+            _ => None,
+        }
+    }
+}
+
 /// What measures are found from; what several of them share is worked out once.
 #[derive(Debug)]
 pub(crate) struct Pose {
@@ -86,7 +101,7 @@ impl Pose {
     /// A measure of it, under a displacement; `None` where it has none.
     pub(crate) fn measure(&self, rule: Rule, displacement: &Vector6<f64>) -> Option<f64> {
         let found = match rule {
-            Rule::Length(block) => displacement.fixed_rows::<3>(block).norm(),
+            Rule::Length(_) => rule.of_displacement(displacement)?,
             Rule::Compliance(place) => self.compliance()?[(place, place)],
             Rule::InverseCompliance(place) => 1.0 / self.compliance()?[(place, place)],
             Rule::Softest(block) => self.eigenvalues(self.compliance()?, block, 0)[2],

@@ -1,6 +1,13 @@
 //! The table's one schema: names of its columns, in their order, with units and in words.
 
+mod asked;
+
 use hyperstat_mechanisms::{Job, Varied};
+
+use asked::AT;
+#[cfg(feature = "figures")]
+pub(crate) use asked::asking_for;
+pub(crate) use asked::{DEFORMATIONS, Group, Worst, drives};
 
 /// Name of the column with the number of the pose, from 0.
 pub(crate) const POSE: &str = "pose";
@@ -26,8 +33,10 @@ pub(crate) const DESIGN: &str = "design";
 /// The columns of a job's table that not every job has.
 #[derive(Debug, Default)]
 pub struct Columns<'a> {
-    /// Names of numbers found, after the stiffness.
+    /// Names of what is found beside these, after the stiffness.
     pub further: Vec<String>,
+    /// How many of them, the last, the job has asked for.
+    pub asked: usize,
     /// The drives whose values the poses are, after these.
     pub drives: &'a [String],
     /// What varies from design to design, last.
@@ -38,11 +47,15 @@ impl<'a> Columns<'a> {
     /// Those of a job.
     pub fn of(job: &'a Job) -> Self {
         let cases = job.cases().iter();
+        let cases = cases.flat_map(|case| DISPLACEMENT.map(|part| format!("{case}.{part}")));
+        let count = job.modes.as_ref().map_or(0, |options| options.count);
+        let mut further: Vec<String> = cases.chain(frequencies(count)).collect();
+        let known = further.len();
+        let groups = Group::all(job);
+        further.extend(groups.iter().flat_map(|group| group.names(job.cases())));
         Self {
-            further: cases
-                .flat_map(|case| DISPLACEMENT.map(|component| format!("{case}.{component}")))
-                .chain(frequencies(job))
-                .collect(),
+            asked: further.len() - known,
+            further,
             drives: job.drives(),
             varied: job.varied(),
         }
@@ -50,8 +63,7 @@ impl<'a> Columns<'a> {
 }
 
 /// Names of the columns of natural frequencies.
-fn frequencies(job: &Job) -> impl Iterator<Item = String> {
-    let count = job.modes.as_ref().map_or(0, |options| options.count);
+fn frequencies(count: usize) -> impl Iterator<Item = String> {
     (1..=count).map(|k| format!("f{k}"))
 }
 
@@ -74,9 +86,19 @@ pub fn columns(columns: &Columns<'_>) -> impl Iterator<Item = String> {
 pub fn numeric(of: &Columns<'_>) -> Vec<String> {
     let is_text = |name: &String| {
         let mut varied = of.varied.iter();
-        name == STATUS || varied.any(|varied| varied.path == *name && !varied.numeric)
+        name == STATUS
+            || of.further.contains(name) && holds_words(name)
+            || varied.any(|varied| varied.path == *name && !varied.numeric)
     };
     columns(of).filter(|name| !is_text(name)).collect()
+}
+
+/// Whether what is found of a pose by this name is a text.
+pub(crate) fn holds_words(name: &str) -> bool {
+    let last = name.rsplit('.').next().unwrap_or(name);
+    [Worst::Stress, Worst::Utilisation]
+        .iter()
+        .any(|worst| last.strip_prefix(worst.name()) == Some(AT[0]))
 }
 
 /// Row and column, from 1, of a stiffness column `k11` to `k66`.
@@ -100,6 +122,9 @@ pub fn unit(name: &str) -> &'static str {
             (true, false) => "N",
             (true, true) => "N·m/rad",
         };
+    }
+    if let Some(unit) = asked::unit(name) {
+        return unit;
     }
     let last = name.rsplit('.').next().unwrap_or(name);
     let stiffness = name.contains("stiffness");
@@ -141,6 +166,9 @@ pub fn words(name: &str) -> String {
         let force = of(row, ["force along", "moment about"]);
         let motion = of(column, ["displacement along", "rotation about"]);
         return format!("{force} per {motion}, all other displacements zero");
+    }
+    if let Some(words) = asked::words(name) {
+        return words;
     }
     let (case, last) = match name.rsplit_once('.') {
         Some((case, last)) => (format!(", case {case}"), last),

@@ -352,7 +352,15 @@ impl Study {
     pub(crate) fn modes_of_job(&self) -> Option<&ModalOptions> {
         match &self.origin {
             Origin::Mechanism(_) => None,
-            Origin::Job { job, .. } => job.modes.as_ref(),
+            Origin::Job { job, .. } => job.frequencies(),
+        }
+    }
+
+    /// The job that it is a pose of.
+    pub(crate) fn whole_job(&self) -> Option<&Job> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, .. } => Some(job),
         }
     }
 

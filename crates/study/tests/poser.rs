@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hyperstat_study::sweep::{Poser, Record, Sweep, Way};
+use hyperstat_study::sweep::{Cell, Poser, Record, Sweep, Way};
 use hyperstat_study::{Disk, Input, Job, Registry, Selection, Study, Target};
 
 /// The jobs of a batch file of `examples`.
@@ -25,7 +25,7 @@ fn bits(record: &Record) -> (String, Vec<u64>) {
     let mut numbers: Vec<f64> = pose.collect();
     if let Ok(found) = &record.result {
         numbers.extend(found.stiffness.iter().chain(found.displacement.iter()));
-        numbers.extend(found.further.iter().flatten());
+        numbers.extend(found.further.iter().filter_map(Cell::number));
     }
     let bits = numbers.into_iter().map(f64::to_bits).collect();
     (record.status().into(), bits)

@@ -1,9 +1,9 @@
 //! The worst point of a body: where along its segments and where in their sections the stress is
 //! largest.
 
-use hyperstat_elements::stress::{normal_stress, stress_along, stress_parts};
+use hyperstat_elements::stress::{BeamStress, normal_stress, stress_along, stress_parts};
 use hyperstat_elements::{SectionStrain, Taper};
-use hyperstat_model::{BodyId, Model, SegmentId, segment_beam};
+use hyperstat_model::{BodyId, Model, Segment, SegmentId, segment_beam};
 use nalgebra::Vector6;
 
 use super::solution::{SegmentForces, Solution, State};
@@ -68,13 +68,20 @@ fn worst_of_body(model: &Model, body: BodyId, forces: &[SegmentForces]) -> Optio
         .reduce(|a, b| if measure(&b) > measure(&a) { b } else { a })
 }
 
+/// The largest stresses along a segment under these forces, each with its place; `None` where its section has
+/// no stresses.
+pub fn worst_stress(segment: &Segment, forces: &SegmentForces) -> Option<BeamStress> {
+    let taper = (segment.change_of_section().ok()?)
+        .unwrap_or_else(|| Taper::constant(segment.section.clone()));
+    stress_along(&taper, forces.length, &forces.ends[1], &forces.load)
+}
+
 /// The worst point of a segment.
 fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<WorstPoint> {
     let segment = &model.segments()[id.0];
-    let load = forces.load;
     let taper = (segment.change_of_section().ok()?)
         .unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    let peak = stress_along(&taper, forces.length, &forces.ends[1], &load)?.von_mises;
+    let peak = worst_stress(segment, forces)?.von_mises;
     let section_wrench = section_wrench(model, id, forces, peak.xi)?;
     let section_strain = section_strain(model, id, forces, peak.xi)?;
     let section = if taper.is_constant() {

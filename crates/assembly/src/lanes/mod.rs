@@ -23,6 +23,7 @@ use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::answer::pose_result::PoseResult;
+use crate::answer::solution::State;
 use crate::error::SolveError;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
@@ -174,6 +175,16 @@ impl Lanes {
     /// The configurations of all poses, to be changed.
     pub fn geometries_mut(&mut self) -> &mut [Geometry; LANES] {
         &mut self.geometries
+    }
+
+    /// What acts on a model does at a pose, by the numeric pass, as [`Plan::states`] has it.
+    pub(crate) fn states(
+        &mut self,
+        plan: &Plan,
+        model: &Model,
+        pose: usize,
+    ) -> Result<Option<Vec<State>>, SolveError> {
+        plan.states(model, &self.geometries[pose], &mut self.workspace)
     }
 
     /// Whether the mechanism goes through the lanes at all.

@@ -58,6 +58,10 @@ impl Single {
         self.lanes.geometry_mut(0)
     }
 
+    pub(crate) fn lanes_mut(&mut self) -> &mut Lanes {
+        &mut self.lanes
+    }
+
     /// Whether the mechanism goes through the lanes' pass at all.
     pub fn is_parallel(&self) -> bool {
         self.lanes.is_parallel()

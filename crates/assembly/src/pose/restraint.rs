@@ -37,6 +37,16 @@ pub(crate) struct Restraint {
 }
 
 impl Restraint {
+    /// That of a mechanism of this size \[m\] in which nothing moves without energy.
+    pub fn none(size: f64) -> Self {
+        Self {
+            idle: Vec::new(),
+            moving: Vec::new(),
+            free_twists: Vec::new(),
+            size,
+        }
+    }
+
     /// That of a configuration which nothing else is asked of.
     ///
     /// # Errors

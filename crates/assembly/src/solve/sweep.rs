@@ -3,17 +3,20 @@
 use hyperstat_model::{Geometry, Model};
 
 use super::output::inverse;
-use super::settled;
+use super::{ROUNDING, settled};
 use crate::answer::pose_result::PoseResult;
+use crate::answer::solution::State;
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::Plan;
 use crate::plan::fault::Fault;
 use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::evaluate;
+use crate::pose::recover::recover;
 use crate::pose::restraint::{Restraint, SUSPICIOUS_PIVOT, is_nearly_free};
 use crate::posture::Posture;
 use crate::state::acting::Acting;
+use crate::state::floor::Floor;
 
 /// A sweep stops refining at a correction this small: the next would be of its square.
 const ENOUGH_IN_SWEEP: f64 = 1e-8;
@@ -48,6 +51,52 @@ impl Plan {
             true => Ok(result),
             false => Err(SolveError::Overflow),
         }
+    }
+
+    /// What the model's loads, and those of each of its cases, do at one pose: what
+    /// [`solve`](crate::solve) finds. `None` where it has to be looked at first what moves without energy.
+    ///
+    /// # Errors
+    /// As [`Plan::sweep`].
+    pub(crate) fn states(
+        &self,
+        model: &Model,
+        geometry: &Geometry,
+        workspace: &mut Workspace,
+    ) -> Result<Option<Vec<State>>, SolveError> {
+        self.check(model, geometry, workspace)?;
+        if self.has_idle || !self.output_is_independent() {
+            return Ok(None);
+        }
+        let at = Posture::new(model, geometry);
+        let acting = Acting::of_model(&at)?;
+        match evaluate(self, &at, &acting, workspace) {
+            Ok(()) => {}
+            Err(Fault::Error(error)) => return Err(error),
+            Err(Fault::Changed) => return Ok(None),
+        }
+        if self.condense(workspace, &[], ROUNDING).is_err() {
+            return Ok(None);
+        }
+        let stiffness = self.stiffness_by_energy(workspace);
+        let loose = is_nearly_free(&stiffness, at.size) || self.is_faint(workspace, &stiffness);
+        if loose || inverse(&stiffness, SUSPICIOUS_PIVOT).is_none() {
+            return Ok(None);
+        }
+        let at_rest = Floor::at_rest(&at);
+        let floors: Vec<Floor> = acting.iter().map(|a| at_rest.under(&at, a)).collect();
+        let works: Vec<f64> = floors.iter().map(Floor::least_work).collect();
+        let restraint = Restraint::none(at.size);
+        let (_, displacements, ..) = self.output(geometry, workspace, &[], &restraint, &works)?;
+        let sets = acting.iter().zip(&floors).zip(displacements).enumerate();
+        let states = sets.map(|(set, (acting, displacement))| {
+            let state = recover(self, &at, workspace, set, acting, displacement)?.state;
+            match state.is_finite() {
+                true => Ok(state),
+                false => Err(SolveError::Overflow),
+            }
+        });
+        states.collect::<Result<_, _>>().map(Some)
     }
 
     fn sweep_pose(

@@ -36,6 +36,8 @@ pub struct Lanes {
     bodies: Vec<IsometryMatrix3<f64>>,
     values: Vec<f64>,
     room: Room,
+    /// Values of the drives at the targets of the last call, where they are kept.
+    drives: Option<[Vec<f64>; LANES]>,
     one_by_one: u64,
 }
 
@@ -73,8 +75,21 @@ impl Lanes {
             bodies: Vec::new(),
             values: Vec::new(),
             room: Room::default(),
+            drives: None,
             one_by_one: 0,
         }
+    }
+
+    /// Keeps the values of the drives from now on.
+    pub fn keep_drives(&mut self) {
+        self.drives.get_or_insert_default();
+    }
+
+    /// Values of the drives relative to home (m, rad), in the order of [`LoopClosure::drives`], at a target
+    /// of the last call by its place; none where they are not kept, or the target was not reached.
+    pub fn drives(&self, place: usize) -> &[f64] {
+        let kept = self.drives.as_ref().and_then(|kept| kept.get(place));
+        kept.map_or(&[], |values| values)
     }
 
     /// Poses so far that went one by one.
@@ -100,6 +115,9 @@ impl LoopClosure {
         if lanes.linkage != Some(self.system.linkage.id) {
             lanes.linkage = Some(self.system.linkage.id);
             lanes.kinds.clear();
+        }
+        for kept in lanes.drives.iter_mut().flatten() {
+            kept.clear();
         }
         let mut results = [const { None }; LANES];
         let mut goals = [const { None }; LANES];
@@ -130,7 +148,8 @@ impl LoopClosure {
                     self.take(kind, lane, target, geometry, lanes)
                 } else {
                     lanes.one_by_one += 1;
-                    self.place_one(target, geometry)
+                    let kept = lanes.drives.as_mut().map(|kept| &mut kept[lane]);
+                    self.place_one(target, geometry, kept)
                 });
                 goals[lane] = None;
             }
@@ -150,7 +169,7 @@ impl LoopClosure {
     ) -> Result<[f64; 6], ClosureError> {
         let alone = std::slice::from_mut(geometry);
         let [placed, ..] = self.place_lanes(&[*target], alone, lanes);
-        placed.unwrap_or_else(|| self.place_one(target, geometry))
+        placed.unwrap_or_else(|| self.place_one(target, geometry, None))
     }
 
     /// Writes what the lanes vouch for.
@@ -167,10 +186,15 @@ impl LoopClosure {
             bodies,
             values,
             room,
+            drives,
             ..
         } = lanes;
         let Some(follower) = &kinds[kind].1 else {
-            return self.place_one(target, geometry);
+            return self.place_one(
+                target,
+                geometry,
+                drives.as_mut().map(|kept| &mut kept[lane]),
+            );
         };
         let (size, numbers, program) = (self.system.size, follower.numbers(), &follower.program);
         let mut pose = numbers.output(program, lane);
@@ -190,17 +214,32 @@ impl LoopClosure {
         values.extend((0..program.columns).map(|column| follower.value(column, lane)));
         let linkage = &self.system.linkage;
         self.parts.write(linkage, bodies, values, room, geometry)?;
+        if let Some(kept) = drives {
+            self.keep(&mut kept[lane], |column| values[column]);
+        }
         Ok(pose)
     }
 
-    /// A target by itself.
+    /// Writes the values of the drives, of those of all columns.
+    fn keep(&self, kept: &mut Vec<f64>, value: impl Fn(usize) -> f64) {
+        let linkage = &self.system.linkage;
+        let columns = (self.drives()).filter_map(|(joint, dof)| linkage.column(joint.0, dof));
+        kept.clear();
+        kept.extend(columns.map(value));
+    }
+
+    /// A target by itself; `kept` is for the values of the drives.
     fn place_one(
         &self,
         target: &Target<'_>,
         geometry: &mut Geometry,
+        kept: Option<&mut Vec<f64>>,
     ) -> Result<[f64; 6], ClosureError> {
         let reached = self.reach(&self.home(), target)?;
         self.write(&reached, geometry)?;
+        if let Some(kept) = kept {
+            self.keep(kept, |column| reached.values[column]);
+        }
         self.pose(&reached)
     }
 }

@@ -19,13 +19,15 @@ use crate::text::scope::Scope;
 use crate::text::source::Place;
 use crate::text::tree::Node;
 
-/// The fields of a job that say what acts. Those of a file are the first four: what its joints have
-/// stands with each of them.
-pub(crate) const FIELDS: [&str; 6] = ["loads", "cases", "gravity", "masses", "misfits", "preloads"];
+/// The fields of a job that say what acts, and where the output is. Those of a file that say what acts are
+/// the first four: what its joints have stands with each of them.
+pub(crate) const FIELDS: [&str; 8] = [
+    "loads", "cases", "gravity", "masses", "misfits", "preloads", "output", "tool",
+];
 
 /// What stands in those fields, each if it is given.
 #[derive(Debug, Clone)]
-pub(crate) struct Acting([Option<Node>; 6]);
+pub(crate) struct Acting([Option<Node>; 8]);
 
 impl Acting {
     /// Finds the fields.
@@ -45,6 +47,22 @@ impl Acting {
         })))
     }
 
+    /// All fields, with their names.
+    pub(crate) fn fields(&self) -> impl Iterator<Item = (&Option<Node>, &'static str)> {
+        self.0.iter().zip(FIELDS)
+    }
+
+    /// The same with other values of what is given.
+    pub(crate) fn replaced(&self, values: impl Iterator<Item = Option<Node>>) -> Self {
+        let mut replaced = self.clone();
+        for (own, value) in replaced.0.iter_mut().zip(values) {
+            if own.is_some() && value.is_some() {
+                *own = value;
+            }
+        }
+        replaced
+    }
+
     /// What is given, by its field.
     pub(crate) fn given(&self) -> impl Iterator<Item = (&'static str, &Node)> {
         let given = FIELDS.iter().zip(&self.0);
@@ -58,6 +76,16 @@ impl Acting {
         };
         let entries = Fragment::of_node(cases).map()?;
         Ok(Some(entries.into_iter().map(|entry| entry.name).collect()))
+    }
+
+    /// The output that is named in place of the mechanism's own.
+    pub(crate) fn output(&self) -> Option<Fragment<'_>> {
+        self.0[6].as_ref().map(Fragment::of_node)
+    }
+
+    /// The tool, from the output.
+    pub(crate) fn tool(&self) -> Option<Fragment<'_>> {
+        self.0[7].as_ref().map(Fragment::of_node)
     }
 
     /// Whether nothing is given.

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hyperstat_closure::{LoopClosure, Reached, Target};
-use hyperstat_model::{BodyId, JointId, Model};
-use nalgebra::Point3;
+use hyperstat_model::{BodyId, JointId, Model, NodeId};
+use nalgebra::{Point3, Rotation3};
 
+use super::end::End;
 use super::groups::{self, Copies};
 use super::home::Home;
 use super::loads::Acting;
@@ -38,6 +39,8 @@ pub struct Mechanism {
     joints: Vec<Place>,
     loads: Vec<Place>,
     output: Place,
+    /// What its poses are of.
+    end: End,
     /// The file's value.
     root: Arc<Node>,
     /// What the segments are given by.
@@ -83,7 +86,8 @@ impl Mechanism {
             joints.push(entry.key.place());
         }
         let output = fields.required("output")?;
-        model.set_output(nodes::on(&model, output, "the output")?);
+        let own = nodes::on(&model, output, "the output")?;
+        model.set_output(own);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
         let mut used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
@@ -97,6 +101,7 @@ impl Mechanism {
             joints,
             loads,
             output: output.place(),
+            end: End::at(own),
             root: Arc::clone(&root),
             given,
             copies: written.copies,
@@ -106,12 +111,17 @@ impl Mechanism {
         })
     }
 
-    /// Puts what a job says of loads, cases, gravity, masses, misfits and preloads in place of the
-    /// mechanism's own.
+    /// Puts what a job says of loads, cases, gravity, masses, misfits, preloads and the output in place of
+    /// the mechanism's own.
     pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
         let values = acting.in_scope(&self.root)?;
+        let output = (self.end).read(&values, &mut self.model, &Rotation3::identity())?;
         if let Some(loads) = values.read(&mut self.model, &Home::Here)? {
             self.loads = loads;
+        }
+        if let Some(named) = values.output().or(values.tool()) {
+            self.model.set_output(output);
+            self.output = named.place();
         }
         self.acting = Some(acting.clone());
         Ok(())
@@ -170,28 +180,29 @@ impl Mechanism {
         &self,
         values: &[(P, V)],
     ) -> Result<Self, LoadError> {
-        let mut found: Vec<(&str, Steps, Node)> = Vec::with_capacity(values.len());
+        let mut found: Vec<(&str, Vec<Steps>, Node)> = Vec::with_capacity(values.len());
         for (path, value) in values {
             let path = path.as_ref();
             let name = Source::argument(path, format!("{path:?}"), None);
             let key = Place::whole(&name);
-            let steps = paths::find(&self.root, Fragment::at(&key))?;
-            let overlaps = |other: &&(&str, Steps, Node)| paths::overlap(&other.1, &steps);
+            let places = paths::find_all(&self.root, Fragment::at(&key))?;
+            let overlaps =
+                |other: &&(&str, Vec<Steps>, Node)| paths::any_overlap(&other.1, &places);
             if let Some((other, ..)) = found.iter().find(overlaps) {
                 return Err(paths::overlapping(other, Fragment::at(&key)));
             }
-            let old = self.root.find(&steps);
+            let old = places.first().and_then(|steps| self.root.find(steps));
             let value = value.clone().into().written(old);
             let value = Source::argument(path, value, Some(self.root.source()));
-            found.push((path, steps, Node::of(Fragment::of_file(&value)?)));
+            found.push((path, places, Node::of(Fragment::of_file(&value)?)));
         }
         let together = Source::argument("values", String::new(), None);
         let changed = Changed {
             root: &self.root,
             values: (found.iter())
-                .map(|(path, steps, value)| Replacement {
+                .map(|(path, places, value)| Replacement {
                     path,
-                    steps,
+                    places,
                     value: value.clone(),
                 })
                 .collect(),
@@ -221,7 +232,22 @@ impl Mechanism {
     /// A target that is out of reach, singular or reached in another assembly mode only; a mechanism that
     /// cannot be moved.
     pub fn place_at(&self, target: &Target<'_>) -> Result<Reached, PoseError> {
-        Ok(LoopClosure::new(&self.model)?.place_at(target)?)
+        Ok(self.loops()?.place_at(target)?)
+    }
+
+    /// Its loop closure, whose poses are those of its own output.
+    pub(crate) fn loops(&self) -> Result<LoopClosure, PoseError> {
+        if self.model.output() == Some(self.end.own) {
+            return Ok(LoopClosure::new(&self.model)?);
+        }
+        let mut model = self.model.clone();
+        model.set_output(self.end.own);
+        Ok(LoopClosure::new(&model)?)
+    }
+
+    /// Its own output, whatever a job names.
+    pub(crate) fn own_output(&self) -> NodeId {
+        self.end.own
     }
 
     /// The file's value.

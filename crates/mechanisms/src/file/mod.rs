@@ -2,6 +2,7 @@
 
 pub(crate) mod beams;
 pub(crate) mod bodies;
+pub(crate) mod end;
 pub(crate) mod flexible;
 pub(crate) mod groups;
 pub(crate) mod home;

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use hyperstat_model::{Geometry, ModalOptions, Model};
 
+use super::columns::{self, Column};
 use super::commanded::Commanded;
 use super::design::{Design, Designs};
 use super::figures::{Figure, Known};
@@ -45,6 +46,10 @@ pub struct Job {
     pub figures: Vec<Figure>,
     /// Natural frequencies to find at every pose.
     pub modes: Option<ModalOptions>,
+    /// Columns of its table that it asks for, in their order.
+    pub(super) columns: Vec<Column>,
+    /// Where each of them stands.
+    pub(super) column_places: Vec<Place>,
     /// Where each figure stands.
     pub(super) figure_places: Vec<Place>,
     /// What is written of it, by field.
@@ -156,8 +161,9 @@ impl Job {
         };
         let (figures, figure_places) = figures.into_iter().unzip();
         let modes = fields.get("modes").map(modes::read).transpose()?;
+        let has_modes = modes.is_some();
         let mut first_design = 0;
-        let designs = match Variation::read(fields, recipe.root(), poses.len())? {
+        let designs = match Variation::read(fields, &recipe, poses.len())? {
             Some(variation) => {
                 let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
@@ -165,8 +171,19 @@ impl Job {
             }
             None => None,
         };
+        let columns = match fields.get("columns") {
+            Some(list) => {
+                let model = first.model().ok();
+                let model = model.as_ref();
+                columns::read(list, &columns::Known { model, has_modes })?
+            }
+            None => Vec::new(),
+        };
+        let (columns, column_places) = columns.into_iter().unzip();
         Ok(Self {
             name,
+            columns,
+            column_places,
             figures,
             figure_places,
             modes,
@@ -203,6 +220,21 @@ impl Job {
     /// Names of its cases, in their order; the same in every design.
     pub fn cases(&self) -> &[String] {
         &self.cases
+    }
+
+    /// Columns of its table that it asks for, in their order.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Natural frequencies to find at every pose: those of its [`modes`](Self::modes), else those that
+    /// its columns ask for.
+    pub fn frequencies(&self) -> Option<&ModalOptions> {
+        let asked = self.columns.iter().find_map(|column| match column {
+            Column::Frequencies(options) => Some(options),
+            _ => None,
+        });
+        self.modes.as_ref().or(asked)
     }
 
     /// Names `joint.direction` of the drives whose values its poses are, in the order of their table;
@@ -292,6 +324,13 @@ impl Job {
     /// That of a map is the place of its quantity.
     pub fn figure_location(&self, number: usize) -> Location {
         let place = self.figure_places.get(number);
+        place.unwrap_or(&self.place).location()
+    }
+
+    /// Place in the batch file of a column that it asks for, by its number among them, from 0; the job's
+    /// where there is none.
+    pub fn column_location(&self, number: usize) -> Location {
+        let place = self.column_places.get(number);
         place.unwrap_or(&self.place).location()
     }
 

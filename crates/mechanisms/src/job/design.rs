@@ -175,19 +175,20 @@ impl Designs {
         places.iter().map(|own| Value::of(&own.value)).collect()
     }
 
-    /// The ways to what varies, in the mechanism's tree.
+    /// The ways to what varies of the mechanism, in its tree.
     pub(crate) fn steps(&self) -> Vec<Steps> {
-        self.variation.steps().cloned().collect()
+        let places = self.variation.places();
+        places.filter_map(Recipe::in_mechanism).collect()
     }
 
     /// The mechanism's tree in a design.
     pub(crate) fn tree(&self, number: usize, recipe: &Recipe) -> Node {
-        self.changed(number, recipe).tree()
+        recipe.root_of(&self.changed(number).tree())
     }
 
-    fn changed<'d>(&'d self, number: usize, recipe: &'d Recipe) -> Changed<'d> {
+    fn changed(&self, number: usize) -> Changed<'_> {
         Changed {
-            root: recipe.root(),
+            root: self.variation.whole(),
             values: self.variation.design(number),
             whole: self.variation.place.clone(),
         }
@@ -207,17 +208,17 @@ impl Designs {
     }
 
     fn read(&self, number: usize, recipe: &Recipe) -> Result<Checked, LoadError> {
-        let checked = recipe.read(&self.tree(number, recipe));
+        let checked = recipe.read_whole(&self.changed(number).tree());
         checked.map_err(|error| self.refused(number, recipe, error))
     }
 
     /// The loader's error about a design, at the value that is to blame.
     fn refused(&self, number: usize, recipe: &Recipe, error: LoadError) -> LoadError {
-        self.changed(number, recipe).refused(
+        self.changed(number).refused(
             error,
             &format!("design {number}"),
             |location| self.variation.holds(location),
-            |tree| recipe.read(tree).is_ok(),
+            |whole| recipe.read_whole(whole).is_ok(),
         )
     }
 }

@@ -14,7 +14,7 @@ use crate::text::scope::Scope;
 use crate::text::source::{Place, Source};
 use crate::text::tree::Node;
 use crate::text::value::Value;
-use crate::text::{csv, names, paths};
+use crate::text::{csv, names};
 
 /// The mechanism of a job that a program makes.
 #[derive(Debug, Clone)]
@@ -182,8 +182,8 @@ impl Job {
     }
 
     /// Sets a field of the job to what would stand there in a batch file: `loads`, `cases`, `gravity`,
-    /// `masses`, `misfits`, `preloads`, `modes`, `figures`, `vary`, `zip` or `parameters`. What it had there is replaced; an empty text takes it
-    /// away.
+    /// `masses`, `misfits`, `preloads`, `output`, `tool`, `modes`, `columns`, `figures`, `vary`, `zip` or `parameters`. What it had
+    /// there is replaced; an empty text takes it away.
     ///
     /// # Errors
     /// An unknown field, what is wrong with its value. The job is then as it was.
@@ -217,12 +217,12 @@ impl Job {
     /// # Errors
     /// A path that leads nowhere, no values, and what `vary` in a file refuses. The job is then as it was.
     pub fn set_vary(&mut self, vary: &[(&str, Vec<Value>)], zip: bool) -> Result<(), LoadError> {
-        let root = self.recipe.root();
+        let whole = self.recipe.whole();
         let axis = |(path, values): &(&str, Vec<Value>)| {
             let source = Source::argument("vary", format!("{path:?}"), None);
             let key = Place::whole(&source);
-            let steps = paths::find(root, Fragment::at(&key)).ok();
-            let old = steps.and_then(|steps| root.find(&steps));
+            let places = self.recipe.places(Fragment::at(&key)).unwrap_or_default();
+            let old = places.first().and_then(|steps| whole.find(steps));
             let values: Vec<String> = values.iter().map(|value| value.written(old)).collect();
             for value in &values {
                 // Each is one value, whatever stands in its text.

@@ -52,8 +52,8 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
     Ok(options)
 }
 
-/// A number of modes.
-fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
+/// Reads a number of modes.
+pub(super) fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
     let expected = "a number of natural frequencies from 1 to 1000, or `(count: 6, mass: Lumped)`";
     match fragment.count::<usize>(expected)? {
         count if (1..=MOST).contains(&count) => Ok(count),

@@ -3,15 +3,27 @@
 use std::ops::Range;
 
 use hyperstat_closure::{Lanes, LoopClosure, Target, Work};
-use hyperstat_model::{Geometry, LANES, Model};
+use hyperstat_model::{Geometry, LANES};
 
 use super::targets::{Asked, Targets};
-use crate::prebuilt::PoseError;
+use crate::file::mechanism::Mechanism;
+use crate::prebuilt::{Following, PoseError};
 
 /// What a thread keeps from pose to pose: room for numbers, no results.
 #[derive(Debug, Default)]
 pub struct Placing {
     lanes: Lanes,
+    /// Values of the drives in the poses of the last call, where they are kept.
+    drives: Option<Box<Kept>>,
+}
+
+/// Values of the drives.
+#[derive(Debug, Default)]
+struct Kept {
+    /// In every lane, where they are known.
+    values: [Option<Vec<f64>>; LANES],
+    /// Room for poses of prebuilt mechanisms.
+    room: Vec<Geometry>,
 }
 
 impl Placing {
@@ -20,6 +32,72 @@ impl Placing {
     pub fn new(run: fn(Work<'_>)) -> Self {
         Self {
             lanes: Lanes::new(run),
+            drives: None,
+        }
+    }
+
+    /// Keeps the values of the drives in the poses from now on.
+    pub fn keep_drives(&mut self) {
+        self.lanes.keep_drives();
+        self.drives.get_or_insert_default();
+    }
+
+    /// Values of the drives (m, rad) in a pose of the last call by its lane, in the order of
+    /// [`Model::drives`](hyperstat_model::Model::drives), relative to the configuration of [`Design::model`](crate::Design::model); `None`
+    /// where they are not kept, or not known.
+    pub fn drives(&self, lane: usize) -> Option<&[f64]> {
+        self.drives.as_ref()?.values.get(lane)?.as_deref()
+    }
+
+    /// Whether the values of the drives are kept.
+    pub(super) fn keeps_drives(&self) -> bool {
+        self.drives.is_some()
+    }
+
+    /// Forgets those of other poses.
+    pub(super) fn forget_drives(&mut self) {
+        self.keep(|_, _| None);
+    }
+
+    /// Keeps zeros, those of so many drives in the poses that are placed.
+    pub(super) fn keep_home(&mut self, placed: &Placed, count: usize) {
+        self.keep(|_, lane| matches!(placed[lane], Some(Ok(_))).then(|| vec![0.0; count]));
+    }
+
+    /// Keeps what loop closure has found in the poses that are placed.
+    pub(super) fn keep_found(&mut self, placed: &Placed) {
+        self.keep(|lanes, lane| {
+            let found = matches!(placed[lane], Some(Ok(_)));
+            found.then(|| lanes.drives(lane).to_vec())
+        });
+    }
+
+    /// Keeps what loop closure finds on the way to the poses that are placed.
+    pub(super) fn keep_followed(
+        &mut self,
+        placed: &Placed,
+        geometries: &[Geometry],
+        following: &Following,
+    ) {
+        let found = |lane: &usize| matches!(placed[*lane], Some(Ok(_)));
+        let reached: Vec<usize> = (0..geometries.len().min(LANES)).filter(found).collect();
+        let pose = |lane: &usize| match &placed[*lane] {
+            Some(Ok(pose)) => *pose,
+            _ => [0.0; 6],
+        };
+        let poses: Vec<_> = reached.iter().map(pose).collect();
+        let geometries: Vec<_> = reached.iter().map(|lane| &geometries[*lane]).collect();
+        let Some(kept) = &mut self.drives else { return };
+        let same = following.follow(&poses, &geometries, &mut self.lanes, &mut kept.room);
+        self.keep(|lanes, lane| {
+            let place = reached.iter().position(|own| *own == lane)?;
+            same[place].then(|| lanes.drives(place).to_vec())
+        });
+    }
+
+    fn keep(&mut self, values: impl Fn(&Lanes, usize) -> Option<Vec<f64>>) {
+        if let Some(kept) = &mut self.drives {
+            kept.values = std::array::from_fn(|lane| values(&self.lanes, lane));
         }
     }
 
@@ -28,6 +106,9 @@ impl Placing {
         self.lanes.one_by_one()
     }
 }
+
+/// The output's whole poses, or why they are not reached.
+pub(super) type Placed = [Option<Result<[f64; 6], PoseError>>; LANES];
 
 /// A mechanism that is moved from pose to pose.
 ///
@@ -39,9 +120,9 @@ pub(crate) struct Mover {
 }
 
 impl Mover {
-    pub(crate) fn new(model: &Model) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism) -> Self {
         Self {
-            closure: LoopClosure::new(model).map_err(PoseError::from),
+            closure: mechanism.loops(),
         }
     }
 

@@ -1,29 +1,26 @@
 //! What a job is about: a mechanism of a file or a prebuilt one, with the job's loads.
 
-use std::ops::Range;
 use std::sync::OnceLock;
 
-use hyperstat_closure::Target;
-use hyperstat_model::{Geometry, LANES, Model, NodeId, ValuePlace};
-use nalgebra::{Rotation3, Vector3};
+use hyperstat_model::{Model, ValuePlace};
 
-use super::mover::{Mover, Placing};
+use super::mover::Mover;
 use super::poses::Poses;
 use super::targets::{Asked, Targets};
+use super::template::{Template, given, template};
 use crate::error::LoadError;
-use crate::file::home::Home;
 use crate::file::include;
 use crate::file::loads::Acting;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::{PrebuiltKind, Registry};
-use crate::prebuilt::{PoseCoordinate, PoseError, Prebuilt};
+use crate::prebuilt::{Following, PoseCoordinate, PoseError, Prebuilt};
 use crate::text::columns::Given;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::scope::Scope;
 use crate::text::source::Place;
 use crate::text::tree::Node;
-use crate::text::{csv, named, names};
+use crate::text::{named, names};
 
 /// Where a job's mechanism and loads are written, and how they are read.
 #[derive(Debug, Clone)]
@@ -63,14 +60,9 @@ pub(crate) enum Subject {
         mechanism: Box<dyn Prebuilt>,
         /// The model with its loads in a pose that can be reached.
         template: Result<Box<Template>, PoseError>,
+        /// Made for the first pose whose drives are asked for; none where loop closure cannot follow.
+        following: OnceLock<Option<Box<Following>>>,
     },
-}
-
-/// A model in a pose that can be reached.
-#[derive(Debug)]
-pub(crate) struct Template {
-    model: Model,
-    pose: [f64; 6],
 }
 
 impl Recipe {
@@ -145,16 +137,21 @@ impl Recipe {
 
     /// Reads and checks the mechanism: [`Recipe::root`], or that with other values in some places.
     pub(crate) fn read(&self, root: &Node) -> Result<Checked, LoadError> {
+        self.read_under(root, &self.acting)
+    }
+
+    /// The same with what acts.
+    pub(super) fn read_under(&self, root: &Node, acting: &Acting) -> Result<Checked, LoadError> {
         match &self.kind {
             None => {
                 let mut mechanism = Mechanism::read(root.clone(), &self.registry)?;
-                mechanism.replace(&self.acting)?;
+                mechanism.replace(acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
             Some(kind) => {
                 let tree = Scope::tree(root)?;
                 let mechanism = kind.read(Fragment::of_node(&tree))?;
-                let acting = Box::new(self.acting.in_scope(root)?);
+                let acting = Box::new(acting.in_scope(root)?);
                 Ok(Checked::Prebuilt(mechanism, acting))
             }
         }
@@ -171,29 +168,18 @@ impl Recipe {
         match checked {
             Checked::File(mechanism) => Ok(Subject::of(mechanism)),
             Checked::Prebuilt(mechanism, acting) => {
+                let similar = similar.and_then(Subject::template_pose);
                 let mut template = template(mechanism.as_ref(), poses, similar);
                 if let Ok(template) = &mut template {
-                    let home = Home::Output(template.turned(mechanism.as_ref()));
-                    acting.read(&mut template.model, &home)?;
+                    template.act(&acting)?;
                 }
                 Ok(Subject::Prebuilt {
                     mechanism,
                     template,
+                    following: OnceLock::new(),
                 })
             }
         }
-    }
-}
-
-impl Template {
-    /// The rotation of the output from its home orientation.
-    fn turned(&self, mechanism: &dyn Prebuilt) -> Rotation3<f64> {
-        let (target, count) = given(mechanism, &self.pose);
-        let mut geometry = self.model.geometry().clone();
-        // It has been reached before.
-        let pose = mechanism.place(&target[..count], &mut geometry);
-        let [.., x, y, z] = pose.unwrap_or(self.pose);
-        Rotation3::new(Vector3::new(x, y, z))
     }
 }
 
@@ -271,6 +257,17 @@ impl Subject {
         }
     }
 
+    /// The pose of a prebuilt mechanism's model.
+    fn template_pose(&self) -> Option<[f64; 6]> {
+        match self {
+            Self::Prebuilt {
+                template: Ok(template),
+                ..
+            } => Some(template.pose),
+            _ => None,
+        }
+    }
+
     /// The model in a pose that can be reached.
     pub(crate) fn model(&self) -> Result<Model, PoseError> {
         match self {
@@ -288,6 +285,7 @@ impl Subject {
         let Self::Prebuilt {
             mechanism,
             template: Ok(template),
+            ..
         } = self
         else {
             return Vec::new();
@@ -319,84 +317,6 @@ impl Subject {
         }
     }
 
-    /// Brings a geometry of its model to pose `number` (from 0); returns the whole pose.
-    pub(crate) fn place(
-        &self,
-        poses: &Poses,
-        number: usize,
-        geometry: &mut Geometry,
-    ) -> Result<[f64; 6], PoseError> {
-        match self {
-            Self::File { mechanism, mover } => {
-                if let Poses::Asked(targets) = poses {
-                    return moved(mechanism, mover).place(targets, number, geometry);
-                }
-                let model = &mechanism.model;
-                let own = model.geometry();
-                geometry.positions.clone_from(&own.positions);
-                geometry.y_axes.clone_from(&own.y_axes);
-                geometry.frames.clone_from(&own.frames);
-                geometry.rotations.clone_from(&own.rotations);
-                Ok(own_pose(model))
-            }
-            Self::Prebuilt { mechanism, .. } => {
-                let (target, count) = given(mechanism.as_ref(), &poses.get(number));
-                mechanism.place(&target[..count], geometry)
-            }
-        }
-    }
-
-    /// The same for several geometries, each with a pose of its own.
-    pub(crate) fn place_lanes(
-        &self,
-        poses: &Poses,
-        range: Range<usize>,
-        geometries: &mut [Geometry],
-        placing: &mut Placing,
-    ) -> [Option<Result<[f64; 6], PoseError>>; LANES] {
-        match self {
-            Self::File { mechanism, mover } => {
-                if let Poses::Asked(targets) = poses {
-                    let mover = moved(mechanism, mover);
-                    return mover.place_lanes(targets, range, geometries, placing);
-                }
-                let mut placed = [const { None }; LANES];
-                for (lane, pose) in range.enumerate() {
-                    placed[lane] = Some(self.place(poses, pose, &mut geometries[lane]));
-                }
-                placed
-            }
-            Self::Prebuilt { mechanism, .. } => {
-                let mut targets = [[0.0; 6]; LANES];
-                for (target, pose) in targets.iter_mut().zip(range.clone()) {
-                    *target = given(mechanism.as_ref(), &poses.get(pose)).0;
-                }
-                mechanism.place_lanes(&targets[..range.len()], geometries)
-            }
-        }
-    }
-
-    /// Brings a geometry of its model to a target; returns the whole pose.
-    pub(crate) fn bring(
-        &self,
-        target: &Target<'_>,
-        geometry: &mut Geometry,
-        placing: &mut Placing,
-    ) -> Result<[f64; 6], PoseError> {
-        match (self, target) {
-            (Self::File { mechanism, mover }, _) => {
-                moved(mechanism, mover).bring(target, geometry, placing)
-            }
-            (Self::Prebuilt { mechanism, .. }, Target::Output(asked)) => {
-                let (target, count) = followed(mechanism.as_ref(), asked)?;
-                mechanism.place(&target[..count], geometry)
-            }
-            (Self::Prebuilt { mechanism, .. }, Target::Drives(_)) => Err(PoseError::Drives {
-                kind: mechanism.kind().into(),
-            }),
-        }
-    }
-
     /// The coordinates that a prebuilt mechanism takes; none of a file.
     pub(crate) fn coordinates(&self) -> &[PoseCoordinate] {
         match self {
@@ -412,95 +332,4 @@ impl Subject {
             Self::Prebuilt { .. } => None,
         }
     }
-}
-
-/// The output's pose in a model's own configuration.
-fn own_pose(model: &Model) -> [f64; 6] {
-    let position = |node: NodeId| model.geometry().positions[node.0];
-    let [x, y, z] = model.output().map(position).unwrap_or_default().into();
-    [x, y, z, 0.0, 0.0, 0.0]
-}
-
-/// What moves a mechanism of a file.
-fn moved<'m>(mechanism: &Mechanism, mover: &'m OnceLock<Box<Mover>>) -> &'m Mover {
-    mover.get_or_init(|| Box::new(Mover::new(&mechanism.model)))
-}
-
-/// Of what is asked of the output the coordinates that `mechanism` is given, first, and their number:
-/// all that it takes, and zeros alone of the others, as in a table of poses.
-fn followed(
-    mechanism: &dyn Prebuilt,
-    asked: &[Option<f64>; 6],
-) -> Result<([f64; 6], usize), PoseError> {
-    let coordinates = mechanism.coordinates();
-    let asks = |coordinate: &&PoseCoordinate| asked[coordinate.index()].is_some();
-    let found = coordinates.iter().filter(asks).count();
-    if found < coordinates.len() {
-        return Err(PoseError::Coordinates {
-            kind: mechanism.kind().into(),
-            expected: coordinates.len(),
-            found,
-        });
-    }
-    let follows = |index| coordinates.iter().any(|own| own.index() == index);
-    for (index, name) in csv::COLUMNS.iter().enumerate() {
-        if asked[index].is_some_and(|value| value != 0.0) && !follows(index) {
-            return Err(PoseError::Unreachable {
-                what: format!("`{}` cannot follow {name}", mechanism.kind()),
-            });
-        }
-    }
-    Ok(given(mechanism, &asked.map(Option::unwrap_or_default)))
-}
-
-/// Of a whole pose the coordinates that `mechanism` is given, first, and their number.
-fn given(mechanism: &dyn Prebuilt, pose: &[f64; 6]) -> ([f64; 6], usize) {
-    let coordinates = mechanism.coordinates();
-    let mut target = [0.0; 6];
-    for (value, coordinate) in target.iter_mut().zip(coordinates) {
-        *value = pose[coordinate.index()];
-    }
-    (target, coordinates.len())
-}
-
-/// The model in the first of these poses that can be reached: the job's first [`TRIED`] poses, that
-/// of a `similar` design, the poses of [`probes`], the rest of the job's; the first pose's error
-/// where none can. The loads are checked in a pose that the job does not have, too: the names of a
-/// mechanism are the same in every pose.
-fn template(
-    mechanism: &dyn Prebuilt,
-    poses: &Poses,
-    similar: Option<&Subject>,
-) -> Result<Box<Template>, PoseError> {
-    let build = |pose: [f64; 6]| {
-        let (target, count) = given(mechanism, &pose);
-        let model = mechanism.model(&target[..count])?;
-        Ok(Box::new(Template { model, pose }))
-    };
-    let reached = match similar {
-        Some(Subject::Prebuilt { template, .. }) => template.as_ref().ok().map(|t| t.pose),
-        _ => None,
-    };
-    let first = poses.len().min(TRIED);
-    let tried = (1..first).map(|pose| poses.get(pose)).chain(reached);
-    let rest = (first..poses.len()).map(|pose| poses.get(pose));
-    let mut others = tried.chain(probes(mechanism.coordinates())).chain(rest);
-    build(poses.get(0)).or_else(|error| others.find_map(|pose| build(pose).ok()).ok_or(error))
-}
-
-/// Number of poses of a job that are tried before any other: a large grid may be out of reach.
-const TRIED: usize = 1000;
-
-/// Poses of which a mechanism of any size between a millimetre and a kilometre is likely to reach
-/// one: home, and one coordinate at a time on either side of it, by steps of 3 %.
-fn probes(coordinates: &[PoseCoordinate]) -> impl Iterator<Item = [f64; 6]> {
-    let values = || (0..=468).flat_map(|k| [1.0, -1.0].map(|sign| sign * 1e-3 * 1.03_f64.powi(k)));
-    let moved = coordinates.iter().flat_map(move |coordinate| {
-        values().map(|value| {
-            let mut pose = [0.0; 6];
-            pose[coordinate.index()] = value;
-            pose
-        })
-    });
-    std::iter::once([0.0; 6]).chain(moved)
 }

@@ -1,5 +1,6 @@
 //! What varies in a job: paths to values of its mechanism, and the values each of them takes.
 
+use super::subject::Recipe;
 use crate::error::{LoadError, Location};
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -25,6 +26,8 @@ pub struct Varied {
 pub(crate) struct Variation {
     /// Where the map `vary` stands.
     pub(crate) place: Place,
+    /// The tree that it varies: [`Recipe::whole`].
+    whole: Node,
     axes: Vec<Axis>,
     /// Whether all axes run together, so that a design has the same place in each.
     zip: bool,
@@ -36,8 +39,8 @@ pub(crate) struct Variation {
 struct Axis {
     /// Its path in the mechanism.
     path: String,
-    /// The way to it in the mechanism's tree.
-    steps: Steps,
+    /// The ways to it: to all places that the path names as one, in the tree of [`Recipe::whole`].
+    places: Vec<Steps>,
     /// Where its values stand.
     place: Place,
     values: AxisValues,
@@ -50,11 +53,10 @@ enum AxisValues {
 }
 
 impl Variation {
-    /// Reads the fields `vary` and `zip` of a job whose mechanism is `root` and which has so many
-    /// `poses`.
+    /// Reads the fields `vary` and `zip` of a job of this recipe, which has so many `poses`.
     pub(crate) fn read(
         fields: &Fields<'_>,
-        root: &Node,
+        recipe: &Recipe,
         poses: usize,
     ) -> Result<Option<Self>, LoadError> {
         let zip = fields.get("zip");
@@ -69,7 +71,7 @@ impl Variation {
         let zip = zip.map_or(Ok(false), |zip| zip.parse("`true` or `false`"))?;
         let mut axes = Vec::<Axis>::new();
         for entry in map.map()? {
-            let steps = paths::find(root, entry.key)?;
+            let places = recipe.places(entry.key)?;
             if let Some(field) = replacing(fields, &entry.name) {
                 return Err(entry
                     .key
@@ -79,7 +81,7 @@ impl Variation {
                     ))
                     .with_help(format!("leave `{field}` out of the job, or vary another value")));
             }
-            let overlaps = |axis: &&Axis| paths::overlap(&axis.steps, &steps);
+            let overlaps = |axis: &&Axis| paths::any_overlap(&axis.places, &places);
             if let Some(other) = axes.iter().find(overlaps) {
                 return Err(paths::overlapping(&other.path, entry.key));
             }
@@ -87,7 +89,7 @@ impl Variation {
                 values: AxisValues::read(entry.value)?,
                 path: entry.name,
                 place: entry.value.place(),
-                steps,
+                places,
             });
         }
         if axes.is_empty() {
@@ -108,6 +110,7 @@ impl Variation {
         };
         Ok(Some(Self {
             place: map.place(),
+            whole: recipe.whole(),
             axes,
             zip,
             count,
@@ -117,6 +120,11 @@ impl Variation {
     /// Number of designs, at least 1.
     pub(crate) fn len(&self) -> usize {
         self.count
+    }
+
+    /// The tree that it varies.
+    pub(crate) fn whole(&self) -> &Node {
+        &self.whole
     }
 
     /// What varies, in the order of the file.
@@ -132,9 +140,9 @@ impl Variation {
         self.axes.iter().map(varied).collect()
     }
 
-    /// The way to the value of every path in the mechanism's tree.
-    pub(crate) fn steps(&self) -> impl Iterator<Item = &Steps> {
-        self.axes.iter().map(|axis| &axis.steps)
+    /// The ways to the values of every path, in the tree of [`Recipe::whole`].
+    pub(crate) fn places(&self) -> impl Iterator<Item = &Steps> {
+        self.axes.iter().flat_map(|axis| &axis.places)
     }
 
     /// The values of design `k`, from 0: the first path runs fastest.
@@ -145,7 +153,7 @@ impl Variation {
             let count = axis.values.len();
             values.push(Replacement {
                 path: &axis.path,
-                steps: &axis.steps,
+                places: &axis.places,
                 value: axis.value(rest % count),
             });
             if !self.zip {
@@ -224,10 +232,6 @@ impl Axis {
 fn replacing(fields: &Fields<'_>, path: &str) -> Option<&'static str> {
     let mut parts = path.split('.');
     let field = match (parts.next()?, parts.nth(1)) {
-        ("loads", _) => "loads",
-        ("cases", _) => "cases",
-        ("gravity", _) => "gravity",
-        ("masses", _) => "masses",
         ("joints", Some("misfit")) => "misfits",
         ("joints", Some("preload")) => "preloads",
         _ => return None,

@@ -104,6 +104,7 @@ pub use crate::prebuilt::exechon::Exechon;
 pub use crate::prebuilt::hexapod::Hexapod;
 pub use crate::prebuilt::linear_delta::LinearDelta;
 pub use crate::prebuilt::orthoglide::Orthoglide;
+pub(crate) use crate::prebuilt::placing::Following;
 pub use crate::prebuilt::planar_three_rrr::PlanarThreeRrr;
 pub use crate::prebuilt::rail::{CarriageSide, Rails};
 pub use crate::prebuilt::single_freedom::SingleFreedom;

@@ -1,7 +1,7 @@
 //! By how much the drives of a prebuilt mechanism move between two poses.
 
-use hyperstat_closure::{Drive, LoopClosure, Target};
-use hyperstat_model::{Model, characteristic_length};
+use hyperstat_closure::{ClosureError, Drive, LANES, Lanes, LoopClosure, Target};
+use hyperstat_model::{Geometry, Model, characteristic_length};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::prebuilt::{Placed, PoseError};
@@ -17,22 +17,77 @@ pub(super) fn drives_between(
     from: &[f64; 6],
     to: &Placed,
 ) -> Result<Vec<Drive>, PoseError> {
-    let turned = |[.., x, y, z]: &[f64; 6]| Rotation3::new(Vector3::new(*x, *y, *z));
-    // Loop closure counts rotations from the configuration that it begins in.
-    let rotation = (turned(&to.pose) * turned(from).inverse()).scaled_axis();
-    let [x, y, z, ..] = to.pose;
-    let target = [x, y, z, rotation.x, rotation.y, rotation.z].map(Some);
-    let reached = LoopClosure::new(home)?.place_at(&Target::Output(target))?;
-    let pairs = reached
-        .geometry
-        .positions
-        .iter()
-        .zip(&to.geometry.positions);
-    let off = pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let following = Following::new(home, from)?;
+    let reached = following.closure.place_at(&following.target(&to.pose))?;
+    let off = farthest(&reached.geometry, &to.geometry);
     if off > SAME * characteristic_length(&to.geometry) {
         return Err(PoseError::Branch {
             what: format!("a point is {off:.6} m from where inverse kinematics has it"),
         });
     }
     Ok(reached.drives)
+}
+
+/// How far a point of one geometry is from where the other has it \[m\].
+fn farthest(one: &Geometry, other: &Geometry) -> f64 {
+    let pairs = one.positions.iter().zip(&other.positions);
+    pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+}
+
+/// Loop closure that follows a prebuilt mechanism from a pose of it.
+#[derive(Debug)]
+pub(crate) struct Following {
+    closure: LoopClosure,
+    /// Where all parts are in that pose.
+    home: Geometry,
+    /// The output's rotation there.
+    turned: Rotation3<f64>,
+}
+
+impl Following {
+    /// From the configuration of a model, whose output has this whole pose.
+    pub(crate) fn new(home: &Model, pose: &[f64; 6]) -> Result<Self, ClosureError> {
+        Ok(Self {
+            closure: LoopClosure::new(home)?,
+            home: home.geometry().clone(),
+            turned: turned(pose),
+        })
+    }
+
+    /// The target at a whole pose: loop closure counts rotations from the configuration that it begins in.
+    fn target(&self, pose: &[f64; 6]) -> Target<'static> {
+        let rotation = (turned(pose) * self.turned.inverse()).scaled_axis();
+        let [x, y, z, ..] = *pose;
+        Target::Output([x, y, z, rotation.x, rotation.y, rotation.z].map(Some))
+    }
+
+    /// Follows to at most [`LANES`] poses, to which inverse kinematics has brought these geometries;
+    /// `lanes` then has the values of the drives. Says which poses were reached as they are.
+    pub(crate) fn follow(
+        &self,
+        poses: &[[f64; 6]],
+        geometries: &[&Geometry],
+        lanes: &mut Lanes,
+        room: &mut Vec<Geometry>,
+    ) -> [bool; LANES] {
+        let counts = |geometry: &Geometry| (geometry.positions.len(), geometry.frames.len());
+        if room
+            .first()
+            .is_none_or(|own| counts(own) != counts(&self.home))
+        {
+            *room = vec![self.home.clone(); LANES];
+        }
+        let targets: Vec<Target<'_>> = poses.iter().map(|pose| self.target(pose)).collect();
+        let reached = self.closure.place_lanes(&targets, room, lanes);
+        let mut same = [false; LANES];
+        for (k, geometry) in geometries.iter().enumerate() {
+            same[k] = matches!(reached[k], Some(Ok(_)))
+                && farthest(&room[k], geometry) <= SAME * characteristic_length(geometry);
+        }
+        same
+    }
+}
+
+fn turned([.., x, y, z]: &[f64; 6]) -> Rotation3<f64> {
+    Rotation3::new(Vector3::new(*x, *y, *z))
 }

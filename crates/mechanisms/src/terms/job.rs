@@ -9,7 +9,7 @@ use super::bodies::TABLE;
 use super::figures::FIGURE;
 use super::joints::{MISFIT, PRELOAD};
 use super::mechanism::PARAMETERS;
-use super::parts::vector;
+use super::parts::{NODE, vector};
 use super::{Field, Kinds, NO_END, Record, Type, kind, needed, of_value, optional};
 
 pub(crate) const BATCH: Record = Record::new(
@@ -48,6 +48,16 @@ pub(crate) const JOB: Record = Record::new(
             Map(&Of(&PRELOAD)),
             "preloads by the joint's name, in place of the file's",
         ),
+        optional(
+            "output",
+            NODE,
+            "body and point, in place of the mechanism's own",
+        ),
+        optional(
+            "tool",
+            vector("m"),
+            "a point fixed in the output's body, from the output in home axes: the new output",
+        ),
         optional("figures", List(&OneKind(&FIGURE)), "figures to draw"),
         optional(
             "vary",
@@ -59,6 +69,11 @@ pub(crate) const JOB: Record = Record::new(
             "modes",
             Any(&[FREQUENCIES, Of(&MODES)]),
             "natural frequencies at every pose",
+        ),
+        optional(
+            "columns",
+            List(&OneKind(&COLUMN)),
+            "more columns of the table",
         ),
     ],
 );
@@ -94,6 +109,23 @@ pub(crate) const POSES: Kinds = Kinds {
         ),
     ],
 };
+
+/// Columns on request.
+pub(crate) const COLUMN: Kinds = Kinds {
+    name: "columns",
+    kinds: &[
+        kind("Drives", "positions of the drives", &[]),
+        kind("DriveForces", "forces and moments of the drives", &[]),
+        of_value("Wrench", "the wrench in a joint, by its name", Text),
+        kind("Stress", "the largest stress, and where", &[]),
+        kind("Utilisation", "the largest utilisation, and where", &[]),
+        kind("Mass", "mass of what moves", &[]),
+        kind("Measures", "every measure", &[]),
+        kind("Frequencies", "natural frequencies", &[COUNT]),
+        kind("Budget", "shares in the deflection", &[]),
+    ],
+};
+const COUNT: Field = optional("count", FREQUENCIES, "how many");
 
 /// Evenly spaced values.
 pub(crate) const RANGE: Kinds = Kinds {

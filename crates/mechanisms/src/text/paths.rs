@@ -13,18 +13,64 @@ use crate::text::names;
 
 /// The steps to the value of `root` that the path written at `key` leads to.
 pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
-    let path = key.string()?;
+    find_path(root, key, &key.string()?, 0)
+}
+
+/// The steps to the values that a path written at `key` leads to, which may name several parts as one:
+/// `joints.{A1|A2|A3}.stiffness.u`.
+pub(crate) fn find_all(root: &Node, key: Fragment<'_>) -> Result<Vec<Steps>, LoadError> {
+    every(&key.string()?, |path| find_path(root, key, path, 0), key)
+}
+
+/// What `find` finds for every path that a group stands for, each of them once.
+pub(crate) fn every(
+    path: &str,
+    find: impl Fn(&str) -> Result<Steps, LoadError>,
+    key: Fragment<'_>,
+) -> Result<Vec<Steps>, LoadError> {
+    let paths = expanded(path);
+    let found = paths.iter().map(|path| find(path));
+    let found = found.collect::<Result<Vec<Steps>, _>>()?;
+    for (k, steps) in found.iter().enumerate() {
+        if let Some(other) = found[..k].iter().position(|own| overlap(own, steps)) {
+            let error = key.error(format!("`{}` and `{}` overlap", paths[other], paths[k]));
+            return Err(error.with_help("name every part of a group once"));
+        }
+    }
+    Ok(found)
+}
+
+/// The paths that one with groups stands for, `a.{b|c}.d`; one without them for itself.
+fn expanded(path: &str) -> Vec<String> {
+    let group = path.split_once('{').and_then(|(before, rest)| {
+        let (names, after) = rest.split_once('}')?;
+        names.contains('|').then_some((before, names, after))
+    });
+    let Some((before, names, after)) = group else {
+        return vec![path.into()];
+    };
+    let whole = |name: &str| expanded(&format!("{before}{}{after}", name.trim()));
+    names.split('|').flat_map(whole).collect()
+}
+
+/// The steps to the value of `root` that a path leads to from its byte `start` on.
+pub(crate) fn find_path(
+    root: &Node,
+    key: Fragment<'_>,
+    path: &str,
+    start: usize,
+) -> Result<Steps, LoadError> {
     let parameters = Parameters::of(root);
-    if let Some(steps) = parameters.named(&path) {
+    if let Some(steps) = parameters.named(path) {
         return Ok(steps);
     }
-    let (mut value, mut rest) = (root, path.as_str());
+    let (mut value, mut rest) = (root, &path[start..]);
     let mut steps = Steps::new();
     loop {
         let walked = path.len() - rest.len();
         let step = Step {
             key,
-            path: &path,
+            path,
             walked,
             parameters: &parameters.names,
         };
@@ -69,6 +115,12 @@ impl<'r> Parameters<'r> {
 /// Whether of two values one is a part of the other, or they are the same.
 pub(crate) fn overlap(one: &[usize], other: &[usize]) -> bool {
     one.starts_with(other) || other.starts_with(one)
+}
+
+/// Whether any of some values is a part of one of others, or the same.
+pub(crate) fn any_overlap(some: &[Steps], others: &[Steps]) -> bool {
+    some.iter()
+        .any(|one| others.iter().any(|other| overlap(one, other)))
 }
 
 /// The error of a path, written at `key`, that leads to a part of what `other` leads to, or around it.

@@ -9,7 +9,8 @@ use crate::error::{LoadError, Location};
 #[derive(Debug, Clone)]
 pub(crate) struct Replacement<'v> {
     pub(crate) path: &'v str,
-    pub(crate) steps: &'v Steps,
+    /// The ways to the places that it has.
+    pub(crate) places: &'v [Steps],
     pub(crate) value: Node,
 }
 
@@ -32,7 +33,9 @@ impl Changed<'_> {
     fn tree_with(&self, taken: impl Fn(usize) -> bool) -> Node {
         let mut tree = self.root.clone();
         for (_, own) in self.values.iter().enumerate().filter(|(k, _)| taken(*k)) {
-            tree.replace(own.steps, own.value.clone());
+            for steps in own.places {
+                tree.replace(steps, own.value.clone());
+            }
         }
         tree
     }

@@ -131,7 +131,7 @@ impl Node {
     }
 
     /// The same place with another content.
-    pub(super) fn with(&self, content: Content) -> Self {
+    pub(crate) fn with(&self, content: Content) -> Self {
         Self {
             source: Arc::clone(&self.source),
             span: self.span.clone(),

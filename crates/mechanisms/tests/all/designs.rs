@@ -399,3 +399,82 @@ fn designs_are_not_kept() {
     assert_eq!(job.designs(), 1_000_000_000_000_000);
     assert_eq!(numbers(&job, job.designs() - 1), [0.4, 0.7]);
 }
+
+/// What a job says beside its mechanism varies, too: as if it were written there.
+#[test]
+fn loads_masses_misfits_and_tools_of_a_job_vary() {
+    let rest = "masses: [(on: (\"platform\", \"P\"), mass: 2.0)], gravity: (0, 0, -9.81),
+        misfits: { \"Ba1\": (x: 1e-4) }, cases: { \"push\": [(on: (\"platform\", \"P\"), force: (5, 0, 0))] },
+        tool: (0, 0, -0.1)";
+    let delta = DELTA.replace("poisson: 0.3", "poisson: 0.3, density: 7850");
+    for (path, old, new) in [
+        ("loads.0.force.2", "force: (1, 2, 3)", "force: (1, 2, 7)"),
+        ("masses.0.mass", "mass: 2.0", "mass: 7"),
+        ("misfits.Ba1.x", "x: 1e-4", "x: 7"),
+        (
+            "cases.push.0.force.0",
+            "force: (5, 0, 0)",
+            "force: (7, 0, 0)",
+        ),
+        ("gravity.2", "gravity: (0, 0, -9.81)", "gravity: (0, 0, 7)"),
+        ("tool.2", "tool: (0, 0, -0.1)", "tool: (0, 0, 7)"),
+    ] {
+        let all = format!("{delta}, {rest}");
+        let varied = job(&all, &format!("vary: {{ \"{path}\": [5, 7] }}"));
+        assert_eq!((varied.designs(), numbers(&varied, 1)), (2, vec![7.0]));
+        let by_hand = job(&replaced(&all, old, new), "");
+        assert_eq!(whole(&varied, 1), whole(&by_hand, 0), "{path}");
+        let acting = |job: &Job, design: usize| {
+            let model = job.design(design).unwrap().model().unwrap();
+            let found = (
+                model.cases(),
+                model.masses(),
+                model.misfits(),
+                model.gravity(),
+            );
+            format!("{found:?}")
+        };
+        assert_eq!(acting(&varied, 1), acting(&by_hand, 0), "{path}");
+        assert_ne!(
+            (whole(&varied, 0), acting(&varied, 0)),
+            (whole(&varied, 1), acting(&varied, 1)),
+            "{path}"
+        );
+    }
+    // The job's own loads are meant, not those of its file.
+    let loads = "loads: [(on: (\"platform\", \"C\"), force: (0, 0, -1))]";
+    let varied = job(
+        PORTAL,
+        &format!("{loads}, vary: {{ \"loads.0.force.2\": [-2, -3] }}"),
+    );
+    let by_hand = job(PORTAL, &loads.replace("-1", "-3"));
+    assert_eq!(whole(&varied, 1), whole(&by_hand, 0));
+}
+
+/// Several joints as one path have one value and one column.
+#[test]
+fn a_group_of_parts_varies_as_one() {
+    let bar = "File(\"five_bar.ron\")";
+    let rest = "vary: { \"bodies.{rod1|rod2}.section\": [\"crank\", \"rod\"] }";
+    let varied = job(bar, rest);
+    assert_eq!(varied.varied()[0].path, "bodies.{rod1|rod2}.section");
+    let apart = "zip: true, vary: { \"bodies.rod1.section\": [\"crank\", \"rod\"],
+        \"bodies.rod2.section\": [\"crank\", \"rod\"] }";
+    let apart = job(bar, apart);
+    for design in 0..2 {
+        assert_eq!(whole(&varied, design), whole(&apart, design));
+        assert_eq!(varied.values(design).len(), 1);
+    }
+    assert_ne!(whole(&varied, 0), whole(&varied, 1));
+    for (path, told) in [
+        ("bodies.{rod1|rod3}.section", "`bodies` has no `rod3`"),
+        (
+            "bodies.{rod1|rod1}.section",
+            "`bodies.rod1.section` and `bodies.rod1.section` overlap",
+        ),
+        ("bodies.{rod1}.section", "`bodies` has no `{rod1}`"),
+    ] {
+        let error = try_job(bar, &format!("vary: {{ \"{path}\": [\"rod\"] }}")).unwrap_err();
+        assert!(error.to_string().contains(told), "{error}");
+    }
+}

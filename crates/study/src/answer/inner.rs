@@ -34,7 +34,7 @@ pub(super) fn inner_displacements_of(
 }
 
 /// Names of all segments: `body.A-B`.
-pub(super) fn segment_names(model: &Model) -> Vec<String> {
+pub fn segment_names(model: &Model) -> Vec<String> {
     let mut names = Vec::with_capacity(model.segments().len());
     let mut taken = HashMap::new();
     for segment in model.segments() {

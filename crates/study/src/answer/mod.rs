@@ -23,16 +23,17 @@ pub use check::CheckReport;
 pub use forces::{BodyReport, SectionForces, StrainReport, WorstReport};
 use inner::inner_displacements;
 use inner::inner_displacements_of;
+pub(crate) use inner::segment_names;
 pub use joints::{FrameReport, JointReport};
 pub use misfits::MisfitEffectReport;
 pub use modes::{CountReport, ModeReport, ModesReport};
 pub use sensitivities::{FrequencyReport, FrequencySensitivityReport, SensitivityReport};
 pub use solve::{OutputReport, SegmentReport, SolveReport, StressReport};
-pub(crate) use why::budget;
 pub use why::{
     Asked, BudgetReport, MeasuresReport, PartReport, PrincipalReport, ScrewReport, Sum,
     VirtualWork, Why,
 };
+pub(crate) use why::{budget, shares};
 
 /// A 6×6 matrix by rows.
 pub type Rows = [[f64; 6]; 6];

@@ -2,9 +2,10 @@
 
 use hyperstat_assembly::{
     JointId, Model, Segment, SegmentForces, SegmentId, Solution, SolveError, describe_motions,
+    worst_stress,
 };
-use hyperstat_elements::stress::{largest_stress, section_stress, stress_along};
-use hyperstat_elements::{BeamLoad, Taper};
+use hyperstat_elements::BeamLoad;
+use hyperstat_elements::stress::{largest_stress, section_stress};
 use nalgebra::{Rotation3, Vector6};
 use serde::Serialize;
 
@@ -290,9 +291,7 @@ impl StressReport {
     fn new(segment: &Segment, forces: &SegmentForces) -> Option<Self> {
         let ends = &forces.ends;
         if forces.load != BeamLoad::none() {
-            let taper = segment.change_of_section().ok()?;
-            let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
-            let largest = stress_along(&taper, forces.length, &ends[1], &forces.load)?;
+            let largest = worst_stress(segment, forces)?;
             return Some(Self {
                 normal: largest.normal.value,
                 shear: largest.torsional.value,

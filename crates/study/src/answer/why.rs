@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::misfits::{MisfitEffectReport, misfit_effects};
 use super::numbers;
 use super::sensitivities::SensitivityReport;
+use crate::schema::DEFORMATIONS;
 use crate::study::Study;
 
 /// What is soft, and why. Field names are those of the JSON output; each is `null` where the output moves freely.
@@ -156,6 +157,21 @@ pub fn budget(
     inquiry.map(answer).transpose()
 }
 
+/// The budget of a solution, of the model that the influence is of, in the way that its output moves, or the
+/// softest one; `None` where it moves freely.
+pub(crate) fn shares(
+    model: &Model,
+    influence: &Influence<'_>,
+    solution: &Solution,
+) -> Option<Budget> {
+    let asked = Asked {
+        case: None,
+        along: Along::Displacement,
+    };
+    let inquiry = Inquiry::new(model, solution, &asked)?;
+    Some(inquiry.found(influence).1)
+}
+
 /// What is asked about: an output that is held, and a direction.
 pub struct Inquiry<'a> {
     pub model: &'a Model,
@@ -201,14 +217,21 @@ impl<'a> Inquiry<'a> {
         })
     }
 
-    fn budget(&self, influence: &Influence<'_>) -> BudgetReport {
-        let (of, budget) = if self.moved {
-            let budget = influence.budget(self.solution, &self.direction);
-            ("displacement", budget)
+    /// What it is of, in a word, and the budget itself.
+    fn found(&self, influence: &Influence<'_>) -> (&'static str, Budget) {
+        if self.moved {
+            (
+                "displacement",
+                influence.budget(self.solution, &self.direction),
+            )
         } else {
             let budget = influence.compliance_budget(self.compliance, &self.direction);
             ("compliance", budget)
-        };
+        }
+    }
+
+    fn budget(&self, influence: &Influence<'_>) -> BudgetReport {
+        let (of, budget) = self.found(influence);
         BudgetReport {
             case: self.case.map(Into::into),
             ..BudgetReport::new(self.model, of, &budget)
@@ -352,16 +375,8 @@ impl MeasuresReport {
 
 /// A way to deform, in a word.
 fn word(deformation: Deformation) -> &'static str {
-    match deformation {
-        Deformation::Bending => "bending",
-        Deformation::Shear => "shear",
-        Deformation::Torsion => "torsion",
-        Deformation::Tension => "tension",
-        Deformation::FreeStrain => "free strain",
-        Deformation::Flexible => "flexible body",
-        Deformation::Bearing => "joint bearing",
-        Deformation::Drive => "drive",
-        Deformation::Misfit => "misfit",
-        _ => "other",
-    }
+    let mut known = DEFORMATIONS.iter();
+    known
+        .find(|(own, _)| *own == deformation)
+        .map_or("other", |(_, word)| *word)
 }

@@ -14,7 +14,7 @@ use super::trajectory::Trajectory;
 use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
-use crate::schema::is_frequency;
+use crate::schema::{asking_for, is_frequency};
 use crate::source::Written;
 use crate::study::job_model;
 use crate::table::TableReader;
@@ -40,7 +40,12 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
                                 let count = value.trim_start_matches(['f', '0']);
                                 format!("natural frequencies need `modes: {count}` in the job")
                             }
-                            _ => instead_of(value, columns),
+                            _ => match asking_for(value) {
+                                Some(asked) => {
+                                    format!("it needs `columns: [{asked}]` in the job")
+                                }
+                                None => instead_of(value, columns),
+                            },
                         },
                     }));
                 }

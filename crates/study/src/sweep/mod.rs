@@ -1,5 +1,6 @@
 //! A job's poses, solved on all threads, with their results handed out in order.
 
+mod asked;
 mod chunk;
 mod poser;
 mod record;
@@ -13,16 +14,18 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Geometry, LANES, Lanes, ModalOptions, ModalPlan, PoseResult, Prepared, SolveError,
+    Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError, State,
 };
 use hyperstat_mechanisms::{Design, Job, Placing};
 
 use crate::error::StudyError;
 pub use crate::schema::Columns;
+use crate::schema::{self, Group};
 use crate::source::Written;
+use asked::Asked;
 pub use chunk::{Chunk, Row};
 pub use poser::Poser;
-pub use record::{Failure, Found, Held, NUMBERS, Record, UPPER};
+pub use record::{Cell, Failure, Found, Held, NUMBERS, Record, UPPER};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
@@ -31,7 +34,7 @@ pub use wide::placing;
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
 
-/// The same where natural frequencies make a row take long.
+/// The same where natural frequencies or full solutions make a row take long.
 const SHORT_CHUNK: usize = LANES;
 
 /// Designs after the first among which one has a topology, where the first has none.
@@ -62,14 +65,20 @@ struct Planned {
     prepared: Prepared,
     /// Where natural frequencies are asked for.
     modal: Option<ModalPlan>,
+    /// Whether these stand where those of a job's `modes` do.
+    modes: bool,
+    /// Columns on request, where there are some.
+    asked: Option<Asked>,
 }
 
 impl<'a> Sweep<'a> {
     /// Works out the topology of a job: of the first of its designs that has one.
     ///
     /// # Errors
-    /// Why the first design that can be has none, where none of the next 1000 has one.
+    /// Why the first design that can be has none, where none of the next 1000 has one; columns on request
+    /// whose names others have.
     pub fn new(job: &'a Job, way: Way) -> Result<Self, StudyError> {
+        check(job)?;
         let planned = |number| -> Result<_, StudyError> {
             let design = job.design(number)?;
             let model = match design.model() {
@@ -78,12 +87,10 @@ impl<'a> Sweep<'a> {
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
             let prepared = Prepared::new(model);
-            let planned = match Planned::modal(&prepared, job.modes.as_ref()) {
-                Ok(modal) => Ok(Planned { prepared, modal }),
-                Err(error) => {
-                    Err(Written::Design(job, &design).unsolvable(&prepared.here(), error))
-                }
-            };
+            let planned = Planned::of(prepared, Some(job)).map_err(|failed| {
+                let (prepared, error) = *failed;
+                Written::Design(job, &design).unsolvable(&prepared.here(), error)
+            });
             Ok((number, Ok(Arc::new(planned?))))
         };
         let first = job.first_design();
@@ -133,10 +140,9 @@ impl<'a> Sweep<'a> {
             further,
             ..Chunk::default()
         };
-        let size = match self.job.modes {
-            Some(_) => SHORT_CHUNK,
-            None => CHUNK,
-        };
+        let is_long =
+            self.job.frequencies().is_some() || Group::all(self.job).iter().any(Group::is_solved);
+        let size = if is_long { SHORT_CHUNK } else { CHUNK };
         let rows = rows.start.min(self.len())..rows.end.min(self.len());
         let end = rows.end;
         let ranges = rows.step_by(size);
@@ -204,13 +210,36 @@ impl<'a> Sweep<'a> {
             };
             Ok((planned, lanes))
         });
+        let mut placing = placing();
+        if let Ok((planned, _)) = &ready {
+            planned.prepare(&mut placing);
+        }
         Solver {
             number,
             design: Some(design),
             ready,
-            placing: placing(),
+            placing,
         }
     }
+}
+
+/// Refuses a job whose table would have two columns of one name, one of them asked for.
+fn check(job: &Job) -> Result<(), StudyError> {
+    let groups = Group::all(job);
+    if groups.is_empty() {
+        return Ok(());
+    }
+    let all: Vec<String> = schema::columns(&Columns::of(job)).collect();
+    for (place, group) in groups.iter().enumerate() {
+        let twice = |name: &String| all.iter().filter(|own| *own == name).count() > 1;
+        if let Some(name) = group.names(job.cases()).into_iter().find(twice) {
+            return Err(StudyError::SameColumn {
+                location: Box::new(job.column_location(place)),
+                name,
+            });
+        }
+    }
+    Ok(())
 }
 
 impl Planned {
@@ -226,37 +255,107 @@ impl Planned {
             Ok(first) => first.prepared.for_design(model)?,
             Err(_) => Prepared::new(model),
         };
-        let modal = Self::modal(&prepared, job.modes.as_ref())?;
-        Ok(Self { prepared, modal })
+        Self::of(prepared, Some(job)).map_err(|failed| Failure::from(failed.1))
     }
 
-    /// What natural frequencies need, where they are asked for; the mechanism has a plan.
-    fn modal(
-        prepared: &Prepared,
-        modes: Option<&ModalOptions>,
-    ) -> Result<Option<ModalPlan>, SolveError> {
-        prepared.unknowns()?;
-        modes.map(|options| prepared.modal(options)).transpose()
+    /// What is needed for a job's rows, of a mechanism that has a plan; without a job for a pose alone. An
+    /// error comes with the mechanism.
+    fn of(prepared: Prepared, job: Option<&Job>) -> Result<Self, Box<(Prepared, SolveError)>> {
+        let found = || {
+            prepared.unknowns()?;
+            let Some(job) = job else {
+                return Ok((None, None));
+            };
+            let modal = job.frequencies();
+            let modal = modal.map(|options| prepared.modal(options)).transpose()?;
+            Ok((modal, Asked::of(job, prepared.model())?))
+        };
+        match found() {
+            Ok((modal, asked)) => Ok(Self {
+                prepared,
+                modal,
+                modes: job.is_some_and(|job| job.modes.is_some()),
+                asked,
+            }),
+            Err(error) => Err(Box::new((prepared, error))),
+        }
     }
 
-    /// What is found in a configuration that a solution is known of.
+    /// Has values of drives kept, where they are asked for.
+    fn prepare(&self, placing: &mut Placing) {
+        if self.asked.as_ref().is_some_and(Asked::needs_drives) {
+            placing.keep_drives();
+        }
+    }
+
+    /// Whether forces are asked for at a pose of this result.
+    fn needs_states(&self, result: &Result<PoseResult, SolveError>) -> bool {
+        let held = matches!(result, Ok(found) if found.displacement.is_some());
+        held && self.asked.as_ref().is_some_and(Asked::needs_states)
+    }
+
+    /// What is found in a configuration that a solution is known of, with the values of its drives and the
+    /// states of what acts, where they are.
     fn found(
         &self,
         solved: Result<PoseResult, SolveError>,
         geometry: &Geometry,
+        drives: Option<&[f64]>,
+        states: Option<Result<Vec<State>, SolveError>>,
     ) -> Result<Found, Failure> {
-        let mut found = Found::try_from(solved?)?;
-        found.further.extend(self.further(geometry)?);
-        Ok(found)
+        let solved = solved?;
+        let states = states.transpose();
+        let displacements = solved.displacement.into_iter();
+        let displacements = match self.asked {
+            Some(_) => displacements.chain(solved.cases.iter().copied()).collect(),
+            None => Vec::new(),
+        };
+        let stiffness = solved.stiffness;
+        let add = |frequencies: &[Cell], further: &mut Vec<Cell>| {
+            if self.modes {
+                further.extend_from_slice(frequencies);
+            }
+            let Some(asked) = &self.asked else {
+                return Ok(());
+            };
+            let states = states.as_ref().map_err(Clone::clone)?;
+            let found = asked::Found {
+                states: states.as_deref(),
+                prepared: &self.prepared,
+                geometry,
+                stiffness: stiffness.as_ref(),
+                displacements: &displacements,
+                drives,
+                frequencies,
+            };
+            asked.add(&found, further)
+        };
+        match Found::try_from(solved) {
+            Ok(mut found) => {
+                add(&self.frequencies(geometry)?, &mut found.further)?;
+                Ok(found)
+            }
+            Err(Failure::Rigid(mut held)) if self.asked.is_some() => {
+                let count = self.modal.as_ref().map_or(0, ModalPlan::count);
+                let known = held.further.len();
+                // What cannot be found of it stays open.
+                if add(&vec![Cell::Empty; count], &mut held.further).is_err() {
+                    held.further.truncate(known);
+                }
+                Err(Failure::Rigid(held))
+            }
+            Err(failure) => Err(failure),
+        }
     }
 
-    /// Numbers of a table's further columns in a configuration.
-    fn further(&self, geometry: &Geometry) -> Result<Vec<Option<f64>>, SolveError> {
+    /// Natural frequencies in a configuration, where they are asked for.
+    fn frequencies(&self, geometry: &Geometry) -> Result<Vec<Cell>, SolveError> {
         let Some(modal) = &self.modal else {
             return Ok(Vec::new());
         };
-        let mut found: Vec<_> = modal.frequencies(geometry)?.into_iter().map(Some).collect();
-        found.resize(modal.count(), None);
+        let found = modal.frequencies(geometry)?.into_iter();
+        let mut found: Vec<_> = found.map(Cell::Number).collect();
+        found.resize(modal.count(), Cell::Empty);
         Ok(found)
     }
 }
@@ -305,7 +404,12 @@ impl Solver {
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
-                        let result = planned.found(result, lanes.geometry_mut(lane));
+                        let states = planned
+                            .needs_states(&result)
+                            .then(|| planned.prepared.states(lanes, lane));
+                        let drives = self.placing.drives(lane);
+                        let geometry = lanes.geometry_mut(lane);
+                        let result = planned.found(result, geometry, drives, states);
                         records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),

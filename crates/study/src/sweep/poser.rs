@@ -11,7 +11,7 @@ use crate::study::Study;
 
 /// A mechanism that is brought to one pose after another, with all that is worked out once for it and the
 /// buffers of its poses: each pays its arithmetic and allocates nothing, as long as a prebuilt mechanism is
-/// moved that goes through the lanes, without natural frequencies, load cases or loads in axes of bodies.
+/// moved that goes through the lanes, without natural frequencies, columns on request, load cases or loads in axes of bodies.
 ///
 /// ```
 /// use hyperstat_study::{Job, JobMechanism, JobPoses, Registry, Study, Target, Value};
@@ -55,18 +55,19 @@ impl Study {
         let design = self.as_design();
         // The model that a sweep starts from, so that the numbers are the sweep's.
         let model = design.model().unwrap_or_else(|_| self.model().clone());
-        let prepared = Prepared::new(model);
-        let made = Planned::modal(&prepared, self.modes_of_job())
-            .and_then(|modal| Ok((modal, prepared.single()?)));
-        match made {
-            Ok((modal, single)) => Ok(Poser {
-                design,
-                placing: placing(),
-                planned: Planned { prepared, modal },
-                single,
-            }),
-            Err(error) => Err(self.source().unsolvable(&prepared.here(), error)),
-        }
+        let failed = |prepared: &Prepared, error| self.source().unsolvable(&prepared.here(), error);
+        let planned = Planned::of(Prepared::new(model), self.whole_job());
+        let planned = planned.map_err(|made| failed(&made.0, made.1))?;
+        let single = planned.prepared.single();
+        let single = single.map_err(|error| failed(&planned.prepared, error))?;
+        let mut placing = placing();
+        planned.prepare(&mut placing);
+        Ok(Poser {
+            design,
+            placing,
+            planned,
+            single,
+        })
     }
 }
 
@@ -99,7 +100,12 @@ impl Poser {
         match design.bring(target, single.geometry_mut(), placing) {
             Ok(pose) => {
                 let solved = planned.prepared.sweep_single(single);
-                Record::reached(pose, planned.found(solved, single.geometry_mut()))
+                let states = planned
+                    .needs_states(&solved)
+                    .then(|| planned.prepared.states_single(single));
+                let drives = placing.drives(0);
+                let found = planned.found(solved, single.geometry_mut(), drives, states);
+                Record::reached(pose, found)
             }
             Err(error) => Record {
                 pose: match target {

@@ -9,6 +9,48 @@ use thiserror::Error;
 
 use crate::measures::{self, Pose};
 
+/// What stands in a further column of a row.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub enum Cell {
+    /// Nothing: the pose has none of it.
+    #[default]
+    Empty,
+    /// A number.
+    Number(f64),
+    /// A text.
+    Text(Arc<str>),
+}
+
+impl Cell {
+    /// The number that it is.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(*number),
+            _ => None,
+        }
+    }
+
+    /// The text that it is.
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Self::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<Option<f64>> for Cell {
+    fn from(number: Option<f64>) -> Self {
+        number.map_or(Self::Empty, Self::Number)
+    }
+}
+
 /// Why a pose has no result.
 #[derive(Debug, Clone, Error)]
 pub enum Failure {
@@ -35,7 +77,7 @@ pub struct Held {
     /// Displacement of the output: x y z \[m\], rx ry rz \[rad\].
     pub displacement: Vector6<f64>,
     /// As of [`Found`].
-    pub further: Vec<Option<f64>>,
+    pub further: Vec<Cell>,
 }
 
 impl Failure {
@@ -77,8 +119,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// The displacement of the output and the numbers of further columns, where they are known.
-    pub fn known(&self) -> Option<(&Vector6<f64>, &[Option<f64>])> {
+    /// The displacement of the output and what stands in further columns, where they are known.
+    pub fn known(&self) -> Option<(&Vector6<f64>, &[Cell])> {
         match &self.result {
             Ok(found) => Some((&found.displacement, &found.further)),
             Err(Failure::Rigid(held)) => Some((&held.displacement, &held.further)),
@@ -120,8 +162,8 @@ pub struct Found {
     pub stiffness: Matrix6<f64>,
     /// Its displacement under the loads: x y z \[m\], rx ry rz \[rad\].
     pub displacement: Vector6<f64>,
-    /// Numbers of the table's further columns; `None` where a pose has no such number.
-    pub further: Vec<Option<f64>>,
+    /// What stands in the table's further columns.
+    pub further: Vec<Cell>,
 }
 
 impl Found {
@@ -153,9 +195,9 @@ impl Found {
     }
 }
 
-fn all_finite(displacement: &Vector6<f64>, further: &[Option<f64>]) -> bool {
-    let further = further.iter().flatten();
-    displacement.iter().chain(further).all(|n| n.is_finite())
+fn all_finite(displacement: &Vector6<f64>, further: &[Cell]) -> bool {
+    let mut further = further.iter().filter_map(Cell::number);
+    displacement.iter().all(|n| n.is_finite()) && further.all(f64::is_finite)
 }
 
 /// Numbers in the upper triangle of the stiffness.
@@ -168,7 +210,13 @@ impl TryFrom<PoseResult> for Found {
 
     fn try_from(result: PoseResult) -> Result<Self, Failure> {
         let displacement = result.displacement.ok_or(Failure::Free)?;
-        let further = result.cases.iter().flatten().copied().map(Some).collect();
+        let further = result
+            .cases
+            .iter()
+            .flatten()
+            .copied()
+            .map(Cell::Number)
+            .collect();
         match result.stiffness {
             Some(stiffness) => Ok(Self {
                 stiffness,
@@ -193,7 +241,7 @@ mod tests {
         let sound = Found {
             stiffness: Matrix6::identity(),
             displacement: Vector6::zeros(),
-            further: vec![Some(1.0), None],
+            further: vec![Cell::Number(1.0), Cell::Empty],
         };
         let status = |pose: f64, found: Found| {
             let record = Record::reached([0.0, pose, 0.0, 0.0, 0.0, 0.0], Ok(found));
@@ -210,7 +258,7 @@ mod tests {
             spoilt.displacement[3] = value;
             assert_eq!(status(0.5, spoilt), "failed");
             let mut spoilt = sound.clone();
-            spoilt.further[0] = Some(value);
+            spoilt.further[0] = Cell::Number(value);
             assert_eq!(status(0.5, spoilt), "failed");
         }
     }

@@ -3,10 +3,13 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use hyperstat_mechanisms::Job;
 use serde::Serialize;
 
-use super::record::{Found, Record};
+use super::record::{Cell, Found, Record};
+use crate::entries::Entries;
 use crate::measures::{self, Measure, Pose};
+use crate::schema::{COORDINATES, Columns, holds_words, unit};
 
 /// Neighbouring values that a percentile does not tell apart: their logarithms differ by less.
 const RESOLUTION: f64 = 1e-3;
@@ -62,6 +65,17 @@ pub fn measure(record: &Record) -> Option<Values> {
 pub struct Statistics {
     count: u64,
     of: [Spread; COUNT],
+    asked: Vec<Asked>,
+}
+
+/// A column of numbers on request.
+#[derive(Debug)]
+struct Asked {
+    name: String,
+    /// Its place among the further columns.
+    place: usize,
+    count: u64,
+    of: Spread,
 }
 
 /// The values of one measure.
@@ -70,12 +84,36 @@ struct Spread {
     least: Option<Extreme>,
     most: Option<Extreme>,
     sum: f64,
-    /// Counts of values by their logarithm over the resolution; `i32::MIN` is zero.
-    counts: HashMap<i32, u64>,
+    /// Counts of values by [`bin`].
+    counts: HashMap<i64, u64>,
 }
 
+/// The bin of a value: its logarithm over the resolution, the larger the larger the value; 0 is that of
+/// zero.
+fn bin(value: f64) -> i64 {
+    let size = (value.abs().ln() / RESOLUTION).floor();
+    match value {
+        0.0 => 0,
+        _ if value > 0.0 => MIDDLE + size as i64,
+        _ => -(MIDDLE + size as i64),
+    }
+}
+
+/// The value in the middle of a bin.
+fn middle(bin: i64) -> f64 {
+    let size = (((bin.abs() - MIDDLE) as f64 + 0.5) * RESOLUTION).exp();
+    match bin {
+        0 => 0.0,
+        bin if bin > 0 => size,
+        _ => -size,
+    }
+}
+
+/// Bin of 1, above the size of any other's distance from it.
+const MIDDLE: i64 = 1_000_000;
+
 /// A value and where it is.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Extreme {
     /// The value.
     pub value: f64,
@@ -83,9 +121,45 @@ pub struct Extreme {
     pub row: usize,
     /// Pose of the output.
     pub at: [Option<f64>; 6],
+    /// The coordinates that the job's poses give there, where these are known: of the output, or of drives.
+    #[serde(skip_serializing_if = "Entries::is_empty")]
+    pub commanded: Entries<f64>,
 }
 
 impl Statistics {
+    /// Those of a job, of which no row is added yet, of its columns on request, too.
+    pub fn of(job: &Job) -> Self {
+        let columns = Columns::of(job);
+        let first = columns.further.len() - columns.asked;
+        let asked = columns.further.into_iter().enumerate().skip(first);
+        // What is measured of every job is told once.
+        let asked = asked.filter(|(_, name)| !holds_words(name) && !MEASURED.contains(&&**name));
+        let asked = asked.map(|(place, name)| Asked {
+            name,
+            place,
+            count: 0,
+            of: Spread::default(),
+        });
+        Self {
+            asked: asked.collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds what stands in the columns on request of a row.
+    pub fn add_asked(&mut self, row: usize, record: &Record) {
+        let Some((_, further)) = record.known() else {
+            return;
+        };
+        for asked in &mut self.asked {
+            let number = further.get(asked.place).and_then(Cell::number);
+            if let Some(value) = number.filter(|value| value.is_finite()) {
+                asked.count += 1;
+                asked.of.add(Extreme::new(value, row, &record.pose));
+            }
+        }
+    }
+
     /// Adds the pose of a row.
     pub fn add(&mut self, row: usize, at: &[Option<f64>; 6], values: &Values) {
         // No measure is a number that is not finite.
@@ -94,11 +168,7 @@ impl Statistics {
         }
         self.count += 1;
         for (spread, value) in self.of.iter_mut().zip(values) {
-            spread.add(Extreme {
-                value: *value,
-                row,
-                at: *at,
-            });
+            spread.add(Extreme::new(*value, row, at));
         }
     }
 
@@ -108,65 +178,115 @@ impl Statistics {
         for (spread, other) in self.of.iter_mut().zip(&other.of) {
             spread.merge(other);
         }
+        for (own, other) in self.asked.iter_mut().zip(&other.asked) {
+            own.count += other.count;
+            own.of.merge(&other.of);
+        }
     }
 
-    /// The statistics as they are reported; `None` of no pose.
+    /// The statistics as they are reported: of what is measured of every job, then of the columns on request
+    /// that have a number in some row; `None` of no pose.
     pub fn report(&self) -> Option<Vec<MeasureReport>> {
-        measured()
-            .iter()
-            .zip(&self.of)
-            .map(|(measure, spread)| {
-                Some(MeasureReport {
-                    measure: measure.name,
-                    words: measure.short,
-                    unit: measure.unit,
-                    poses: self.count,
-                    min: spread.least?,
-                    mean: spread.sum / self.count as f64,
-                    percentiles: PERCENTILES.map(|p| Percentile {
-                        percent: p,
-                        value: spread.percentile(p, self.count),
-                    }),
-                    max: spread.most?,
-                })
-            })
-            .collect()
+        let measured = measured().iter().zip(&self.of);
+        let measured = measured.map(|(measure, spread)| {
+            let words = measure.short.into();
+            spread.report(measure.name, words, measure.unit, self.count)
+        });
+        let mut all: Vec<MeasureReport> = measured.collect::<Option<_>>()?;
+        all.extend(self.asked.iter().filter_map(|asked| {
+            let name = &asked.name;
+            asked.of.report(name, name.clone(), unit(name), asked.count)
+        }));
+        Some(all)
+    }
+
+    /// The same, with the coordinates that the poses of the job give.
+    pub fn report_of(&self, job: &Job) -> Option<Vec<MeasureReport>> {
+        let names: Vec<String> = job.commanded().into_iter().map(|c| c.name).collect();
+        let mut all = self.report()?;
+        for extreme in all.iter_mut().flat_map(|own| [&mut own.min, &mut own.max]) {
+            let drives = job.drive_values(extreme.row % job.len());
+            let value = |name: &String| match COORDINATES.iter().position(|own| own == name) {
+                Some(place) => extreme.at[place],
+                None => {
+                    let place = job.drives().iter().position(|own| own == name)?;
+                    drives.get(place).copied()
+                }
+            };
+            let known = names
+                .iter()
+                .filter_map(|name| Some((name.clone(), value(name)?)));
+            extreme.commanded = known.collect();
+        }
+        Some(all)
+    }
+}
+
+impl Extreme {
+    fn new(value: f64, row: usize, at: &[Option<f64>; 6]) -> Self {
+        Self {
+            value,
+            row,
+            at: *at,
+            commanded: Entries(Vec::new()),
+        }
     }
 }
 
 impl Spread {
     fn add(&mut self, found: Extreme) {
-        if self.least.is_none_or(|least| found.value < least.value) {
+        self.sum += found.value;
+        *self.counts.entry(bin(found.value)).or_default() += 1;
+        let least = self.least.as_ref();
+        let most = self.most.as_ref();
+        let is_least = least.is_none_or(|least| found.value < least.value);
+        let is_most = most.is_none_or(|most| found.value > most.value);
+        if is_most && is_least {
+            self.most = Some(found.clone());
+            self.least = Some(found);
+        } else if is_most {
+            self.most = Some(found);
+        } else if is_least {
             self.least = Some(found);
         }
-        if self.most.is_none_or(|most| found.value > most.value) {
-            self.most = Some(found);
-        }
-        self.sum += found.value;
-        let bin = if found.value > 0.0 {
-            (found.value.ln() / RESOLUTION).floor() as i32
-        } else {
-            i32::MIN
-        };
-        *self.counts.entry(bin).or_default() += 1;
+    }
+
+    /// What is told of so many values; `None` of none.
+    fn report(
+        &self,
+        name: &str,
+        words: String,
+        unit: &'static str,
+        count: u64,
+    ) -> Option<MeasureReport> {
+        Some(MeasureReport {
+            measure: name.into(),
+            words,
+            unit,
+            poses: count,
+            min: self.least.clone()?,
+            mean: self.sum / count as f64,
+            percentiles: PERCENTILES.map(|p| Percentile {
+                percent: p,
+                value: self.percentile(p, count),
+            }),
+            max: self.most.clone()?,
+        })
     }
 
     fn merge(&mut self, other: &Self) {
         let earlier =
-            |own: Extreme, found: Extreme| found.value == own.value && found.row < own.row;
-        if let Some(found) = other.least
-            && self
-                .least
+            |own: &Extreme, found: &Extreme| found.value == own.value && found.row < own.row;
+        if let Some(found) = &other.least
+            && (self.least.as_ref())
                 .is_none_or(|own| found.value < own.value || earlier(own, found))
         {
-            self.least = Some(found);
+            self.least = Some(found.clone());
         }
-        if let Some(found) = other.most
-            && self
-                .most
-                .is_none_or(|own| found.value > own.value || earlier(own, found))
+        if let Some(found) = &other.most
+            && (self.most.as_ref()).is_none_or(|own| found.value > own.value || earlier(own, found))
         {
-            self.most = Some(found);
+            self.most = Some(found.clone());
         }
         self.sum += other.sum;
         for (bin, count) in &other.counts {
@@ -183,14 +303,13 @@ impl Spread {
         for (bin, number) in bins {
             below += number;
             if below >= wanted {
-                if *bin == i32::MIN {
-                    return 0.0;
-                }
-                let middle = ((f64::from(*bin) + 0.5) * RESOLUTION).exp();
-                let bounds = self.least.zip(self.most);
-                return bounds.map_or(middle, |(least, most)| {
-                    middle.clamp(least.value, most.value)
-                });
+                let middle = middle(*bin);
+                let bounds = self.least.as_ref().zip(self.most.as_ref());
+                return match bounds {
+                    // Zero is exact.
+                    Some((least, most)) if *bin != 0 => middle.clamp(least.value, most.value),
+                    _ => middle,
+                };
             }
         }
         0.0
@@ -200,11 +319,11 @@ impl Spread {
 /// What is told of one measure. Field names are those of the JSON file.
 #[derive(Debug, Serialize)]
 pub struct MeasureReport {
-    /// Name of the measure.
-    pub measure: &'static str,
+    /// Name of the measure, or of the column on request.
+    pub measure: String,
     /// The same in words.
     #[serde(skip)]
-    pub words: &'static str,
+    pub words: String,
     /// Its unit.
     pub unit: &'static str,
     /// Number of poses that have it.

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use hyperstat_mechanisms::Value;
 
 use super::cells::quoted;
-use crate::sweep::{Chunk, Columns, NUMBERS, Row, UPPER};
+use crate::sweep::{Cell, Chunk, Columns, NUMBERS, Row, UPPER};
 
 /// A table being written as CSV.
 #[derive(Debug)]
@@ -76,9 +76,10 @@ fn append(text: &mut String, row: &Row<'_>) {
         }
     };
     for k in 0..further.len().max(row.further) {
-        match further.get(k).copied().flatten() {
-            Some(number) => append_numbers(text, &[number]),
-            None => text.push(','),
+        match further.get(k) {
+            Some(Cell::Number(number)) => append_numbers(text, &[*number]),
+            Some(Cell::Text(words)) => append_words(text, words),
+            Some(Cell::Empty) | None => text.push(','),
         }
     }
     append_numbers(text, row.drives);
@@ -87,14 +88,17 @@ fn append(text: &mut String, row: &Row<'_>) {
         for value in values {
             match value {
                 Value::Number(number) => append_numbers(text, &[*number]),
-                Value::Text(words) => {
-                    text.push(',');
-                    text.push_str(&quoted(words));
-                }
+                Value::Text(words) => append_words(text, words),
             }
         }
     }
     text.push('\n');
+}
+
+/// Appends a text, with a comma before it.
+fn append_words(text: &mut String, words: &str) {
+    text.push(',');
+    text.push_str(&quoted(words));
 }
 
 /// Appends each number as [`append_numbers`], nothing but the comma for one that is not known.
@@ -124,7 +128,7 @@ mod tests {
 
     use super::append;
     use crate::schema::columns;
-    use crate::sweep::{Columns, Failure, Found, Held, Record, Row};
+    use crate::sweep::{Cell, Columns, Failure, Found, Held, Record, Row};
 
     fn two_further() -> Columns<'static> {
         Columns {
@@ -148,7 +152,7 @@ mod tests {
         let found = Found {
             stiffness: Matrix6::from_fn(|r, c| 1e8 / (1.0 + (r.min(c) * 6 + r.max(c)) as f64)),
             displacement: Vector6::new(0.1 + 0.2, -1.0 / 3.0, 5e-324, 1e300, -0.0, 1e-7),
-            further: vec![Some(0.1), None],
+            further: vec![Cell::Number(0.1), Cell::Empty],
         };
         let mut text = String::new();
         let record = Record {
@@ -181,7 +185,7 @@ mod tests {
     fn a_rigidly_held_output_has_a_displacement_and_no_stiffness() {
         let held = Held {
             displacement: Vector6::new(1.0, 0.0, 2.0, 0.0, 0.0, 0.5),
-            further: vec![Some(3.0)],
+            further: vec![Cell::Number(3.0)],
         };
         let record = Record {
             pose: [Some(0.0); 6],

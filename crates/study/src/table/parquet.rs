@@ -11,14 +11,16 @@ use std::sync::Arc;
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{ColumnPath, Type};
 
 use hyperstat_mechanisms::{Value, Varied};
 
+use crate::entries::Entries;
 use crate::schema::{self, STATUS};
-use crate::sweep::{Chunk, Columns, NUMBERS};
+use crate::sweep::{Cell, Chunk, Columns, NUMBERS};
 
 /// Rows of a group: 16 MB of numbers.
 const GROUP: usize = 1 << 16;
@@ -51,7 +53,7 @@ struct Group {
     levels: [Vec<i16>; 2],
     /// Of the rows that have them.
     numbers: [Vec<f64>; NUMBERS],
-    further: Vec<Known>,
+    further: Vec<Further>,
     /// Of a job whose poses are values of drives.
     drives: Vec<Vec<f64>>,
     /// A copy of every status met, which others share.
@@ -86,6 +88,53 @@ impl Known {
     fn clear(&mut self) {
         self.levels.clear();
         self.numbers.clear();
+    }
+}
+
+/// A further column.
+enum Further {
+    Numbers(Known),
+    /// 1 where a row has a text, 0 where it has none, and the texts of those that have.
+    Texts(Vec<i16>, Vec<ByteArray>),
+}
+
+impl Further {
+    fn of(name: &str) -> Self {
+        match schema::holds_words(name) {
+            true => Self::Texts(Vec::new(), Vec::new()),
+            false => Self::Numbers(Known::default()),
+        }
+    }
+
+    fn push(&mut self, cell: Option<&Cell>) {
+        match self {
+            Self::Numbers(column) => column.push(cell.and_then(Cell::number)),
+            Self::Texts(levels, texts) => {
+                let text = cell.and_then(Cell::text);
+                levels.push(i16::from(text.is_some()));
+                texts.extend(text.map(ByteArray::from));
+            }
+        }
+    }
+
+    fn write<W: Write + Send>(
+        &self,
+        writer: &mut SerializedRowGroupWriter<'_, W>,
+    ) -> Result<(), ParquetError> {
+        match self {
+            Self::Numbers(column) => column.write(writer),
+            Self::Texts(levels, texts) => write::<ByteArrayType, _>(writer, texts, Some(levels)),
+        }
+    }
+
+    fn clear(&mut self) {
+        match self {
+            Self::Numbers(column) => column.clear(),
+            Self::Texts(levels, texts) => {
+                levels.clear();
+                texts.clear();
+            }
+        }
     }
 }
 
@@ -128,13 +177,18 @@ impl<W: Write + Send> Parquet<W> {
             .set_column_dictionary_enabled(ColumnPath::from(STATUS), true)
             .set_statistics_enabled(EnabledStatistics::Chunk)
             .set_offset_index_disabled(true)
+            .set_key_value_metadata(described(columns))
             .build();
         let schema = schema(columns).map_err(io_error)?;
         let writer = SerializedFileWriter::new(writer, Arc::new(schema), Arc::new(properties));
         Ok(Self {
             writer: writer.map_err(io_error)?,
             group: Group {
-                further: vec![Known::default(); columns.further.len()],
+                further: columns
+                    .further
+                    .iter()
+                    .map(|name| Further::of(name))
+                    .collect(),
                 drives: vec![Vec::new(); columns.drives.len()],
                 values: columns.varied.iter().map(Values::of).collect(),
                 ..Group::default()
@@ -216,7 +270,7 @@ impl Group {
             displaced.push(i16::from(known.is_some()));
             stiff.push(i16::from(record.result.is_ok()));
             for (k, column) in self.further.iter_mut().enumerate() {
-                column.push(known.and_then(|(_, further)| further.get(k).copied().flatten()));
+                column.push(known.and_then(|(_, further)| further.get(k)));
             }
             for (column, value) in self.drives.iter_mut().zip(row.drives) {
                 column.push(*value);
@@ -248,7 +302,7 @@ impl Group {
         self.status.clear();
         self.levels.iter_mut().for_each(Vec::clear);
         self.numbers.iter_mut().for_each(Vec::clear);
-        self.further.iter_mut().for_each(Known::clear);
+        self.further.iter_mut().for_each(Further::clear);
         self.drives.iter_mut().for_each(Vec::clear);
         self.design.clear();
         self.values.iter_mut().for_each(Values::clear);
@@ -268,13 +322,31 @@ fn write<T: DataType, W: Write + Send>(
     Ok(())
 }
 
+/// What the file says of its columns, where any are asked for: their units, and what they are, each as a
+/// JSON object by their names.
+fn described(columns: &Columns<'_>) -> Option<Vec<KeyValue>> {
+    if columns.asked == 0 {
+        return None;
+    }
+    let of = |key: &str, what: &dyn Fn(&str) -> String| {
+        let named = schema::columns(columns).map(|name| (name.clone(), what(&name)));
+        let object: Entries<String> = named.collect();
+        // Texts always have a JSON.
+        KeyValue::new(key.into(), serde_json::to_string(&object).ok())
+    };
+    let units = of("units", &|name| schema::unit(name).into());
+    Some(vec![units, of("meanings", &schema::words)])
+}
+
 /// The columns: what is found is null where a pose has no result, a coordinate where it is not known.
 fn schema(given: &Columns<'_>) -> Result<Type, ParquetError> {
     let mut columns = Vec::new();
-    let drives = 8 + NUMBERS + given.further.len();
+    let first = 8 + NUMBERS;
+    let drives = first + given.further.len();
     let design = drives + given.drives.len();
     for (place, name) in schema::columns(given).enumerate() {
         let text = match place.checked_sub(design + 1) {
+            None if (first..drives).contains(&place) => schema::holds_words(&name),
             None => name == STATUS,
             Some(value) => !given.varied[value].numeric,
         };

@@ -21,7 +21,7 @@ use parquet::schema::types::Type;
 use super::TableFormat;
 use super::cells;
 use crate::plot_error::PlotError;
-use crate::schema::{COORDINATES, DESIGN, POSE, STATUS};
+use crate::schema::{COORDINATES, DESIGN, POSE, STATUS, holds_words};
 
 /// A column of numbers; `None` where a cell is empty.
 pub type Column = Vec<Option<f64>>;
@@ -146,7 +146,8 @@ impl TableReader {
 
     /// Whether a column may hold words.
     pub(crate) fn may_hold_words(&self, name: &str) -> bool {
-        name == STATUS || self.varied().iter().any(|varied| varied == name)
+        let varied = self.varied().iter().any(|varied| varied == name);
+        name == STATUS || holds_words(name) || varied
     }
 
     /// The place of a column.

@@ -1,0 +1,79 @@
+//! What a job may vary: its mechanism, and what it says beside it of what acts.
+
+use super::subject::{Checked, Recipe};
+use crate::error::LoadError;
+use crate::file::loads::{Acting, FIELDS};
+use crate::text::fragment::Fragment;
+use crate::text::paths;
+use crate::text::tree::{Content, Node, Steps};
+
+impl Recipe {
+    /// One tree of all that may vary: the mechanism as it is written, then the job's own fields, those that
+    /// are not given as they are not.
+    pub(crate) fn whole(&self) -> Node {
+        let fields = self.acting.trees();
+        let fields = fields.map(|field| field.unwrap_or_else(|| self.root().with(Content::Other)));
+        let parts = std::iter::once(self.root().clone()).chain(fields);
+        self.root().with(Content::Tuple(parts.collect()))
+    }
+
+    /// The ways in that tree to all places that the path written at `key` names. One that begins with a
+    /// field that the job gives is the job's, any other the mechanism's.
+    pub(crate) fn places(&self, key: Fragment<'_>) -> Result<Vec<Steps>, LoadError> {
+        let fields: Vec<Option<Node>> = self.acting.trees().collect();
+        let find = |path: &str| {
+            let first = path.split('.').next().unwrap_or(path);
+            let field = FIELDS.iter().position(|name| *name == first);
+            let (part, steps) = match field.and_then(|k| Some((k, fields[k].as_ref()?))) {
+                Some((k, _)) if first.len() == path.len() => (1 + k, Steps::new()),
+                Some((k, node)) => (1 + k, paths::find_path(node, key, path, first.len() + 1)?),
+                None => (0, paths::find_path(self.root(), key, path, 0)?),
+            };
+            Ok(std::iter::once(part).chain(steps).collect())
+        };
+        paths::every(&key.string()?, find, key)
+    }
+
+    /// Steps in that tree as steps in the mechanism's; `None` of those to a field of the job.
+    pub(crate) fn in_mechanism(steps: &Steps) -> Option<Steps> {
+        match steps.split_first() {
+            Some((0, rest)) => Some(rest.to_vec()),
+            _ => None,
+        }
+    }
+
+    /// The mechanism of such a tree.
+    pub(crate) fn root_of(&self, whole: &Node) -> Node {
+        whole.part(0).unwrap_or(self.root()).clone()
+    }
+
+    /// Reads and checks such a tree.
+    pub(crate) fn read_whole(&self, whole: &Node) -> Result<Checked, LoadError> {
+        let parts = (0..FIELDS.len()).map(|k| whole.part(1 + k));
+        let acting = self.acting.with_trees(parts);
+        self.read_under(&self.root_of(whole), &acting)
+    }
+}
+
+impl Acting {
+    /// What is given of its fields, each taken apart.
+    fn trees(&self) -> impl Iterator<Item = Option<Node>> {
+        let tree = |(node, name): (&Option<Node>, &str)| {
+            let node = node.as_ref()?;
+            let apart = matches!(node.content, Content::Other);
+            Some(
+                match (apart, ["cases", "misfits", "preloads"].contains(&name)) {
+                    (false, _) => node.clone(),
+                    (true, true) => Node::of_map(Fragment::of_node(node)),
+                    (true, false) => Node::of(Fragment::of_node(node)),
+                },
+            )
+        };
+        self.fields().map(tree)
+    }
+
+    /// The same fields with these values.
+    fn with_trees<'n>(&self, values: impl Iterator<Item = Option<&'n Node>>) -> Self {
+        self.replaced(values.map(|value| value.cloned()))
+    }
+}

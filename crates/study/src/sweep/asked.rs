@@ -1,0 +1,261 @@
+//! What a job's `columns` ask for, found at one pose.
+
+use std::sync::Arc;
+
+use hyperstat_assembly::{
+    Configuration, Geometry, JointId, Model, PartSource, Prepared, SegmentForces, Solution,
+    SolveError, State, moving_mass, worst_stress,
+};
+use hyperstat_joints::Dof;
+use hyperstat_mechanisms::Job;
+use nalgebra::{Matrix6, Vector6};
+
+use super::record::Cell;
+use crate::answer::{segment_names, shares};
+use crate::measures::{MEASURES, Pose};
+use crate::schema::{DEFORMATIONS, Group, Worst, drives};
+
+/// The columns on request of a design.
+#[derive(Debug)]
+pub(super) struct Asked {
+    groups: Vec<Group>,
+    /// Number of cases.
+    cases: usize,
+    /// Names of the segments.
+    segments: Vec<Arc<str>>,
+    /// Names of the drives of this design, and which they are.
+    drives: Vec<(String, (JointId, Dof))>,
+}
+
+/// What is known of a pose.
+pub(super) struct Found<'f> {
+    /// The design.
+    pub(super) prepared: &'f Prepared,
+    pub(super) geometry: &'f Geometry,
+    /// Stiffness of the output, where it has one.
+    pub(super) stiffness: Option<&'f Matrix6<f64>>,
+    /// Displacement of the output under the loads, then in every case.
+    pub(super) displacements: &'f [Vector6<f64>],
+    /// Values of the drives, where they are known.
+    pub(super) drives: Option<&'f [f64]>,
+    /// Natural frequencies.
+    pub(super) frequencies: &'f [Cell],
+    /// What the loads do, then those of every case, where it is known.
+    pub(super) states: Option<&'f [State]>,
+}
+
+/// Wrenches in joints and forces of segments.
+type Forces<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
+
+fn forces(state: &State) -> Forces<'_> {
+    (&state.joint_wrenches, &state.segments)
+}
+
+impl Asked {
+    /// Those of a job; `None` where it asks for none.
+    pub(super) fn of(job: &Job, model: &Model) -> Result<Option<Self>, SolveError> {
+        let groups = Group::all(job);
+        if groups.is_empty() {
+            return Ok(None);
+        }
+        if groups.contains(&Group::Mass) {
+            moving_mass(model, model.geometry())?;
+        }
+        Ok(Some(Self {
+            cases: job.cases().len(),
+            segments: segment_names(model).into_iter().map(Arc::from).collect(),
+            drives: drives(model).into_iter().zip(model.drives()).collect(),
+            groups,
+        }))
+    }
+
+    /// Whether forces are asked for, and nothing that needs more of a solution.
+    pub(super) fn needs_states(&self) -> bool {
+        self.groups.iter().any(Group::is_solved) && !self.needs_solution()
+    }
+
+    /// Whether a whole solution is asked for.
+    fn needs_solution(&self) -> bool {
+        let asks = |group: &Group| matches!(group, Group::Budget(_));
+        self.groups.iter().any(asks)
+    }
+
+    /// Whether values of drives are asked for.
+    pub(super) fn needs_drives(&self) -> bool {
+        let asks = |group: &Group| matches!(group, Group::Drives(_));
+        self.groups.iter().any(asks)
+    }
+
+    /// Adds what stands in the columns.
+    ///
+    /// # Errors
+    /// As [`Configuration::solve`].
+    pub(super) fn add(&self, found: &Found<'_>, cells: &mut Vec<Cell>) -> Result<(), SolveError> {
+        let here;
+        let solution;
+        let (states, solved): (Vec<Forces<'_>>, _) = match found.states {
+            Some(states) => (states.iter().map(forces).collect(), None),
+            None if self.needs_solution() => {
+                here = found.prepared.at(found.geometry)?;
+                solution = here.solve()?;
+                let cases = solution.cases.iter().map(|case| forces(&case.state));
+                let of_loads = (&*solution.joint_wrenches, &*solution.segments);
+                let states = std::iter::once(of_loads).chain(cases);
+                (states.collect(), Some((&here, &solution)))
+            }
+            None => (Vec::new(), None),
+        };
+        for group in &self.groups {
+            match group {
+                Group::Drives(names) => {
+                    let value = |name: &String| {
+                        let place = self.drive(name)?;
+                        found.drives?.get(place).copied()
+                    };
+                    cells.extend(names.iter().map(value).map(Cell::from));
+                }
+                Group::Mass => {
+                    cells.push(moving_mass(found.prepared.model(), found.geometry)?.into())
+                }
+                Group::Measures => add_measures(found, cells),
+                Group::Frequencies(0) => {}
+                Group::Frequencies(_) => cells.extend_from_slice(found.frequencies),
+                Group::Budget(parts) => {
+                    if let Some((here, solution)) = solved {
+                        self.add_shares(parts, here, solution, cells)?;
+                    }
+                }
+                _ => self.add_forces(group, found.prepared.model(), &states, cells),
+            }
+        }
+        Ok(())
+    }
+
+    /// Place of a drive among those of this design.
+    fn drive(&self, name: &String) -> Option<usize> {
+        self.drives.iter().position(|(own, _)| own == name)
+    }
+
+    /// Adds what is found of the forces under the loads, then in every case.
+    fn add_forces(
+        &self,
+        group: &Group,
+        model: &Model,
+        states: &[Forces<'_>],
+        cells: &mut Vec<Cell>,
+    ) {
+        for (wrenches, segments) in states {
+            match group {
+                Group::DriveForces(names) => {
+                    let force = |name: &String| {
+                        let (_, (joint, dof)) = &self.drives[self.drive(name)?];
+                        // The work of the wrench on a unit of the direction.
+                        let basis = model.joints()[joint.0].joint.basis();
+                        Some(basis.column(dof.index()).dot(wrenches[joint.0].as_ref()?))
+                    };
+                    cells.extend(names.iter().map(force).map(Cell::from));
+                }
+                Group::Wrench(name) => {
+                    let joint = model.joints().iter().position(|joint| joint.name == *name);
+                    let wrench = joint.and_then(|joint| wrenches[joint]);
+                    cells.extend((0..6).map(|k| Cell::from(wrench.map(|wrench| wrench[k]))));
+                }
+                Group::Worst(worst) => cells.extend(self.worst(*worst, model, segments)),
+                _ => {}
+            }
+        }
+    }
+
+    /// What is largest in the beams, the segment where it is, and where along it.
+    fn worst(&self, worst: Worst, model: &Model, forces: &[SegmentForces]) -> [Cell; 3] {
+        let mut largest: Option<(f64, usize, f64)> = None;
+        for (k, (segment, forces)) in model.segments().iter().zip(forces).enumerate() {
+            let Some(peak) = worst_stress(segment, forces).map(|stress| stress.von_mises) else {
+                continue;
+            };
+            let value = match worst {
+                Worst::Stress => Some(peak.value),
+                Worst::Utilisation => {
+                    let limit = segment.material.yield_strength();
+                    limit.map(|limit| peak.value / limit)
+                }
+            };
+            if let Some(value) = value
+                && largest.is_none_or(|(most, ..)| value > most)
+            {
+                largest = Some((value, k, peak.xi));
+            }
+        }
+        match largest {
+            Some((value, segment, xi)) => {
+                let name = Arc::clone(&self.segments[segment]);
+                [value.into(), Cell::Text(name), xi.into()]
+            }
+            None => Default::default(),
+        }
+    }
+
+    /// Adds the shares in the deflection under the loads, then in every case.
+    fn add_shares(
+        &self,
+        parts: &[String],
+        here: &Configuration<'_>,
+        solution: &Solution,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), SolveError> {
+        let model = here.model();
+        let free = solution.output.compliance.is_none();
+        if free {
+            let count = (1 + self.cases) * (parts.len() + DEFORMATIONS.len());
+            cells.extend(std::iter::repeat_n(Cell::Empty, count));
+            return Ok(());
+        }
+        let influence = here.influence()?;
+        let name = |source: PartSource| match source {
+            PartSource::Body(id) => format!("body {}", model.bodies()[id.0].name),
+            PartSource::Joint(id) => format!("joint {}", model.joints()[id.0].name),
+        };
+        let cases = solution
+            .cases
+            .iter()
+            .map(|case| solution.of_case(&case.name));
+        for solution in std::iter::once(Some(solution.clone())).chain(cases) {
+            let budget = solution.and_then(|solution| shares(model, &influence, &solution));
+            let total = budget.as_ref().map(|budget| budget.total);
+            let share = |sum: f64| total.filter(|total| *total != 0.0).map(|total| sum / total);
+            let by_part: Vec<(String, f64)> = (budget.iter())
+                .flat_map(|budget| budget.by_source())
+                .map(|(source, sum)| (name(source), sum))
+                .collect();
+            let by_deformation: Vec<_> = (budget.iter())
+                .flat_map(|budget| budget.by_deformation())
+                .collect();
+            cells.extend(parts.iter().map(|part| {
+                let own = by_part.iter().find(|(name, _)| name == part);
+                Cell::from(share(own.map_or(0.0, |(_, sum)| *sum)))
+            }));
+            cells.extend(DEFORMATIONS.iter().map(|(kind, _)| {
+                let own = by_deformation.iter().find(|(own, _)| own == kind);
+                Cell::from(share(own.map_or(0.0, |(_, sum)| *sum)))
+            }));
+        }
+        Ok(())
+    }
+}
+
+/// Adds every measure, then those of every case.
+fn add_measures(found: &Found<'_>, cells: &mut Vec<Cell>) {
+    let pose = found.stiffness.map(Pose::new);
+    for (k, displacement) in found.displacements.iter().enumerate() {
+        let asked = MEASURES
+            .iter()
+            .filter(|measure| k == 0 || measure.rule.is_of_loads());
+        cells.extend(asked.map(|measure| {
+            let value = match &pose {
+                Some(pose) => pose.measure(measure.rule, displacement),
+                None => measure.rule.of_displacement(displacement),
+            };
+            Cell::from(value)
+        }));
+    }
+}
