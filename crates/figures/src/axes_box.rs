@@ -16,10 +16,10 @@ const TICK_LENGTH: f64 = 5.0;
 const GAP: f64 = 6.0;
 
 /// Names of the axes.
-const NAMES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
+pub(crate) const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// Draws the box of axes.
-pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
+/// Draws the box of axes, which have these names.
+pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds, names: [&str; 3]) {
     let steps = std::array::from_fn(|axis| step(view, bounds, axis));
     // The walls behind everything: those that the eye looks at from inside.
     for normal in (0..3).filter(|normal| !view.is_edge_on(*normal)) {
@@ -34,7 +34,7 @@ pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
     }
     for (axis, step) in steps.into_iter().enumerate() {
         if !view.is_end_on(axis) {
-            draw_axis(canvas, view, bounds, step, axis);
+            draw_axis(canvas, view, bounds, step, (axis, names[axis]));
         }
     }
 }
@@ -137,8 +137,14 @@ fn draw_wall(
     );
 }
 
-fn draw_axis(canvas: &mut Canvas, view: &View, bounds: &Bounds, step: f64, axis: usize) {
-    let (name, start) = (NAMES[axis], start(view, bounds, axis));
+fn draw_axis(
+    canvas: &mut Canvas,
+    view: &View,
+    bounds: &Bounds,
+    step: f64,
+    (axis, name): (usize, &str),
+) {
+    let (name, start) = (&*format!("{name} (m)"), start(view, bounds, axis));
     let along = |value: f64| -> Point {
         let mut point = bounds.corner(start);
         point[axis] = value;

@@ -79,6 +79,33 @@ impl Study {
         Self::of(loaded, path, selection)
     }
 
+    /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in
+    /// place of one by its number.
+    ///
+    /// # Errors
+    /// As there; no pose has them, or several have.
+    #[cfg(feature = "figures")]
+    pub fn open_at(
+        path: &Path,
+        selection: &Selection,
+        at: &[(String, f64)],
+        files: &dyn Files,
+        registry: &Registry,
+    ) -> Result<Self, StudyError> {
+        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
+        let files = loaded.files();
+        let Input::Batch(batch) = loaded else {
+            let (what, path) = ("pose", path.into());
+            return Err(StudyError::NotABatch { what, path });
+        };
+        let job = choose(batch.jobs, path, selection)?;
+        let pose = crate::figure::pose_of_job(&job, at)?;
+        Ok(Self {
+            files,
+            ..Self::of_job(job, selection.design.unwrap_or(0), pose)?
+        })
+    }
+
     /// The same of what is loaded already, from the file of this name.
     ///
     /// # Errors
@@ -247,6 +274,38 @@ impl Study {
             Origin::Mechanism(_) => None,
             Origin::Job { job, pose, .. } => Some((&job.name, *pose)),
         }
+    }
+
+    /// The job that it is of, and its pose in it.
+    pub(crate) fn of_pose(&self) -> Option<(&Job, usize)> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, pose, .. } => Some((job, *pose)),
+        }
+    }
+
+    /// The same design at another pose of its job; `None` where that is out of reach, or it is of no job.
+    pub(crate) fn at_pose(&self, pose: usize) -> Option<Self> {
+        let Origin::Job {
+            job,
+            design,
+            number,
+            ..
+        } = &self.origin
+        else {
+            return None;
+        };
+        Some(Self {
+            prepared: Prepared::new(design_model(design, pose).ok()?),
+            name: self.name.clone(),
+            files: self.files.clone(),
+            origin: Origin::Job {
+                job: job.clone(),
+                design: design.clone(),
+                pose,
+                number: *number,
+            },
+        })
     }
 
     /// Number of the design that it is, of a job that varies.

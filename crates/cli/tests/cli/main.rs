@@ -17,6 +17,7 @@ mod messages;
 mod misfits;
 mod modes;
 mod parameters;
+mod pictures;
 mod plot;
 mod rows;
 mod run;

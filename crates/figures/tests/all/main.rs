@@ -5,3 +5,4 @@ mod drawn;
 mod figures;
 mod lines;
 mod maps;
+mod moving;
