@@ -15,6 +15,9 @@ const TICK_LENGTH: f64 = 5.0;
 /// Free space around letters \[pixels\].
 const GAP: f64 = 6.0;
 
+/// Free space at the left edge of the page, which long names keep \[pixels\].
+const MARGIN: f64 = 8.0;
+
 /// Names of the axes.
 pub(crate) const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -167,7 +170,8 @@ fn draw_axis(
     // The name of the upright axis is above its labels: beside them there is less room.
     let at = if axis == 2 {
         let [x, y] = away(ends[1], outward, GAP + reach);
-        [x, y - 1.4 * style::AXIS_NAME.size]
+        let least = MARGIN + 0.5 * text_width(name, style::AXIS_NAME.size);
+        [x.max(least), y - 1.4 * style::AXIS_NAME.size]
     } else {
         let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
         away(middle, outward, depth + GAP + reach)

@@ -17,6 +17,7 @@ mod measures;
 #[cfg(feature = "figures")]
 mod plot_error;
 mod schema;
+mod selection;
 mod source;
 mod study;
 pub mod sweep;
@@ -45,5 +46,6 @@ pub use hyperstat_mechanisms::{
 };
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
-pub use study::{Selection, Study};
+pub use selection::Selection;
+pub use study::Study;
 pub use verification::{StateDifferences, Verification};

@@ -13,6 +13,7 @@ use hyperstat_mechanisms::{
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
+use crate::selection::{Selection, choose};
 use crate::source::Written;
 use crate::title::title;
 
@@ -24,30 +25,6 @@ pub struct Study {
     name: String,
     files: Vec<PathBuf>,
     origin: Origin,
-}
-
-/// What is chosen of a batch file.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Selection {
-    /// Name of the job; may be left out where there is only one.
-    pub job: Option<String>,
-    /// Number of the design, from 0, which is the default.
-    pub design: Option<usize>,
-    /// Number of the pose, from 0, which is the default.
-    pub pose: Option<usize>,
-}
-
-impl Selection {
-    /// Name of the first choice that is made.
-    fn given(&self) -> Option<&'static str> {
-        let made = [
-            ("job", self.job.is_some()),
-            ("design", self.design.is_some()),
-            ("pose", self.pose.is_some()),
-        ];
-        made.into_iter()
-            .find_map(|(what, made)| made.then_some(what))
-    }
 }
 
 #[derive(Debug)]
@@ -77,33 +54,6 @@ impl Study {
     ) -> Result<Self, StudyError> {
         let loaded = hyperstat_mechanisms::load(path, files, registry)?;
         Self::of(loaded, path, selection)
-    }
-
-    /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in
-    /// place of one by its number.
-    ///
-    /// # Errors
-    /// As there; no pose has them, or several have.
-    #[cfg(feature = "figures")]
-    pub fn open_at(
-        path: &Path,
-        selection: &Selection,
-        at: &[(String, f64)],
-        files: &dyn Files,
-        registry: &Registry,
-    ) -> Result<Self, StudyError> {
-        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
-        let files = loaded.files();
-        let Input::Batch(batch) = loaded else {
-            let (what, path) = ("pose", path.into());
-            return Err(StudyError::NotABatch { what, path });
-        };
-        let job = choose(batch.jobs, path, selection)?;
-        let pose = crate::figure::pose_of_job(&job, at)?;
-        Ok(Self {
-            files,
-            ..Self::of_job(job, selection.design.unwrap_or(0), pose)?
-        })
     }
 
     /// The same of what is loaded already, from the file of this name.
@@ -464,32 +414,6 @@ impl Study {
             Origin::Job { job, design, .. } => Written::Design(job, design),
         }
     }
-}
-
-/// The job that is meant.
-fn choose(mut jobs: Vec<Job>, path: &Path, selection: &Selection) -> Result<Job, StudyError> {
-    let path = || path.into();
-    let known: Vec<String> = jobs.iter().map(|job| job.name.clone()).collect();
-    let place = match &selection.job {
-        Some(name) => {
-            known
-                .iter()
-                .position(|job| job == name)
-                .ok_or_else(|| StudyError::UnknownJob {
-                    path: path(),
-                    job: name.clone(),
-                    known: known.clone(),
-                })?
-        }
-        None if jobs.len() == 1 => 0,
-        None => {
-            return Err(StudyError::ChooseJob {
-                path: path(),
-                known,
-            });
-        }
-    };
-    Ok(jobs.swap_remove(place))
 }
 
 /// The model of a job's first design that can be, at one of its poses.

@@ -211,7 +211,13 @@ fn titles_and_names_are_as_they_are_set() {
             < 2
     );
     let map = bench.read("out/job-map.svg");
-    for text in ["Stiffness", "along the spindle (MN/m)", "height = 0.45 m"] {
+    // The bar has its name and its unit in two lines.
+    for text in [
+        "Stiffness",
+        "along the spindle",
+        "(MN/m)",
+        "height = 0.45 m",
+    ] {
         assert!(map.contains(&format!(">\n{text}\n<")), "{text}");
     }
     assert!(map.contains("along the spindle: force along z per"));

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use hyperstat_figures::{AnimatedFigure, DeformedFigure, Scale};
-use hyperstat_mechanisms::Noted;
+use hyperstat_mechanisms::{Files, Input, Noted, Registry};
 
 use super::budget::budget;
 use super::deformed::{compare, deformed, mode};
@@ -11,10 +11,11 @@ use super::drawing::Drawing;
 use super::labels::Labels;
 use super::map::evenly;
 use super::notes;
-use super::pose::in_words;
+use super::pose::{in_words, of_job};
 use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
+use crate::selection::{Selection, choose};
 use crate::study::Study;
 
 /// Most poses that a moving figure runs through.
@@ -34,6 +35,32 @@ pub struct Look {
 }
 
 impl Study {
+    /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in
+    /// place of one by its number.
+    ///
+    /// # Errors
+    /// As there; no pose has them, or several have.
+    pub fn open_at(
+        path: &Path,
+        selection: &Selection,
+        at: &[(String, f64)],
+        files: &dyn Files,
+        registry: &Registry,
+    ) -> Result<Self, StudyError> {
+        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
+        let Input::Batch(batch) = &loaded else {
+            let (what, path) = ("pose", path.into());
+            return Err(StudyError::NotABatch { what, path });
+        };
+        let job = choose(batch.jobs.clone(), path, selection)?;
+        let pose = Some(of_job(&job, at)?);
+        let selection = Selection {
+            pose,
+            ..selection.clone()
+        };
+        Self::of(loaded, path, &selection)
+    }
+
     /// The mechanism undeformed and deformed, under its loads or those of a case; with the points of
     /// the independent solver where it is to `verify`.
     ///
