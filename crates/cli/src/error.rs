@@ -80,7 +80,7 @@ impl CliError {
             Self::Write { .. }
             | Self::Print(_)
             | Self::Figure {
-                source: FigureError::Png(_),
+                source: FigureError::Png(_) | FigureError::Pdf(_) | FigureError::Gif(_),
                 ..
             } => 3,
             _ => 2,
@@ -223,6 +223,16 @@ fn plot_help(error: &PlotError) -> Option<String> {
         PlotError::NoShares { .. } => "give another direction with `--along`".into(),
         PlotError::NoMode { count, .. } if *count > 0 => {
             format!("choose `--mode` from 1 to {count}, or give segments more `elements`")
+        }
+        PlotError::OtherPlanes {
+            common: Some(plane),
+            ..
+        } => {
+            let held: String = plane.split_whitespace().take(3).collect();
+            format!(
+                "choose a plane of both, such as `--plane {}`",
+                held.replace('−', "-")
+            )
         }
         PlotError::AlongNormal { .. } => "choose other `--axes`, or another `--plane`".into(),
         PlotError::Several { differ, .. } => match &**differ {

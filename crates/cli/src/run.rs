@@ -13,6 +13,7 @@ use crate::atomic::{AtomicFile, LONGER};
 use crate::disk::{Disk, LONGEST_NAME};
 use crate::error::CliError;
 use crate::json::json;
+use crate::plot::Form;
 use crate::text::Outcome;
 use crate::{args, consent, outputs, plot, terminal};
 
@@ -60,7 +61,8 @@ fn check_outputs(batch: &Batch, args: &args::Run) -> Result<(), CliError> {
     for job in &batch.jobs {
         let table = table_path(job, args);
         let summary = args.summary.then(|| summary_path(job, args));
-        let mut files: Vec<PathBuf> = figure_files(job, &table).chain(summary).collect();
+        let figures = figure_files(job, &table, args);
+        let mut files: Vec<PathBuf> = figures.chain(summary).collect();
         files.push(table);
         for file in &files {
             let name = file.file_name().unwrap_or_default().to_string_lossy();
@@ -104,8 +106,9 @@ fn prepare_job(job: &Job, way: Way) -> Result<Sweep<'_>, CliError> {
 }
 
 /// The files of a job's figures, beside its table.
-fn figure_files(job: &Job, table: &Path) -> impl Iterator<Item = PathBuf> {
-    figure::names(job).flat_map(|name| plot::files(&table.with_file_name(name)))
+fn figure_files(job: &Job, table: &Path, args: &args::Run) -> impl Iterator<Item = PathBuf> {
+    let forms = Form::all(args.pdf);
+    figure::names(job).flat_map(move |name| plot::files(&table.with_file_name(name), &forms))
 }
 
 /// Writes a job's table and its figures.
@@ -176,7 +179,8 @@ fn run_job(
         outcome.measures = found;
     }
     bar.set_message(format!("{}: figures", job.name));
-    threads.install(|| draw(job, trajectory.as_ref(), &path, &mut outcome))?;
+    let forms = Form::all(args.pdf);
+    threads.install(|| draw(job, trajectory.as_ref(), (&path, &forms), &mut outcome))?;
     Ok(outcome)
 }
 
@@ -184,7 +188,7 @@ fn run_job(
 fn draw(
     job: &Job,
     trajectory: Option<&figure::Trajectory>,
-    table: &Path,
+    (table, forms): (&Path, &[Form]),
     outcome: &mut Outcome,
 ) -> Result<(), CliError> {
     for (place, name) in figure::names(job).enumerate() {
@@ -198,7 +202,7 @@ fn draw(
         if let Some(difference) = drawing.difference() {
             outcome.compared(difference);
         }
-        match plot::write(&drawing, &table.with_file_name(&name)) {
+        match plot::write(&drawing, &table.with_file_name(&name), forms) {
             Ok(paths) => outcome.files.extend(paths),
             // One that cannot be drawn is as one without a result: the run goes on.
             Err(CliError::Figure { source, .. }) => {

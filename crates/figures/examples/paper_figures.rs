@@ -58,6 +58,7 @@ fn trajectory() -> TrajectoryFigure {
         displacement,
         scale: Scale::Auto,
         view: Viewpoint::default(),
+        axis_names: None,
     }
 }
 
@@ -74,6 +75,8 @@ fn deformed() -> DeformedFigure {
         scale: Scale::Auto,
         notes: Notes::default(),
         view: Viewpoint::default(),
+        axis_names: None,
+        pose: None,
     };
     let mut platform = vec![[0.0, 0.0, 0.5]];
     for limb in 0..3 {

@@ -15,11 +15,14 @@ const TICK_LENGTH: f64 = 5.0;
 /// Free space around letters \[pixels\].
 const GAP: f64 = 6.0;
 
-/// Names of the axes.
-const NAMES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
+/// Free space at the left edge of the page, which long names keep \[pixels\].
+const MARGIN: f64 = 8.0;
 
-/// Draws the box of axes.
-pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
+/// Names of the axes.
+pub(crate) const NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// Draws the box of axes, which have these names.
+pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds, names: [&str; 3]) {
     let steps = std::array::from_fn(|axis| step(view, bounds, axis));
     // The walls behind everything: those that the eye looks at from inside.
     for normal in (0..3).filter(|normal| !view.is_edge_on(*normal)) {
@@ -34,7 +37,7 @@ pub(crate) fn draw(canvas: &mut Canvas, view: &View, bounds: &Bounds) {
     }
     for (axis, step) in steps.into_iter().enumerate() {
         if !view.is_end_on(axis) {
-            draw_axis(canvas, view, bounds, step, axis);
+            draw_axis(canvas, view, bounds, step, (axis, names[axis]));
         }
     }
 }
@@ -137,8 +140,14 @@ fn draw_wall(
     );
 }
 
-fn draw_axis(canvas: &mut Canvas, view: &View, bounds: &Bounds, step: f64, axis: usize) {
-    let (name, start) = (NAMES[axis], start(view, bounds, axis));
+fn draw_axis(
+    canvas: &mut Canvas,
+    view: &View,
+    bounds: &Bounds,
+    step: f64,
+    (axis, name): (usize, &str),
+) {
+    let (name, start) = (&*format!("{name} (m)"), start(view, bounds, axis));
     let along = |value: f64| -> Point {
         let mut point = bounds.corner(start);
         point[axis] = value;
@@ -161,7 +170,8 @@ fn draw_axis(canvas: &mut Canvas, view: &View, bounds: &Bounds, step: f64, axis:
     // The name of the upright axis is above its labels: beside them there is less room.
     let at = if axis == 2 {
         let [x, y] = away(ends[1], outward, GAP + reach);
-        [x, y - 1.4 * style::AXIS_NAME.size]
+        let least = MARGIN + 0.5 * text_width(name, style::AXIS_NAME.size);
+        [x.max(least), y - 1.4 * style::AXIS_NAME.size]
     } else {
         let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
         away(middle, outward, depth + GAP + reach)

@@ -145,6 +145,18 @@ impl Canvas {
             .ring(place(center), unit(radius), stroke.color, width);
     }
 
+    /// What `draw` draws, seen at some of the times of a moving picture ([`Elements::frame`]).
+    pub(crate) fn frame(
+        &mut self,
+        seen: &[bool],
+        takes: Option<u32>,
+        draw: impl FnOnce(&mut Self),
+    ) {
+        let mut inner = Self::default();
+        draw(&mut inner);
+        self.elements.frame(&inner.elements, seen, takes);
+    }
+
     /// A line of text, centred in height on `at`.
     pub(crate) fn text(&mut self, text: &str, at: PagePoint, lettering: Lettering) {
         let Lettering {

@@ -1,5 +1,6 @@
 //! The undeformed and the deformed mechanism (the paper's Fig. 9), under loads or in a mode.
 
+mod animation;
 mod drawing;
 mod notes;
 
@@ -13,6 +14,7 @@ use crate::viewpoint::Viewpoint;
 use crate::{numbers, png, style};
 use drawing::{AXIS_LENGTH, Drawing, Part};
 
+pub use animation::AnimatedFigure;
 pub use notes::{Arrow, Frame, Mass, Name, Named, Notes};
 
 /// A mechanism as it was built and as it is under load or in a natural mode, with the displacements
@@ -39,6 +41,10 @@ pub struct DeformedFigure {
     pub notes: Notes,
     /// Where it is seen from.
     pub view: Viewpoint,
+    /// What the axes are called where that is not x, y, z.
+    pub axis_names: Option<[String; 3]>,
+    /// Which pose it is, in words, as a line of the caption.
+    pub pose: Option<String>,
 }
 
 /// What the displacements in a [`DeformedFigure`] are.
@@ -106,43 +112,22 @@ impl DeformedFigure {
     /// of unequal lengths, numbers that are not finite or too large to draw, an axis without
     /// direction, and a magnification that is not above zero.
     pub fn svg(&self) -> Result<String, FigureError> {
-        let curves = self.curves.iter().enumerate().map(|(k, curve)| {
-            Displaced::new(format!("curve {k}"), &curve.points, &curve.displacement)
-        });
-        let curves = curves.collect::<Result<Vec<_>, _>>()?;
-        let rigid = self.rigid.iter().enumerate().map(|(k, body)| {
-            Displaced::new(format!("rigid body {k}"), &body.points, &body.displacement)
-        });
-        let rigid = rigid.collect::<Result<Vec<_>, _>>()?;
-        let mechanism = || curves.iter().chain(&rigid);
-        if mechanism().next().is_none() {
-            return Err(FigureError::NoPoints {
-                what: "mechanism".into(),
-            });
-        }
-        checks::drawable("ground", &self.ground)?;
-        self.notes.check()?;
-
+        let mechanism = self.mechanism()?;
         let factor = self.factor()?;
-        let size = Bounds::around(self.points().copied()).diagonal();
-
-        let drawing = Drawing {
-            curves: parts(&curves, factor)?,
-            rigid: parts(&rigid, factor)?,
-            axes: self.axis_lines(AXIS_LENGTH * size)?,
-            ground: &self.ground,
-            second: self.second_moved(factor)?,
-        };
+        let drawing = self.drawing(&mechanism, factor)?;
+        let size = self.size();
         let page = Page {
             title: &self.title,
             subtitle: self.subtitle(factor),
             legend: self.legend(factor),
             captions: self.captions(factor),
-            bounds: Bounds::around(drawing.points().chain(self.notes.points(size))),
+            bounds: Bounds::around(self.all_points(&drawing)),
             eye: self.view,
+            axes: self.axis_names.as_ref(),
         };
         Ok(page.svg(|canvas, view| {
-            drawing.draw(canvas, view);
+            drawing.draw_rest(canvas, view);
+            drawing.draw_deformed(canvas, view);
             self.notes.draw(canvas, view, size);
         }))
     }
@@ -169,6 +154,52 @@ impl DeformedFigure {
             captions: &self.captions(factor),
         };
         Ok(words.description())
+    }
+
+    /// Links and rigid bodies, each checked.
+    fn mechanism(&self) -> Result<Mechanism<'_>, FigureError> {
+        let curves = self.curves.iter().enumerate().map(|(k, curve)| {
+            Displaced::new(format!("curve {k}"), &curve.points, &curve.displacement)
+        });
+        let curves = curves.collect::<Result<Vec<_>, _>>()?;
+        let rigid = self.rigid.iter().enumerate().map(|(k, body)| {
+            Displaced::new(format!("rigid body {k}"), &body.points, &body.displacement)
+        });
+        let rigid = rigid.collect::<Result<Vec<_>, _>>()?;
+        if curves.is_empty() && rigid.is_empty() {
+            return Err(FigureError::NoPoints {
+                what: "mechanism".into(),
+            });
+        }
+        checks::drawable("ground", &self.ground)?;
+        self.notes.check()?;
+        Ok(Mechanism { curves, rigid })
+    }
+
+    /// What there is to draw of it, displacements times a factor.
+    fn drawing<'a>(
+        &'a self,
+        mechanism: &Mechanism<'a>,
+        factor: f64,
+    ) -> Result<Drawing<'a>, FigureError> {
+        Ok(Drawing {
+            curves: parts(&mechanism.curves, factor)?,
+            rigid: parts(&mechanism.rigid, factor)?,
+            axes: self.axis_lines(AXIS_LENGTH * self.size())?,
+            ground: &self.ground,
+            second: self.second_moved(factor)?,
+        })
+    }
+
+    /// Size of the mechanism without load \[m\].
+    fn size(&self) -> f64 {
+        Bounds::around(self.points().copied()).diagonal()
+    }
+
+    /// Everything that must be in the box.
+    fn all_points(&self, drawing: &Drawing<'_>) -> Vec<[f64; 3]> {
+        let notes = self.notes.points(self.size());
+        drawing.points().chain(notes).collect()
     }
 
     fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
@@ -200,7 +231,7 @@ impl DeformedFigure {
 
     fn captions(&self, factor: f64) -> Vec<String> {
         let largest = largest(self.displacements());
-        match self.shown {
+        let told = match self.shown {
             Shown::Deflection => {
                 let second = self.second.as_ref();
                 page::captions(largest, second.map(|second| second.difference))
@@ -210,7 +241,8 @@ impl DeformedFigure {
                 numbers::number(factor),
                 numbers::metres(factor * largest)
             )],
-        }
+        };
+        self.pose.iter().cloned().chain(told).collect()
     }
 
     /// What is drawn of the joint axes: lines of this length \[m\].
@@ -271,6 +303,12 @@ impl DeformedFigure {
         );
         legend
     }
+}
+
+/// What a figure is of.
+struct Mechanism<'a> {
+    curves: Vec<Displaced<'a>>,
+    rigid: Vec<Displaced<'a>>,
 }
 
 fn parts<'a>(displaced: &[Displaced<'a>], factor: f64) -> Result<Vec<Part<'a>>, FigureError> {

@@ -144,6 +144,15 @@ pub enum FigureError {
         /// Which axis, counted from 0.
         index: usize,
     },
+    /// Figures of which none is first: there is none.
+    #[error("there is no frame to draw")]
+    NoFrames,
+    /// The PDF could not be made from the SVG.
+    #[error("the figure could not be drawn as PDF")]
+    Pdf(#[source] Box<dyn StdError + Send + Sync>),
+    /// The GIF could not be made from its frames.
+    #[error("the figure could not be drawn as GIF")]
+    Gif(#[source] Box<dyn StdError + Send + Sync>),
     /// The PNG could not be made from the SVG.
     #[error("the figure could not be drawn as PNG")]
     Png(#[source] Box<dyn StdError + Send + Sync>),

@@ -1,4 +1,4 @@
-//! Figures of stiffness results, as SVG and PNG.
+//! Figures of stiffness results, as SVG, PNG and PDF, and moving ones as SVG and GIF.
 
 #![doc = include_str!("../README.md")]
 
@@ -10,11 +10,13 @@ mod contours;
 mod deformed;
 mod error;
 mod geometry;
+mod gif;
 mod lines;
 mod map;
 mod numbers;
 mod page;
 mod paths;
+mod pdf;
 mod plane_axes;
 mod png;
 mod quantity;
@@ -28,12 +30,13 @@ mod viewpoint;
 
 pub use bars::{Bar, BarFigure, BarGroup};
 pub use deformed::{
-    Arrow, Axis, Curve, DeformedFigure, Frame, Mass, Name, Named, Notes, RigidBody, SecondPoints,
-    Shown,
+    AnimatedFigure, Arrow, Axis, Curve, DeformedFigure, Frame, Mass, Name, Named, Notes, RigidBody,
+    SecondPoints, Shown,
 };
 pub use error::FigureError;
 pub use lines::{Diagram, LineFigure, MOST_SERIES, Series};
-pub use map::{ColorScale, MapFigure, MapPanel, Samples};
+pub use map::{ColorScale, Extreme, MapFigure, MapPanel, Samples};
+pub use pdf::pdf;
 pub use quantity::Quantity;
 pub use scale::Scale;
 pub use trajectory::{SecondMethod, TrajectoryFigure};

@@ -1,6 +1,7 @@
 //! A quantity over a plane, or over several: a heat map with contours and a colour bar.
 
 mod colors;
+mod extremes;
 mod layout;
 mod panel;
 
@@ -10,6 +11,8 @@ use crate::quantity::Quantity;
 use crate::{checks, png};
 use colors::Colors;
 use layout::Layout;
+
+pub use extremes::Extreme;
 
 /// A quantity over one plane or several of them side by side, in colours that are even to the eye
 /// (viridis), with contours at round values and a colour bar.
@@ -34,6 +37,10 @@ pub struct MapFigure {
     pub scale: ColorScale,
     /// The planes, one or more, all drawn to the same scale and in the same colours.
     pub panels: Vec<MapPanel>,
+    /// How many of them are beside each other; `None`: as many as there is room for.
+    pub columns: Option<usize>,
+    /// What is marked on each plane where it stands, with its value.
+    pub marks: Vec<Extreme>,
 }
 
 /// How colours go with values.
@@ -47,6 +54,9 @@ pub enum ColorScale {
     Linear,
     /// Evenly with their logarithms; the first value of the colours must be above zero.
     Log,
+    /// Of ratios, above zero: evenly with their logarithms, in colours that part at 1, which is
+    /// white, and go as far to either side.
+    Ratio,
 }
 
 /// One plane of a map.
@@ -92,15 +102,17 @@ impl MapFigure {
             panel.samples.check(&format!("panel {k}"))?;
         }
         let colors = Colors::new(self)?;
-        let layout = Layout::new(&self.axes, &self.panels);
+        let captions = self.captions();
+        let layout = Layout::new(self, captions.len());
         let words = Words {
             title: &self.title,
             subtitle: &self.subtitle,
-            captions: &[self.caption()],
+            captions: &captions,
         };
         Ok(words.svg(layout.height, |canvas| {
             for (panel, place) in self.panels.iter().zip(&layout.panels) {
-                panel::draw(canvas, panel, place, &layout, &colors);
+                let marks = self.marked(panel);
+                panel::draw(canvas, panel, place, &layout, (&colors, &marks));
             }
             colors.draw_bar(canvas, layout.bar, layout.name_room);
         }))
@@ -115,10 +127,22 @@ impl MapFigure {
         png::render(&self.svg()?)
     }
 
-    /// The range of the values, what the colours do with it, and how many points have none, as
-    /// sentences.
+    /// The range of the values, what the colours do with it, how many points have none, and where
+    /// the marked ones are, as sentences.
     #[must_use]
     pub fn caption(&self) -> String {
+        self.captions().join(" ")
+    }
+
+    /// The lines of the caption.
+    fn captions(&self) -> Vec<String> {
+        let marked = self.extremes_in_words();
+        std::iter::once(self.range_in_words())
+            .chain(marked)
+            .collect()
+    }
+
+    fn range_in_words(&self) -> String {
         let all: usize = self.panels.iter().map(|panel| panel.samples.len()).sum();
         let count = self.found().count();
         let least = self.found().fold(f64::INFINITY, f64::min);
@@ -131,10 +155,10 @@ impl MapFigure {
             format!("{name} from {} to {}.", told(least), told(most))
         };
         let logarithmic = Colors::new(self).is_ok_and(|colors| colors.logarithmic);
-        let kind = if logarithmic {
-            "Logarithmic colours"
-        } else {
-            "Colours"
+        let kind = match self.scale {
+            ColorScale::Ratio => "Colours that part at 1",
+            _ if logarithmic => "Logarithmic colours",
+            _ => "Colours",
         };
         match self.limits {
             Some([low, high]) => {
@@ -157,12 +181,20 @@ impl MapFigure {
 }
 
 impl Samples {
+    /// Whether there is any value.
+    #[must_use]
+    pub fn has_value(&self) -> bool {
+        self.found().next().is_some()
+    }
+
     /// The values that there are.
     pub(crate) fn found(&self) -> impl Iterator<Item = f64> {
         self.values().iter().copied().flatten()
     }
 
-    fn values(&self) -> &[Option<f64>] {
+    /// A value, or none, for every point.
+    #[must_use]
+    pub fn values(&self) -> &[Option<f64>] {
         match self {
             Self::Grid { values, .. } | Self::Points { values, .. } => values,
         }

@@ -80,6 +80,8 @@ pub(crate) struct Page<'a> {
     pub(crate) bounds: Bounds,
     /// Where it is seen from.
     pub(crate) eye: Viewpoint,
+    /// What the axes are called where that is not x, y, z.
+    pub(crate) axes: Option<&'a [String; 3]>,
 }
 
 /// What stands in the legend for a part of the drawing.
@@ -114,7 +116,10 @@ impl Page<'_> {
             captions: &self.captions,
         };
         words.svg(HEIGHT, |canvas| {
-            axes_box::draw(canvas, &view, &bounds);
+            let names = self.axes.map_or(axes_box::NAMES, |names| {
+                names.each_ref().map(|name| &**name)
+            });
+            axes_box::draw(canvas, &view, &bounds, names);
             draw(canvas, &view);
             for (line, (sample, label)) in self.legend.iter().enumerate() {
                 let [left, top] = LEGEND;
@@ -212,6 +217,15 @@ pub(crate) fn start_mark(canvas: &mut Canvas, at: PagePoint) {
     canvas.disc(at, 5.0, style::MARK);
 }
 
+/// The mark of a least value, a triangle that points down with its middle at the point; of the largest
+/// one, it points up.
+pub(crate) fn extreme_mark(canvas: &mut Canvas, [x, y]: PagePoint, most: bool) {
+    const HALF: f64 = 5.5;
+    let tip = if most { -HALF } else { HALF };
+    let corners = [[x, y + tip], [x - HALF, y - tip], [x + HALF, y - tip]];
+    outlined(canvas, &corners, style::MARK, style::MARK_EDGE);
+}
+
 /// The mark of a point of the second method.
 pub(crate) fn second_mark(canvas: &mut Canvas, at: PagePoint) {
     canvas.ring(at, style::SECOND_RADIUS, style::SECOND);
@@ -252,6 +266,13 @@ pub(crate) fn mass_mark(canvas: &mut Canvas, [x, y]: PagePoint) {
         canvas.polygon(&quarter, style::MARK);
     }
     canvas.ring([x, y], RADIUS, style::MARK_STROKE);
+}
+
+/// Writes a line of a caption above so many others, on a page of a drawing in space.
+pub(crate) fn caption(canvas: &mut Canvas, text: &str, above: usize) {
+    let bottom = f64::from(HEIGHT) - MARGIN - above as f64 * CAPTION_LINE;
+    let room = f64::from(WIDTH) - 2.0 * MARGIN;
+    fitted(canvas, text, [MARGIN, bottom], room, style::CAPTION);
 }
 
 /// The captions: the largest deflection \[m\], and the largest difference of a second method,

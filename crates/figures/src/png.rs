@@ -11,10 +11,17 @@ use crate::error::FigureError;
 const DENSITY: f32 = 2.5;
 
 /// Liberation Sans 2.1.5, under the SIL Open Font License 1.1.
-static FONT: &[u8] = include_bytes!("../fonts/LiberationSans-Regular.ttf");
+pub(crate) static FONT: &[u8] = include_bytes!("../fonts/LiberationSans-Regular.ttf");
 
 /// Renders an SVG document of ours as a PNG file.
 pub(crate) fn render(svg: &str) -> Result<Vec<u8>, FigureError> {
+    pixels(svg, DENSITY)?
+        .encode_png()
+        .map_err(|error| FigureError::Png(Box::new(error)))
+}
+
+/// Renders an SVG document of ours with so many pixels to one of its own along each side.
+pub(crate) fn pixels(svg: &str, density: f32) -> Result<Pixmap, FigureError> {
     let mut fonts = Database::new();
     fonts.load_font_data(FONT.to_vec());
     let options = Options {
@@ -23,11 +30,9 @@ pub(crate) fn render(svg: &str) -> Result<Vec<u8>, FigureError> {
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Png(Box::new(error)))?;
     let size = tree.size();
-    let [width, height] = [size.width(), size.height()].map(|side| (side * DENSITY) as u32);
+    let [width, height] = [size.width(), size.height()].map(|side| (side * density) as u32);
     let mut pixels = Pixmap::new(width, height).expect("a page has a size");
-    let to_pixels = Transform::from_scale(DENSITY, DENSITY);
+    let to_pixels = Transform::from_scale(density, density);
     resvg::render(&tree, to_pixels, &mut pixels.as_mut());
-    pixels
-        .encode_png()
-        .map_err(|error| FigureError::Png(Box::new(error)))
+    Ok(pixels)
 }

@@ -46,6 +46,8 @@ pub(crate) const JOINT_AXIS: Stroke = Stroke {
 /// Marks of what is held to the ground, and of where a trajectory starts.
 pub(crate) const MARK: Color = BLACK;
 pub(crate) const MARK_STROKE: Stroke = Stroke::solid(BLACK, 1.2);
+/// Around a mark on any colour.
+pub(crate) const MARK_EDGE: Stroke = Stroke::solid(WHITE, 1.2);
 /// Forces and moments.
 pub(crate) const LOAD: Stroke = Stroke::solid(VERMILLION, 2.0);
 /// The axes x, y, z of a frame.

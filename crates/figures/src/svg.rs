@@ -102,6 +102,24 @@ impl Elements {
         self.write(format_args!("\" fill=\"{name}\"/>\n"));
     }
 
+    /// What is seen at some of the times, one after the other, in which a picture that takes so many
+    /// milliseconds is divided; where it is not to move, what is seen at the first.
+    pub(crate) fn frame(&mut self, inner: &Self, seen: &[bool], takes: Option<u32>) {
+        let word = |seen: &bool| if *seen { "visible" } else { "hidden" };
+        let first = seen.first().map_or("hidden", word);
+        self.write(format_args!("<g visibility=\"{first}\">\n"));
+        if let Some(takes) = takes {
+            let words: Vec<_> = seen.iter().map(word).collect();
+            self.write(format_args!(
+                "<animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{takes}ms\" \
+                 repeatCount=\"indefinite\" values=\"{}\"/>\n",
+                words.join(";")
+            ));
+        }
+        self.0 += &inner.0;
+        self.0 += "</g>\n";
+    }
+
     /// A disc.
     pub(crate) fn disc(&mut self, center: Place, radius: i32, fill: Color) {
         self.circle(center, radius, fill.opacity, [&fill.name(), "none"], 1);

@@ -27,6 +27,8 @@ pub struct TrajectoryFigure {
     pub scale: Scale,
     /// Where it is seen from.
     pub view: Viewpoint,
+    /// What the axes are called where that is not x, y, z.
+    pub axis_names: Option<[String; 3]>,
 }
 
 /// Displacements of a trajectory by a second method.
@@ -75,6 +77,7 @@ impl TrajectoryFigure {
                     .copied(),
             ),
             eye: self.view,
+            axes: self.axis_names.as_ref(),
         };
         Ok(page.svg(|canvas, view| draw(canvas, view, &self.commanded, &deflected, &second)))
     }

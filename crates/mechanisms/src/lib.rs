@@ -37,7 +37,7 @@ pub use job::columns::Column;
 pub use job::commanded::Commanded;
 pub use job::design::Design;
 pub use job::figures::{Along, ColorScale, Figure, Scale};
-pub use job::look::{Look, Noted, View};
+pub use job::look::{Look, Mark, Noted, View, Words};
 pub use job::made::{JobLoad, JobMechanism, JobPoses};
 pub use job::mover::Placing;
 pub use job::vary::Varied;

@@ -163,7 +163,7 @@ pub enum StudyError {
     #[cfg(feature = "figures")]
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// A map that the job's table will not hold.
+    /// A figure that the job cannot have.
     #[cfg(feature = "figures")]
     #[error("{source}")]
     JobMap {

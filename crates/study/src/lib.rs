@@ -24,6 +24,7 @@ mod page;
 #[cfg(feature = "figures")]
 mod plot_error;
 mod schema;
+mod selection;
 mod source;
 mod study;
 pub mod sweep;
@@ -63,5 +64,6 @@ pub use number::number;
 pub use page::{Page, Reported};
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
-pub use study::{Selection, Study};
+pub use selection::Selection;
+pub use study::Study;
 pub use verification::{StateDifferences, Verification};

@@ -115,6 +115,70 @@ pub enum PlotError {
         /// Rows of each.
         rows: [usize; 2],
     },
+    /// A coordinate that no pose has at this value.
+    #[error("no pose has {axis} = {value}")]
+    NoPoseAt {
+        /// The coordinate.
+        axis: String,
+        /// What was given.
+        value: f64,
+        /// What there is.
+        known: Vec<f64>,
+    },
+    /// Coordinates that poses have, but none all of them.
+    #[error("no pose has {at} together")]
+    NoSuchPoseAt {
+        /// The coordinates, in words.
+        at: String,
+    },
+    /// Coordinates that several poses have.
+    #[error("{count} poses have {at}")]
+    SeveralPosesAt {
+        /// The coordinates, in words.
+        at: String,
+        /// How many.
+        count: usize,
+        /// Coordinates in which they differ.
+        differ: Vec<String>,
+    },
+    /// Poses of which none can be reached.
+    #[error("no pose of job `{job}` can be reached: there is nothing to draw")]
+    NoPoses {
+        /// The job.
+        job: String,
+    },
+    /// A label for what the figure has not.
+    #[error("nothing in the figure is called `{name}`")]
+    NoLabel {
+        /// The name that was given.
+        name: String,
+        /// What would be right.
+        help: String,
+    },
+    /// Two tables without the same planes.
+    #[error("{} and {} are of other planes", .paths[0].display(), .paths[1].display())]
+    OtherPlanes {
+        /// The tables.
+        paths: [PathBuf; 2],
+        /// A plane that both have, as in `z = 0.5 m`.
+        common: Option<String>,
+    },
+    /// Two tables without the same poses.
+    #[error("{} and {} are of other poses{}", .paths[0].display(), .paths[1].display(), at(.plane))]
+    OtherPoses {
+        /// The tables.
+        paths: [PathBuf; 2],
+        /// Where, as in `z = 0.5 m`; may be empty.
+        plane: String,
+    },
+    /// Values of opposite signs, or zero: no ratio above zero.
+    #[error(
+        "`{value}` is zero in one table, or has another sign than in the other: it has no ratio above zero"
+    )]
+    NoRatio {
+        /// The quantity.
+        value: String,
+    },
     /// A plane of a coordinate that nobody asked for.
     #[error("`{axis}` follows from {}: it has no planes", .asked.join(", "))]
     Follows {
@@ -249,11 +313,28 @@ impl PlotError {
             Self::Texts { .. } => Some("choose a column of numbers".into()),
             Self::UnknownColumn { help, .. }
             | Self::NoCoordinate { help, .. }
+            | Self::NoLabel { help, .. }
             | Self::NoQuantity { help, .. } => Some(help.clone()),
             Self::Follows { asked, .. } => {
                 Some(format!("choose a plane of {}, or none", asked.join(", ")))
             }
             Self::NoPartners { .. } => Some("give tables of the same poses".into()),
+            Self::NoPoseAt { axis, known, .. } => Some(planes(axis, known)
+                .replace("there are planes at ", "poses have ")
+                .replace("there is one at ", "poses have ")),
+            Self::NoSuchPoseAt { .. } => Some("give the pose by its number".into()),
+            Self::SeveralPosesAt { differ, .. } => Some(match &**differ {
+                [] => "they are the same: give the pose by its number".into(),
+                differ => format!("say {}, too", differ.join(" and ")),
+            }),
+            Self::OtherPlanes { common, .. } => Some(match common {
+                Some(plane) => format!("choose a plane of both, such as {plane}"),
+                None => "run both over the same poses".into(),
+            }),
+            Self::OtherPoses { .. } => Some("run both over the same poses".into()),
+            Self::NoRatio { .. } => {
+                Some("choose a quantity above zero, such as `k33` or `deflection`".into())
+            }
             Self::AllHeld => Some("leave out some of the planes".into()),
             Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
             Self::AlongNormal { .. } => Some("choose other axes, or another plane".into()),
@@ -272,6 +353,14 @@ impl PlotError {
             }
             _ => None,
         }
+    }
+}
+
+/// Where, where that is told.
+fn at(plane: &str) -> String {
+    match plane {
+        "" => String::new(),
+        plane => format!(" at {plane}"),
     }
 }
 

@@ -14,6 +14,7 @@ use hyperstat_mechanisms::{
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
 use crate::near::of_mechanism;
+use crate::selection::{Selection, choose};
 use crate::source::Written;
 use crate::title::title;
 
@@ -25,30 +26,6 @@ pub struct Study {
     name: String,
     files: Vec<PathBuf>,
     origin: Origin,
-}
-
-/// What is chosen of a batch file.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Selection {
-    /// Name of the job; may be left out where there is only one.
-    pub job: Option<String>,
-    /// Number of the design, from 0, which is the default.
-    pub design: Option<usize>,
-    /// Number of the pose, from 0, which is the default.
-    pub pose: Option<usize>,
-}
-
-impl Selection {
-    /// Name of the first choice that is made.
-    fn given(&self) -> Option<&'static str> {
-        let made = [
-            ("job", self.job.is_some()),
-            ("design", self.design.is_some()),
-            ("pose", self.pose.is_some()),
-        ];
-        made.into_iter()
-            .find_map(|(what, made)| made.then_some(what))
-    }
 }
 
 #[derive(Debug)]
@@ -271,6 +248,38 @@ impl Study {
         }
     }
 
+    /// The job that it is of, and its pose in it.
+    pub(crate) fn of_pose(&self) -> Option<(&Job, usize)> {
+        match &self.origin {
+            Origin::Mechanism(_) => None,
+            Origin::Job { job, pose, .. } => Some((job, *pose)),
+        }
+    }
+
+    /// The same design at another pose of its job; `None` where that is out of reach, or it is of no job.
+    pub(crate) fn at_pose(&self, pose: usize) -> Option<Self> {
+        let Origin::Job {
+            job,
+            design,
+            number,
+            ..
+        } = &self.origin
+        else {
+            return None;
+        };
+        Some(Self {
+            prepared: Prepared::new(design_model(design, pose).ok()?),
+            name: self.name.clone(),
+            files: self.files.clone(),
+            origin: Origin::Job {
+                job: job.clone(),
+                design: design.clone(),
+                pose,
+                number: *number,
+            },
+        })
+    }
+
     /// Number of the design that it is, of a job that varies.
     pub fn design(&self) -> Option<usize> {
         match &self.origin {
@@ -435,32 +444,6 @@ impl Study {
             Origin::Job { job, design, .. } => Written::Design(job, design),
         }
     }
-}
-
-/// The job that is meant.
-fn choose(mut jobs: Vec<Job>, path: &Path, selection: &Selection) -> Result<Job, StudyError> {
-    let path = || path.into();
-    let known: Vec<String> = jobs.iter().map(|job| job.name.clone()).collect();
-    let place = match &selection.job {
-        Some(name) => {
-            known
-                .iter()
-                .position(|job| job == name)
-                .ok_or_else(|| StudyError::UnknownJob {
-                    path: path(),
-                    job: name.clone(),
-                    known: known.clone(),
-                })?
-        }
-        None if jobs.len() == 1 => 0,
-        None => {
-            return Err(StudyError::ChooseJob {
-                path: path(),
-                known,
-            });
-        }
-    };
-    Ok(jobs.swap_remove(place))
 }
 
 /// The model of a job's first design that can be, at one of its poses.

@@ -25,7 +25,9 @@ Examples:
   hyperstat compare study.ron --pose 0 --with-pose 20 --along z
   hyperstat compare portal.ron stiffer.ron --out change
                                              The two budgets as bars, SVG and PNG
-  hyperstat compare before/map.csv after/map.csv";
+  hyperstat compare before/map.csv after/map.csv
+  hyperstat plot before/map.csv --map k33 --beside after/map.csv --ratio
+                                             The same as a map of B/A";
 
 /// `hyperstat compare`
 #[derive(Debug, Args)]

@@ -3,18 +3,18 @@
 
 mod mechanism;
 mod solved;
+mod table;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{ColorScale, Scale};
+use hyperstat_figures::{FigureError, Scale};
 use hyperstat_mechanisms::{Registry, files as read};
-use hyperstat_study::figure::{self, Choice, Drawing, Lines, Map};
-use hyperstat_study::table::TableReader;
+use hyperstat_study::figure::Drawing;
 use serde::de::IgnoredAny;
 
 use crate::args;
-use crate::error::{CliError, MAP, SHAPE};
+use crate::error::{CliError, SHAPE};
 use crate::outputs;
 
 /// A figure, and its files without their extensions.
@@ -63,7 +63,7 @@ pub(crate) fn run(
 ) -> Result<bool, CliError> {
     let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
-    for path in write(&drawing, &stem)? {
+    for path in write(&drawing, &stem, &forms(args))? {
         told += &format!("{}\n", path.display());
     }
     let caption = drawing.caption().map_err(|source| CliError::Figure {
@@ -75,32 +75,81 @@ pub(crate) fn run(
     Ok(true)
 }
 
-/// Writes a figure as `STEM.svg` and `STEM.png`; both are drawn before the first is written.
-pub(crate) fn write(drawing: &Drawing, stem: &Path) -> Result<[PathBuf; 2], CliError> {
-    let [as_svg, as_png] = files(stem);
-    let cannot_draw = |path: &Path, source| CliError::Figure {
-        path: path.into(),
-        source,
-    };
-    let svg = drawing
-        .svg()
-        .map_err(|source| cannot_draw(&as_svg, source))?;
-    let png = drawing
-        .png()
-        .map_err(|source| cannot_draw(&as_png, source))?;
-    outputs::write(&as_svg, svg.as_bytes())?;
-    outputs::write(&as_png, &png)?;
-    Ok([as_svg, as_png])
+/// A form in which a figure is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    Svg,
+    Png,
+    Pdf,
+    /// Of a figure that moves.
+    Gif,
 }
 
-/// The files `STEM.svg` and `STEM.png` of a figure.
-pub(crate) fn files(stem: &Path) -> [PathBuf; 2] {
-    ["svg", "png"].map(|extension| {
+impl Form {
+    /// The forms of every figure, and a PDF where it is asked for.
+    pub(crate) fn all(pdf: bool) -> Vec<Self> {
+        let more = pdf.then_some(Self::Pdf);
+        [Self::Svg, Self::Png].into_iter().chain(more).collect()
+    }
+
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+            Self::Pdf => "pdf",
+            Self::Gif => "gif",
+        }
+    }
+
+    /// The file's bytes.
+    fn drawn(self, drawing: &Drawing) -> Result<Vec<u8>, FigureError> {
+        match self {
+            Self::Svg => drawing.svg().map(String::into_bytes),
+            Self::Png => drawing.png(),
+            Self::Pdf => drawing.pdf(),
+            Self::Gif => drawing.gif().map(Option::unwrap_or_default),
+        }
+    }
+}
+
+/// Writes a figure in these forms, as `STEM.svg` and so on; all are drawn before the first is written.
+pub(crate) fn write(
+    drawing: &Drawing,
+    stem: &Path,
+    forms: &[Form],
+) -> Result<Vec<PathBuf>, CliError> {
+    let mut drawn = Vec::new();
+    for (form, path) in forms.iter().zip(files(stem, forms)) {
+        match form.drawn(drawing) {
+            Ok(bytes) => drawn.push((path, bytes)),
+            Err(source) => return Err(CliError::Figure { path, source }),
+        }
+    }
+    for (path, bytes) in &drawn {
+        outputs::write(path, bytes)?;
+    }
+    Ok(drawn.into_iter().map(|(path, _)| path).collect())
+}
+
+/// The files of a figure in these forms.
+pub(crate) fn files(stem: &Path, forms: &[Form]) -> Vec<PathBuf> {
+    let file = |form: &Form| {
         let mut path = stem.as_os_str().to_owned();
         path.push(".");
-        path.push(extension);
+        path.push(form.extension());
         PathBuf::from(path)
-    })
+    };
+    forms.iter().map(file).collect()
+}
+
+/// The forms that the command line asks for.
+fn forms(args: &args::Plot) -> Vec<Form> {
+    let named = args.out.as_deref().and_then(Path::extension);
+    let mut forms = Form::all(args.pdf || named.is_some_and(|own| own == "pdf"));
+    if args.animate {
+        forms.push(Form::Gif);
+    }
+    forms
 }
 
 /// The files of a figure without their extensions: as the command line says, or of the `name` beside
@@ -124,7 +173,7 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
     match (of_mechanism, kind) {
         (None, _) => {
             refuse(args, "a table", [("--job", args.job.is_some())])?;
-            of_table(args)
+            table::figure(args)
         }
         (Some(_), FileKind::Mechanism) => mechanism::figure(args, registry),
         (Some("--budget"), FileKind::Solved) => {
@@ -159,70 +208,6 @@ fn refuse<const N: usize>(
     })
 }
 
-/// The figure of a table.
-fn of_table(args: &args::Plot) -> Result<Plotted, CliError> {
-    let table = &TableReader::open(&args.file)?;
-    let title = args.title.clone();
-    let choice = Choice {
-        design: args.design,
-        pose: args.pose,
-    };
-    // One design, where no more are asked for.
-    let first = figure::first_design(table)?;
-    let one_design = Choice {
-        design: choice.design.or(first).or(Some(0)),
-        ..choice
-    };
-    let kind = match (&args.kind.map, &args.kind.lines) {
-        (Some(value), _) => value.clone(),
-        (None, Some(values)) => values.join("-"),
-        (None, None) => "trajectory".into(),
-    };
-    let stem = stem_of(args, &format!("{}-{kind}", table.job()));
-    let files = files(&stem);
-    outputs::refuse(
-        files.iter().map(|path| &**path),
-        std::slice::from_ref(&args.file),
-    )?;
-    let drawing = if let Some(value) = &args.kind.map {
-        let map = Map {
-            value: value.clone(),
-            planes: args.plane.clone(),
-            axes: args.axes.clone(),
-            asked: None,
-            limits: args.limits,
-            scale: colors(args.scale.as_ref())?,
-            choice: one_design,
-            title,
-        };
-        Drawing::Map(figure::map(table, &map)?)
-    } else if let Some(values) = &args.kind.lines {
-        let over = args.over.clone().unwrap_or_else(|| "pose".into());
-        // Along what varies from design to design: one pose of each.
-        let design = table.find("design");
-        let varies = design.is_some_and(|design| table.find(&over) >= Some(design));
-        let lines = Lines {
-            values: values.clone(),
-            choice: match varies {
-                true => Choice {
-                    pose: choice.pose.or(Some(0)),
-                    ..choice
-                },
-                false => one_design,
-            },
-            over,
-            title,
-        };
-        Drawing::Lines(figure::lines(table, &lines)?)
-    } else {
-        let scale = magnified(args.scale.as_ref())?;
-        let mut drawn = figure::trajectory(table, one_design, scale, title)?;
-        drawn.view = figure::viewpoint(args.view);
-        Drawing::Trajectory(drawn)
-    };
-    Ok(Plotted { drawing, stem })
-}
-
 /// A magnification from the command line.
 fn magnified(scale: Option<&args::Scale>) -> Result<Scale, CliError> {
     match scale {
@@ -231,19 +216,6 @@ fn magnified(scale: Option<&args::Scale>) -> Result<Scale, CliError> {
         Some(other) => Err(CliError::Scale {
             given: other.to_string(),
             of: SHAPE,
-        }),
-    }
-}
-
-/// How the colours of a map go with its values, from the command line.
-fn colors(scale: Option<&args::Scale>) -> Result<ColorScale, CliError> {
-    match scale {
-        None => Ok(ColorScale::Auto),
-        Some(args::Scale::Linear) => Ok(ColorScale::Linear),
-        Some(args::Scale::Log) => Ok(ColorScale::Log),
-        Some(other) => Err(CliError::Scale {
-            given: other.to_string(),
-            of: MAP,
         }),
     }
 }
@@ -268,7 +240,7 @@ pub(crate) fn files_of(out: &Path) -> [PathBuf; 2] {
 pub(crate) fn without_extension(out: &Path) -> PathBuf {
     let extension = out.extension().and_then(|extension| extension.to_str());
     match extension {
-        Some("svg" | "png") => out.with_extension(""),
+        Some("svg" | "png" | "pdf" | "gif") => out.with_extension(""),
         _ => out.into(),
     }
 }

@@ -30,7 +30,7 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
     let solved = Solved::from_json(&args.file, &String::from_utf8_lossy(&bytes))?;
     let drawing = Drawing::Budget(solved.budget(&args.file, args.title.clone())?);
     let stem = super::stem_of(args, &format!("{}-budget", stem(&args.file)));
-    let files = super::files(&stem);
+    let files = super::files(&stem, &super::forms(args));
     outputs::refuse(
         files.iter().map(|path| &**path),
         std::slice::from_ref(&args.file),

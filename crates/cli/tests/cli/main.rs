@@ -19,6 +19,7 @@ mod messages;
 mod misfits;
 mod modes;
 mod parameters;
+mod pictures;
 mod plot;
 mod report;
 mod rows;

@@ -47,8 +47,8 @@ impl Drawing<'_> {
             .copied()
     }
 
-    /// Draws all, from what is to be in the background on.
-    pub(super) fn draw(&self, canvas: &mut Canvas, view: &View) {
+    /// Draws what is without load.
+    pub(super) fn draw_rest(&self, canvas: &mut Canvas, view: &View) {
         let undeformed = BodyStyle {
             fill: style::UNDEFORMED_FILL,
             outline: style::UNDEFORMED,
@@ -66,6 +66,10 @@ impl Drawing<'_> {
         for axis in &self.axes {
             canvas.line(&projected(view, axis), style::JOINT_AXIS);
         }
+    }
+
+    /// Draws what is displaced, from what is to be in the background on.
+    pub(super) fn draw_deformed(&self, canvas: &mut Canvas, view: &View) {
         let deformed = BodyStyle {
             fill: style::BODY_FILL,
             outline: style::BODY,

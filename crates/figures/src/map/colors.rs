@@ -1,6 +1,6 @@
 //! Colours of values, linear or logarithmic, and the bar that tells them.
 
-use colorous::VIRIDIS;
+use colorous::{Gradient, PURPLE_ORANGE, VIRIDIS};
 
 use super::{ColorScale, MapFigure};
 use crate::canvas::{Canvas, Stroke, WIDTH, text_width};
@@ -40,6 +40,9 @@ pub(super) struct Colors {
     pub(super) logarithmic: bool,
     /// Whether there are values below, and above, those with colours of their own.
     beyond: [bool; 2],
+    gradient: Gradient,
+    /// From here to there contours are black, elsewhere white.
+    light: [f64; 2],
     name: String,
     scaled: Scaled,
     /// Values of the contours, with their labels.
@@ -63,12 +66,21 @@ impl Colors {
         };
         let logarithmic = match map.scale {
             ColorScale::Linear => false,
-            ColorScale::Log if ends[0] > 0.0 => true,
-            ColorScale::Log => return Err(FigureError::Logarithm { least: ends[0] }),
+            ColorScale::Log | ColorScale::Ratio if ends[0] > 0.0 => true,
+            ColorScale::Log | ColorScale::Ratio => {
+                return Err(FigureError::Logarithm { least: ends[0] });
+            }
             ColorScale::Auto => {
                 let middle = values[values.len() / 2].clamp(ends[0], ends[1]);
                 ends[0] > 0.0 && middle - ends[0] < CROWDED * (ends[1] - ends[0])
             }
+        };
+        let ends = match map.scale {
+            ColorScale::Ratio => {
+                let reach = ends[1].max(ends[0].recip());
+                [reach.recip(), reach]
+            }
+            _ => ends,
         };
         let largest = ends[0].abs().max(ends[1].abs());
         let [first, last] = if ends[1] - ends[0] > FLAT * largest {
@@ -92,6 +104,14 @@ impl Colors {
             first,
             logarithmic,
             beyond: [least < first, most > last],
+            gradient: match map.scale {
+                ColorScale::Ratio => PURPLE_ORANGE,
+                _ => VIRIDIS,
+            },
+            light: match map.scale {
+                ColorScale::Ratio => [0.2, 0.8],
+                _ => [0.45, f64::INFINITY],
+            },
             name: map.quantity.name.clone(),
             ticks: (ticks.into_iter())
                 .map(|(tick, label)| (tick / scaled.factor, label))
@@ -122,13 +142,13 @@ impl Colors {
             } else {
                 least + part * (most - least)
             };
-            (level, color(part + 0.5 / SHADES as f64))
+            (level, self.color(part + 0.5 / SHADES as f64))
         })
     }
 
     /// The colour of a value.
     pub(super) fn of(&self, value: f64) -> Color {
-        color(self.part(self.tone(value)))
+        self.color(self.part(self.tone(value)))
     }
 
     /// Tones of the contours, each with its label and its stroke.
@@ -140,11 +160,17 @@ impl Colors {
     }
 
     fn stroke(&self, tone: f64) -> Stroke {
-        if self.part(tone) > 0.45 {
+        let [from, to] = self.light;
+        if self.part(tone) > from && self.part(tone) < to {
             style::CONTOUR
         } else {
             style::CONTOUR_ON_DARK
         }
+    }
+
+    fn color(&self, part: f64) -> Color {
+        let color = self.gradient.eval_continuous(part);
+        Color::new(color.r, color.g, color.b)
     }
 
     fn part(&self, tone: f64) -> f64 {
@@ -166,11 +192,11 @@ impl Colors {
         let middle = 0.5 * (left + right);
         if self.beyond[1] {
             let tip = [[left, last], [middle, top], [right, last]];
-            canvas.shade(&[tip.to_vec()], color(1.0));
+            canvas.shade(&[tip.to_vec()], self.color(1.0));
         }
         if self.beyond[0] {
             let tip = [[left, first], [right, first], [middle, bottom]];
-            canvas.shade(&[tip.to_vec()], color(0.0));
+            canvas.shade(&[tip.to_vec()], self.color(0.0));
         }
         let height = |part: f64| first - part * (first - last);
         for (k, (_, color)) in self.shades().enumerate() {
@@ -242,11 +268,6 @@ fn round_factors([first, last]: [f64; 2]) -> Vec<f64> {
         }
         every += 1;
     }
-}
-
-fn color(part: f64) -> Color {
-    let color = VIRIDIS.eval_continuous(part);
-    Color::new(color.r, color.g, color.b)
 }
 
 #[cfg(test)]

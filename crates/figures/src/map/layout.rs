@@ -1,11 +1,11 @@
 //! Where the panels of a map and its colour bar are on the page.
 
-use super::{MapPanel, Samples};
+use super::{MapFigure, MapPanel, Samples};
 use crate::canvas::WIDTH;
 use crate::geometry::Area;
-use crate::page::MARGIN;
+use crate::page::{CAPTION_LINE, MARGIN};
 use crate::plane_axes::PlaneAxes;
-use crate::quantity::{Quantity, Scaled};
+use crate::quantity::Scaled;
 
 /// Left edge of the panels, and right edge of the room for them \[pixels\].
 const LEFT: f64 = 84.0;
@@ -18,7 +18,7 @@ const TOP: f64 = 116.0;
 const BESIDE: f64 = 40.0;
 const ABOVE: f64 = 42.0;
 
-/// Room for the axis below the panels and the caption \[pixels\].
+/// Room for the axis below the panels and a line of the caption \[pixels\].
 const BELOW: f64 = 92.0;
 
 /// Largest height of a panel over the room's width.
@@ -46,18 +46,21 @@ pub(super) struct Cell {
 }
 
 impl Layout {
-    pub(super) fn new(axes: &[Quantity; 2], panels: &[MapPanel]) -> Self {
+    /// The places of a map with so many lines of caption.
+    pub(super) fn new(map: &MapFigure, captions: usize) -> Self {
+        let (axes, panels) = (&map.axes, &map.panels);
         let ranges = ranges(panels);
         let scaled: [Scaled; 2] = std::array::from_fn(|axis| {
             let [least, most] = ranges[axis];
             axes[axis].scaled(least.abs().max(most.abs()))
         });
         let sides = ranges.map(|[least, most]| most - least);
-        let columns = match panels.len() {
+        let columns = map.columns.unwrap_or(match panels.len() {
             0 | 1 => 1,
             2..=4 => 2,
             _ => 3,
-        };
+        });
+        let columns = columns.clamp(1, panels.len().max(1));
         let room = (RIGHT - LEFT - BESIDE * (columns - 1) as f64) / columns as f64;
         // The same scale along both axes where they have the same unit, unless one is far longer.
         let ratio = sides[1] / sides[0];
@@ -88,7 +91,8 @@ impl Layout {
         let used = columns.min(panels.len()) as f64;
         let right = LEFT + used * width + (used - 1.0) * BESIDE;
         let bottom = TOP + rows as f64 * (height + ABOVE) - ABOVE;
-        let page = (bottom + BELOW).max(330.0);
+        let more = CAPTION_LINE * captions.saturating_sub(1) as f64;
+        let page = (bottom + BELOW).max(330.0) + more;
         let bar_left = right + 30.0;
         Self {
             height: page.ceil() as u32,

@@ -1,12 +1,13 @@
 //! One plane of a map.
 
 use super::colors::Colors;
+use super::extremes::Marked;
 use super::layout::{Cell, Layout};
-use super::{MapPanel, Samples};
+use super::{Extreme, MapPanel, Samples};
 use crate::canvas::{Canvas, text_width};
 use crate::contours::Field;
 use crate::geometry::PagePoint;
-use crate::page::fitted;
+use crate::page::{self, fitted};
 use crate::paths;
 use crate::plane_axes::PlaneAxes;
 use crate::refine::Refined;
@@ -30,10 +31,20 @@ pub(super) fn draw(
     panel: &MapPanel,
     place: &Cell,
     layout: &Layout,
-    colors: &Colors,
+    (colors, marks): (&Colors, &[Marked]),
 ) {
     let axes = &place.axes;
     let factors = layout.scaled.each_ref().map(|scaled| scaled.factor);
+    let marks = marks.iter().map(|mark| {
+        let [x, y] = mark.at;
+        let at = axes.at([x * factors[0], y * factors[1]]);
+        (mark, at)
+    });
+    let marks: Vec<_> = marks.collect();
+    let mut labels: Vec<(PagePoint, String)> = Vec::new();
+    for (mark, at) in &marks {
+        labels.push((beside(*at, &mark.label, axes, &labels), mark.label.clone()));
+    }
     match &panel.samples {
         Samples::Grid { x, y, values } => {
             let [x, y] = [(x, factors[0]), (y, factors[1])].map(|(ticks, factor)| {
@@ -41,7 +52,7 @@ pub(super) fn draw(
                 scaled.collect::<Vec<_>>()
             });
             let (x, y) = (&x, &y);
-            draw_grid(canvas, axes, &Field { x, y, values }, colors);
+            draw_grid(canvas, axes, &Field { x, y, values }, (colors, labels));
         }
         Samples::Points { at, values } => {
             axes.draw_grid(canvas);
@@ -53,7 +64,11 @@ pub(super) fn draw(
                     None => cross(canvas, at),
                 }
             }
+            draw_labels(canvas, &labels);
         }
+    }
+    for (mark, at) in marks {
+        page::extreme_mark(canvas, at, mark.of == Extreme::Most);
     }
     let names = [0, 1].map(|axis| {
         let label = &*layout.scaled[axis].label;
@@ -69,7 +84,13 @@ pub(super) fn draw(
     fitted(canvas, &panel.name, middle, room, style::PANEL);
 }
 
-fn draw_grid(canvas: &mut Canvas, axes: &PlaneAxes, field: &Field<'_>, colors: &Colors) {
+/// Draws a field, with labels of its contours where they are clear of those that are there.
+fn draw_grid(
+    canvas: &mut Canvas,
+    axes: &PlaneAxes,
+    field: &Field<'_>,
+    (colors, mut labels): (&Colors, Vec<(PagePoint, String)>),
+) {
     let on_page = |line: Vec<PagePoint>| -> Vec<PagePoint> {
         line.into_iter().map(|point| axes.at(point)).collect()
     };
@@ -98,7 +119,6 @@ fn draw_grid(canvas: &mut Canvas, axes: &PlaneAxes, field: &Field<'_>, colors: &
         }
         canvas.shade(&region, color);
     }
-    let mut labels: Vec<(PagePoint, String)> = Vec::new();
     for (tone, label, stroke) in colors.contours() {
         let lines: Vec<_> = fine.lines(tone).into_iter().map(on_page).collect();
         for line in &lines {
@@ -111,13 +131,54 @@ fn draw_grid(canvas: &mut Canvas, axes: &PlaneAxes, field: &Field<'_>, colors: &
             labels.push((at, label));
         }
     }
-    for (at, label) in &labels {
+    draw_labels(canvas, &labels);
+    draw_lone(canvas, axes, field, colors);
+}
+
+fn draw_labels(canvas: &mut Canvas, labels: &[(PagePoint, String)]) {
+    for (at, label) in labels {
         let [x, y] = half_size(label);
         let halo = [[-x, -y], [x, -y], [x, y], [-x, y]].map(|[dx, dy]| [at[0] + dx, at[1] + dy]);
         canvas.polygon(&halo, style::CONTOUR_HALO);
         canvas.text(label, *at, style::CONTOUR_LABEL);
     }
-    draw_lone(canvas, axes, field, colors);
+}
+
+/// A place beside a mark for its label: inside the panel and clear of others, where there is one.
+fn beside(
+    at: PagePoint,
+    label: &str,
+    axes: &PlaneAxes,
+    others: &[(PagePoint, String)],
+) -> PagePoint {
+    const APART: f64 = 9.0;
+    let [width, height] = half_size(label);
+    let sides = [[1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+    let away = [width + APART, height + APART];
+    let places = sides.map(|side: PagePoint| [0, 1].map(|k| at[k] + side[k] * away[k]));
+    // On top and below it is kept between the panel's sides.
+    let area = axes.area;
+    let kept = |[x, y]: PagePoint| {
+        let [left, right] = [area.left + width + 3.0, area.right - width - 3.0];
+        let [top, bottom] = [area.top + height + 3.0, area.bottom - height - 3.0];
+        [
+            x.max(left.min(right)).min(right.max(left)),
+            y.max(top.min(bottom)).min(bottom.max(top)),
+        ]
+    };
+    // How far it must be moved to be inside, and whether it then covers the mark or another label.
+    let cost = |place: &PagePoint| {
+        let [x, y] = kept(*place);
+        let moved = (x - place[0]).abs() + (y - place[1]).abs();
+        let over = |[a, b]: PagePoint, [w, h]: PagePoint| {
+            (x - a).abs() < width + w && (y - b).abs() < height + h
+        };
+        let covers = over(at, [6.0, 6.0])
+            || (others.iter()).any(|(other, text)| over(*other, half_size(text)));
+        moved + if covers { 1e3 } else { 0.0 }
+    };
+    let best = (places.into_iter()).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+    kept(best.unwrap_or(at))
 }
 
 /// Draws the points without a value, and those with one that are at no cell.

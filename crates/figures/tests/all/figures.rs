@@ -28,6 +28,7 @@ fn trajectory() -> TrajectoryFigure {
         displacement,
         scale: Scale::Auto,
         view: Viewpoint::default(),
+        axis_names: None,
     }
 }
 
@@ -61,6 +62,8 @@ fn deformed() -> DeformedFigure {
         scale: Scale::Auto,
         notes: Notes::default(),
         view: Viewpoint::default(),
+        axis_names: None,
+        pose: None,
     }
 }
 

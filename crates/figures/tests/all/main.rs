@@ -5,3 +5,5 @@ mod drawn;
 mod figures;
 mod lines;
 mod maps;
+mod marks;
+mod moving;

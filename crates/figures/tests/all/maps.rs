@@ -12,7 +12,7 @@ fn ticks(n: u32) -> Vec<f64> {
     (0..n).map(|k| -0.2 + 0.4 * part(k)).collect()
 }
 
-fn panel(n: u32, field: impl Fn(f64, f64) -> Option<f64>) -> MapPanel {
+pub fn panel(n: u32, field: impl Fn(f64, f64) -> Option<f64>) -> MapPanel {
     let ticks = ticks(n);
     let field = &field;
     let rows = ticks
@@ -28,7 +28,7 @@ fn panel(n: u32, field: impl Fn(f64, f64) -> Option<f64>) -> MapPanel {
     }
 }
 
-fn figure(panels: Vec<MapPanel>) -> MapFigure {
+pub fn figure(panels: Vec<MapPanel>) -> MapFigure {
     MapFigure {
         title: "map <1>".into(),
         subtitle: "k33: a stiffness; z = 0.5 m.".into(),
@@ -37,16 +37,18 @@ fn figure(panels: Vec<MapPanel>) -> MapFigure {
         limits: None,
         scale: ColorScale::Auto,
         panels,
+        columns: None,
+        marks: Vec::new(),
     }
 }
 
 /// A cone of 2 MN/m at the origin, less 5 MN/m per m away from it.
-fn cone(x: f64, y: f64) -> Option<f64> {
+pub fn cone(x: f64, y: f64) -> Option<f64> {
     Some(2e6 - 5e6 * x.hypot(y))
 }
 
 /// The frame of the first panel: the closed line of five points that is drawn first.
-fn frame(document: &Document<'_>) -> [[f64; 2]; 2] {
+pub fn frame(document: &Document<'_>) -> [[f64; 2]; 2] {
     let lines = document
         .descendants()
         .filter(|n| n.has_tag_name("polyline"));
@@ -178,7 +180,7 @@ fn colours_run_evenly_from_dark_to_light() {
 }
 
 /// Left ends of the shades' regions, in tenths of a pixel.
-fn lefts(document: &Document<'_>) -> Vec<f64> {
+pub fn lefts(document: &Document<'_>) -> Vec<f64> {
     let paths = document.descendants().filter(|n| n.has_tag_name("path"));
     let left = |path: roxmltree::Node<'_, '_>| {
         let d = path.attribute("d").unwrap();

@@ -341,6 +341,15 @@ impl Job {
         self.poses.commanded(&self.first)
     }
 
+    /// The coordinates that a pose (from 0) gives, each with its value: those of
+    /// [`Job::commanded`], in its order.
+    ///
+    /// # Panics
+    /// If `pose` is not below [`Job::len`].
+    pub fn given(&self, pose: usize) -> Vec<(String, f64)> {
+        self.poses.given(&self.first, pose)
+    }
+
     /// [`Design::model`] of the first design that can be.
     ///
     /// # Errors

@@ -52,6 +52,32 @@ impl Poses {
     }
 }
 
+impl Poses {
+    /// What a pose (from 0) of this mechanism gives: coordinates or drives, each with its value.
+    pub(crate) fn given(&self, subject: &Subject, number: usize) -> Vec<(String, f64)> {
+        let named = |(k, value): (usize, f64)| (csv::COLUMNS[k].into(), value);
+        match self {
+            Self::Own => Vec::new(),
+            Self::Asked(Targets::Drives { names, rows, .. }) => {
+                let values = rows[number].iter().copied();
+                names.iter().cloned().zip(values).collect()
+            }
+            Self::Asked(_) => {
+                let target = subject.target(self, number).into_iter().enumerate();
+                target
+                    .filter_map(|(k, value)| Some(named((k, value?))))
+                    .collect()
+            }
+            Self::List(_) | Self::Grid(_) => {
+                let pose = self.get(number);
+                let taken = subject.coordinates();
+                let taken = taken.iter().map(|c| (c.index(), pose[c.index()]));
+                taken.map(named).collect()
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;

@@ -1,6 +1,6 @@
 //! The figures that a job asks for.
 
-use super::look::{self, Look};
+use super::look::{self, Look, Mark, Words};
 use crate::error::LoadError;
 use crate::job::modes;
 use crate::terms::figures::FIGURE;
@@ -17,6 +17,8 @@ pub enum Figure {
     Trajectory {
         /// Magnification of the deflection.
         scale: Scale,
+        /// Title and names.
+        words: Words,
     },
     /// The deformed mechanism over the undeformed one (Fig. 9).
     Deformed {
@@ -28,6 +30,8 @@ pub enum Figure {
         scale: Scale,
         /// How it looks.
         look: Look,
+        /// Title and names.
+        words: Words,
     },
     /// A natural mode over the mechanism at rest.
     Mode {
@@ -39,6 +43,8 @@ pub enum Figure {
         scale: Scale,
         /// How it looks.
         look: Look,
+        /// Title and names.
+        words: Words,
     },
     /// The shares of bodies, joints and deformations in the displacement of the output, as bars.
     Budget {
@@ -48,6 +54,8 @@ pub enum Figure {
         pose: usize,
         /// The case under whose loads; the loads of the base state where there is none.
         case: Option<String>,
+        /// Its title.
+        title: Option<String>,
     },
     /// A quantity over a plane of the poses, or over all of their planes.
     Map {
@@ -63,6 +71,10 @@ pub enum Figure {
         limits: Option<[f64; 2]>,
         /// How the colours go from one to the other.
         scale: ColorScale,
+        /// What is marked where it stands.
+        marks: Vec<Mark>,
+        /// Title and names.
+        words: Words,
     },
 }
 
@@ -171,6 +183,13 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
             shown: fields.get("show").map_or(Ok(Vec::new()), look::shown)?,
         })
     };
+    let title = || fields.get("title").map(Fragment::string).transpose();
+    let words = || -> Result<Words, LoadError> {
+        Ok(Words {
+            title: title()?,
+            labels: fields.get("labels").map_or(Ok(Vec::new()), look::labels)?,
+        })
+    };
     let place = fields.get("value").unwrap_or(whole).place();
     let figure = match kind {
         "Map" => {
@@ -184,6 +203,8 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
                 axes: fields.get("axes").map(axes).transpose()?,
                 limits: fields.get("limits").map(limits).transpose()?,
                 scale,
+                marks: fields.get("mark").map_or(Ok(Vec::new()), look::marks)?,
+                words: words()?,
             }
         }
         "Deformed" => Figure::Deformed {
@@ -191,24 +212,30 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
             case: case()?,
             scale: scale()?,
             look: look()?,
+            words: words()?,
         },
         "Mode" => Figure::Mode {
             number: fields.get("number").map_or(Ok(1), number)?,
             pose: pose()?,
             scale: scale()?,
             look: look()?,
+            words: words()?,
         },
         "Budget" => Figure::Budget {
             along: fields.get("along").map_or(Ok(Along::Displacement), along)?,
             pose: pose()?,
             case: case()?,
+            title: title()?,
         },
         _ if known.poses < 2 => {
             return Err(whole
                 .error("a trajectory needs two poses or more, this job has one")
                 .with_help("use `Deformed` to see a single pose"));
         }
-        _ => Figure::Trajectory { scale: scale()? },
+        _ => Figure::Trajectory {
+            scale: scale()?,
+            words: words()?,
+        },
     };
     Ok((figure, place))
 }

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::error::LoadError;
 use crate::text::dimension::Dimension;
-use crate::text::fragment::Fragment;
+use crate::text::fragment::{Entry, Fragment};
 use crate::text::names;
 
 /// How a figure of a mechanism looks.
@@ -78,16 +78,73 @@ pub enum Noted {
     Masses,
     /// Frames of joints.
     Frames,
+    /// Which pose it is, by its coordinates, in the caption.
+    Pose,
 }
 
 impl Noted {
     /// Their names.
-    pub const WORDS: [(&'static str, Self); 4] = [
+    pub const WORDS: [(&'static str, Self); 5] = [
         ("names", Self::Names),
         ("loads", Self::Loads),
         ("masses", Self::Masses),
         ("frames", Self::Frames),
+        ("pose", Self::Pose),
     ];
+}
+
+/// What a figure and what is in it are called.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Words {
+    /// The title; `None`: one that says what is drawn.
+    pub title: Option<String>,
+    /// Names of quantities and coordinates, each with what it is called in the figure.
+    pub labels: Vec<(String, String)>,
+}
+
+/// Reads what names are called in a figure, `{"k33": "along the spindle"}`.
+pub(super) fn labels(fragment: Fragment<'_>) -> Result<Vec<(String, String)>, LoadError> {
+    let entries = fragment.map()?;
+    let entry = |entry: Entry<'_>| Ok((entry.name, entry.value.string()?));
+    entries.into_iter().map(entry).collect()
+}
+
+/// Reads what is marked in a map, `["least", "most"]`.
+pub(super) fn marks(fragment: Fragment<'_>) -> Result<Vec<Mark>, LoadError> {
+    let items = fragment.list("a list such as `[\"least\"]`")?;
+    let item = |item: Fragment<'_>| {
+        let word = item.string()?;
+        word.parse().map_err(|help: String| {
+            (item.error(format!("`{word}` cannot be marked in a map"))).with_help(help)
+        })
+    };
+    items.into_iter().map(item).collect()
+}
+
+/// What a map marks where it stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// The least value.
+    Least,
+    /// The largest value.
+    Most,
+}
+
+impl Mark {
+    /// Their names.
+    pub const WORDS: [(&'static str, Self); 2] = [("least", Self::Least), ("most", Self::Most)];
+}
+
+impl FromStr for Mark {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let found = Self::WORDS.iter().find(|(word, _)| *word == text);
+        found.map(|(_, mark)| *mark).ok_or_else(|| {
+            let words = Self::WORDS.map(|(word, _)| word);
+            names::help(text, "words", words)
+        })
+    }
 }
 
 impl FromStr for Noted {

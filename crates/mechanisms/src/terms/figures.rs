@@ -1,6 +1,6 @@
 //! Figures of a job.
 
-use super::Type::{Any, Count, Kinds as OneKind, List, Number, Numbers, Text, Tuple, Word};
+use super::Type::{Any, Count, Kinds as OneKind, List, Map, Number, Numbers, Text, Tuple, Word};
 use super::{Field, Kinds, NO_END, Type, kind, needed, of_value, optional};
 
 const SCALE: Field = optional(
@@ -18,7 +18,13 @@ const VIEW: Field = optional(
 const SHOW: Field = optional(
     "show",
     List(&Text),
-    "what stands beside the mechanism: `names`, `loads`, `masses`, `frames`",
+    "what stands beside the mechanism: `names`, `loads`, `masses`, `frames`; `pose` in the caption",
+);
+const TITLE: Field = optional("title", Text, "title of the figure");
+const LABELS: Field = optional(
+    "labels",
+    Map(&Text),
+    "what quantities and coordinates are called in the figure",
 );
 const ALONG: Type = Any(&[
     Word(&["displacement", "x", "y", "z", "rx", "ry", "rz"]),
@@ -45,12 +51,12 @@ pub(crate) const FIGURE: Kinds = Kinds {
         kind(
             "Trajectory",
             "the deflected trajectory over the commanded one",
-            &[SCALE],
+            &[SCALE, TITLE, LABELS],
         ),
         kind(
             "Deformed",
             "the deformed mechanism over the undeformed one",
-            &[POSE, CASE, SCALE, VIEW, SHOW],
+            &[POSE, CASE, SCALE, VIEW, SHOW, TITLE, LABELS],
         ),
         kind(
             "Mode",
@@ -61,6 +67,8 @@ pub(crate) const FIGURE: Kinds = Kinds {
                 SCALE,
                 VIEW,
                 SHOW,
+                TITLE,
+                LABELS,
             ],
         ),
         kind(
@@ -70,6 +78,7 @@ pub(crate) const FIGURE: Kinds = Kinds {
                 optional("along", ALONG, "the direction that the output gives along"),
                 POSE,
                 CASE,
+                TITLE,
             ],
         ),
         kind(
@@ -97,6 +106,13 @@ pub(crate) const FIGURE: Kinds = Kinds {
                     Word(&["Auto", "Linear", "Log"]),
                     "how the colours go with the values",
                 ),
+                optional(
+                    "mark",
+                    List(&Text),
+                    "what is marked where it stands: `least`, `most`",
+                ),
+                TITLE,
+                LABELS,
             ],
         ),
     ],

@@ -68,7 +68,7 @@ pub(crate) type Steps = Vec<usize>;
 const DEEPEST: usize = 256;
 
 /// Fields that hold names: their objects are told from fields and kinds by this alone in JSON.
-pub(crate) const MAPS: [&str; 13] = [
+pub(crate) const MAPS: [&str; 14] = [
     "parameters",
     "groups",
     "copies",
@@ -82,6 +82,7 @@ pub(crate) const MAPS: [&str; 13] = [
     "misfits",
     "preloads",
     "vary",
+    "labels",
 ];
 
 impl Node {

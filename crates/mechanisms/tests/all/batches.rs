@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Along, Batch, Disk, Figure, Input, Look, Registry, Scale, batch_from_str, load, load_batch,
-    load_mechanism,
+    Along, Batch, Disk, Figure, Input, Look, Registry, Scale, Words, batch_from_str, load,
+    load_batch, load_mechanism,
 };
 use nalgebra::Vector6;
 
@@ -55,12 +55,16 @@ fn the_paper_s_batch_holds_both_case_studies() {
         ]
     );
     let figures = [
-        Figure::Trajectory { scale: Scale::Auto },
+        Figure::Trajectory {
+            scale: Scale::Auto,
+            words: Words::default(),
+        },
         Figure::Deformed {
             pose: 0,
             case: None,
             scale: Scale::Auto,
             look: Look::default(),
+            words: Words::default(),
         },
     ];
     for job in &batch.jobs[2..] {
@@ -219,12 +223,16 @@ fn figures_have_defaults() {
         "poses: List([(0, 0, 0.5), (0, 0, 0.6)]), figures: [Trajectory, Deformed(pose: 1, scale: 50)]",
     );
     let wanted = [
-        Figure::Trajectory { scale: Scale::Auto },
+        Figure::Trajectory {
+            scale: Scale::Auto,
+            words: Words::default(),
+        },
         Figure::Deformed {
             pose: 1,
             case: None,
             scale: Scale::Factor(50.0),
             look: Look::default(),
+            words: Words::default(),
         },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
@@ -244,11 +252,13 @@ fn figures_of_cases_modes_and_budgets() {
         pose,
         scale,
         look: Look::default(),
+        words: Words::default(),
     };
     let budget = |along, pose| Figure::Budget {
         along,
         pose,
         case: None,
+        title: None,
     };
     let wanted = [
         Figure::Deformed {
@@ -256,6 +266,7 @@ fn figures_of_cases_modes_and_budgets() {
             case: Some("push".into()),
             scale: Scale::Auto,
             look: Look::default(),
+            words: Words::default(),
         },
         mode(1, 0, Scale::Auto),
         mode(3, 1, Scale::Factor(0.5)),
@@ -266,6 +277,7 @@ fn figures_of_cases_modes_and_budgets() {
             along: Along::Displacement,
             pose: 0,
             case: Some("push".into()),
+            title: None,
         },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);

@@ -5,6 +5,7 @@ use std::collections::HashSet;
 
 use hyperstat_mechanisms::nearest;
 
+use super::labels::Labels;
 use super::plane::Levels;
 use super::rows::chosen;
 use crate::plot_error::PlotError;
@@ -29,6 +30,8 @@ pub(super) struct Coordinates {
 /// A coordinate and its value at every row.
 pub(super) struct Coordinate {
     pub(super) name: String,
+    /// What it is called in the figure.
+    pub(super) label: String,
     /// Its SI unit.
     pub(super) unit: &'static str,
     pub(super) levels: Levels,
@@ -63,6 +66,7 @@ impl Coordinates {
             };
             Coordinate {
                 levels: Levels::new(column, size),
+                label: name.clone(),
                 name,
                 unit,
             }
@@ -159,11 +163,22 @@ impl Coordinates {
         k < 3
     }
 
+    /// Their names.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.all.iter().map(|coordinate| &*coordinate.name)
+    }
+
+    /// Calls them as the labels say.
+    pub(super) fn label(&mut self, labels: &Labels) {
+        for coordinate in &mut self.all {
+            coordinate.label = labels.of(&coordinate.name).into();
+        }
+    }
+
     /// The place of a coordinate by its name.
     pub(super) fn find(&self, name: &str) -> Result<usize, PlotError> {
-        let names = || self.all.iter().map(|coordinate| &*coordinate.name);
-        let place = names().position(|known| known == name);
-        place.ok_or_else(|| unknown(name, names()))
+        let place = self.names().position(|known| known == name);
+        place.ok_or_else(|| unknown(name, self.names()))
     }
 
     /// Of the asked coordinates that are free, those that must be told apart by planes when a map
@@ -229,8 +244,13 @@ impl Coordinates {
 
     /// A coordinate at one of its values in words, as in `z = 0.5 m`.
     pub(super) fn place(&self, k: usize, level: usize) -> String {
-        let Coordinate { name, unit, levels } = self.get(k);
-        format!("{name} = {} {unit}", levels.label(level))
+        let Coordinate {
+            label,
+            unit,
+            levels,
+            ..
+        } = self.get(k);
+        format!("{label} = {} {unit}", levels.label(level))
     }
 }
 

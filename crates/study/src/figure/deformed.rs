@@ -81,6 +81,8 @@ fn figure(
         scale: Scale::Auto,
         notes: Notes::default(),
         view: Viewpoint::default(),
+        axis_names: None,
+        pose: None,
     })
 }
 

@@ -1,7 +1,7 @@
 //! A figure of any kind.
 
 use hyperstat_figures::{
-    BarFigure, DeformedFigure, FigureError, LineFigure, MapFigure, TrajectoryFigure,
+    AnimatedFigure, BarFigure, DeformedFigure, FigureError, LineFigure, MapFigure, TrajectoryFigure,
 };
 
 /// A figure of any kind.
@@ -17,6 +17,8 @@ pub enum Drawing {
     Deformed(DeformedFigure),
     /// Where a deflection comes from.
     Budget(BarFigure),
+    /// A mechanism that moves.
+    Moving(AnimatedFigure),
 }
 
 impl Drawing {
@@ -31,6 +33,7 @@ impl Drawing {
             Self::Trajectory(figure) => figure.svg(),
             Self::Deformed(figure) => figure.svg(),
             Self::Budget(figure) => figure.svg(),
+            Self::Moving(figure) => figure.svg(),
         }
     }
 
@@ -45,6 +48,36 @@ impl Drawing {
             Self::Trajectory(figure) => figure.png(),
             Self::Deformed(figure) => figure.png(),
             Self::Budget(figure) => figure.png(),
+            Self::Moving(figure) => figure.png(),
+        }
+    }
+
+    /// The figure as a PDF file; of one that moves, what it shows first.
+    ///
+    /// # Errors
+    /// It cannot be drawn.
+    pub fn pdf(&self) -> Result<Vec<u8>, FigureError> {
+        hyperstat_figures::pdf(&self.svg()?)
+    }
+
+    /// The figure as a GIF file that moves; `None` of one that does not.
+    ///
+    /// # Errors
+    /// It cannot be drawn.
+    pub fn gif(&self) -> Result<Option<Vec<u8>>, FigureError> {
+        match self {
+            Self::Moving(figure) => figure.gif().map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// The same, moving: a mechanism that swings in its mode, or whose loads come and go. Others stay
+    /// as they are.
+    #[must_use]
+    pub fn moving(self) -> Self {
+        match self {
+            Self::Deformed(figure) => Self::Moving(AnimatedFigure::swing(figure)),
+            other => other,
         }
     }
 
@@ -58,6 +91,7 @@ impl Drawing {
             Self::Lines(figure) => format!("{} {}", figure.subtitle, figure.caption()),
             Self::Trajectory(figure) => figure.caption()?,
             Self::Deformed(figure) => figure.caption()?,
+            Self::Moving(figure) => figure.caption()?,
             Self::Budget(figure) => format!("{} {}", figure.subtitle, figure.caption()),
         })
     }

@@ -1,13 +1,16 @@
 //! The figures that a job asks for.
 
 use hyperstat_assembly::{ModalOptions, Prepared, Solution};
-use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Look, Scale};
+use hyperstat_figures::Extreme;
+use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Look, Mark, Noted, Scale};
 
 use super::budget::budget as budget_figure;
 use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
 use super::drawing::Drawing;
+use super::labels::Labels;
 use super::map::{Map, figure as map_figure};
 use super::notes;
+use super::pose::in_words;
 use super::quantity::{Drawn, instead_of};
 use super::rows::Choice;
 use super::trajectory::Trajectory;
@@ -26,12 +29,15 @@ use crate::table::TableReader;
 /// What is wrong with the first that is wrong.
 pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
     for (place, figure) in job.figures.iter().enumerate() {
+        let refused = |source| StudyError::JobMap {
+            location: Box::new(job.figure_location(place)),
+            source: Box::new(source),
+        };
+        if !matches!(figure, Figure::Map { .. }) {
+            words(figure).1.axes().map_err(refused)?;
+        }
         match figure {
             Figure::Map { value, .. } => {
-                let refused = |source| StudyError::JobMap {
-                    location: Box::new(job.figure_location(place)),
-                    source: Box::new(source),
-                };
                 if Drawn::named(value, columns).is_none() {
                     return Err(refused(PlotError::NoQuantity {
                         name: value.clone(),
@@ -97,8 +103,8 @@ pub fn draw(
     let Some(figure) = job.figures.get(place) else {
         return Err("the job has no such figure".into());
     };
-    match figure {
-        Figure::Trajectory { scale } => trajectory
+    let mut drawing = match figure {
+        Figure::Trajectory { scale, .. } => trajectory
             .filter(|trajectory| trajectory.fits(job) && !trajectory.is_empty())
             .map(|trajectory| Drawing::Trajectory(trajectory.figure(job, figure_scale(*scale))))
             .ok_or_else(|| NO_RESULT.to_string()),
@@ -107,6 +113,7 @@ pub fn draw(
             case,
             scale,
             look,
+            ..
         } => deformed(job, *pose, case.as_deref(), (figure_scale(*scale), look))
             .ok_or_else(|| NO_RESULT.to_string()),
         Figure::Mode {
@@ -114,8 +121,11 @@ pub fn draw(
             pose,
             scale,
             look,
+            ..
         } => mode(job, *number, *pose, (figure_scale(*scale), look)),
-        Figure::Budget { along, pose, case } => {
+        Figure::Budget {
+            along, pose, case, ..
+        } => {
             let (case, along) = (case.clone(), *along);
             budget(job, &Asked { case, along }, *pose)
         }
@@ -128,6 +138,42 @@ pub fn draw(
                 format!("{error}{help}")
             })
         }
+    }?;
+    name(&mut drawing, figure);
+    Ok(drawing)
+}
+
+/// Title and labels of a figure.
+fn words(figure: &Figure) -> (Option<&String>, Labels) {
+    match figure {
+        Figure::Budget { title, .. } => (title.as_ref(), Labels::default()),
+        Figure::Trajectory { words, .. }
+        | Figure::Deformed { words, .. }
+        | Figure::Mode { words, .. }
+        | Figure::Map { words, .. } => (words.title.as_ref(), Labels(words.labels.clone())),
+    }
+}
+
+/// Gives a drawing the title and, in space, the names of axes that the job says.
+fn name(drawing: &mut Drawing, figure: &Figure) {
+    let (title, labels) = words(figure);
+    // They were checked before the job ran.
+    let axes = || labels.axes().ok().flatten();
+    let own = match drawing {
+        Drawing::Trajectory(drawn) => {
+            drawn.axis_names = axes();
+            &mut drawn.title
+        }
+        Drawing::Deformed(drawn) => {
+            drawn.axis_names = axes();
+            &mut drawn.title
+        }
+        Drawing::Budget(drawn) => &mut drawn.title,
+        Drawing::Map(drawn) => &mut drawn.title,
+        Drawing::Lines(_) | Drawing::Moving(_) => return,
+    };
+    if let Some(title) = title {
+        own.clone_from(title);
     }
 }
 
@@ -149,6 +195,12 @@ fn title(job: &Job, pose: usize, case: Option<&str>) -> String {
     crate::title::title(&job.name, design, Some(pose), case)
 }
 
+/// The pose by its coordinates, where that is to be shown.
+fn pose_in_words(job: &Job, pose: usize, look: &Look) -> Option<String> {
+    let shown = look.shown.contains(&Noted::Pose);
+    shown.then(|| in_words(job, pose)).flatten()
+}
+
 fn deformed(
     job: &Job,
     pose: usize,
@@ -160,6 +212,7 @@ fn deformed(
     let title = title(job, pose, case);
     let mut figure = deformed_figure(model, &solution, title, scale).ok()?;
     notes::add(&mut figure, model, case, look);
+    figure.pose = pose_in_words(job, pose, look);
     if case.is_none()
         && let Ok(reference) = hyperstat_reference::solve(model)
     {
@@ -188,6 +241,7 @@ fn mode(
     let mut figure =
         mode_figure(&model, mode, number, title, scale).map_err(|error| error.to_string())?;
     notes::add(&mut figure, &model, None, look);
+    figure.pose = pose_in_words(job, pose, look);
     Ok(Drawing::Deformed(figure))
 }
 
@@ -223,6 +277,8 @@ fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
         axes,
         limits,
         scale,
+        marks,
+        ..
     } = figure
     else {
         return None;
@@ -243,7 +299,14 @@ fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
             design: Some(job.first_design()),
             pose: None,
         },
+        marks: (marks.iter())
+            .map(|mark| match mark {
+                Mark::Least => Extreme::Least,
+                Mark::Most => Extreme::Most,
+            })
+            .collect(),
         title: None,
+        labels: words(figure).1,
     })
 }
 

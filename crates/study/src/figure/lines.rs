@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use hyperstat_figures::{Diagram, LineFigure, MOST_SERIES, Quantity, Series};
 
 use super::coordinates::Coordinates;
+use super::labels::Labels;
 use super::map::evenly;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
@@ -24,6 +25,8 @@ pub struct Lines {
     pub choice: Choice,
     /// Title of the figure; else the name of the job.
     pub title: Option<String>,
+    /// Names of quantities in it.
+    pub labels: Labels,
 }
 
 /// What is along the lower axis.
@@ -53,9 +56,13 @@ struct Curves {
 
 /// The figure of lines.
 pub fn figure(table: &TableReader, lines: &Lines) -> Result<LineFigure, PlotError> {
-    let over = Over::read(table, &lines.over)?;
-    let drawn = lines.values.iter().map(|name| Drawn::of_table(name, table));
-    let drawn: Vec<Drawn> = drawn.collect::<Result<_, _>>()?;
+    let names = table.names().iter().chain(&lines.values);
+    let names = names.chain([&lines.over]).map(String::as_str);
+    let over = Over::read(table, lines)?;
+    let drawn = lines.values.iter();
+    let drawn = drawn.map(|name| Ok(Drawn::of_table(name, table)?.labelled(&lines.labels)));
+    let drawn: Vec<Drawn> = drawn.collect::<Result<_, PlotError>>()?;
+    lines.labels.check(names)?;
     let mut rows = lines.choice.rows(table)?;
     rows.retain(|&row| over.at[row].is_some());
     let curves = Curves::find(table, lines, &over, rows)?;
@@ -143,7 +150,8 @@ fn diagrams(
 }
 
 impl Over {
-    fn read(table: &TableReader, name: &str) -> Result<Self, PlotError> {
+    fn read(table: &TableReader, lines: &Lines) -> Result<Self, PlotError> {
+        let name = &lines.over;
         let drawn = Drawn::of_table(name, table)?;
         let mut categories = Vec::new();
         let at = match drawn.read(table) {
@@ -163,7 +171,7 @@ impl Over {
             read => read?,
         };
         Ok(Self {
-            quantity: drawn.quantity,
+            quantity: drawn.labelled(&lines.labels).quantity,
             categories,
             at,
         })
@@ -232,7 +240,9 @@ impl Curves {
         let shown = evenly(count, MOST_SERIES).into_iter();
         Ok(Self {
             all: shown.map(|k| all[k].clone()).collect(),
-            names: columns.into_iter().map(|(name, _)| name).collect(),
+            names: (columns.iter())
+                .map(|(name, _)| lines.labels.of(name).to_owned())
+                .collect(),
             count,
         })
     }

@@ -1,9 +1,10 @@
 //! A quantity over planes of a table's poses.
 
-use hyperstat_figures::{ColorScale, MapFigure, MapPanel, Quantity, Samples};
+use hyperstat_figures::{ColorScale, Extreme, MapFigure, MapPanel, Quantity, Samples};
 use hyperstat_mechanisms::Commanded;
 
 use super::coordinates::{Coordinates, unknown};
+use super::labels::Labels;
 use super::plane::Levels;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
@@ -31,8 +32,12 @@ pub struct Map {
     pub scale: ColorScale,
     /// Which rows.
     pub choice: Choice,
+    /// What is marked on each plane where it stands.
+    pub marks: Vec<Extreme>,
     /// Title of the figure; else the name of the job.
     pub title: Option<String>,
+    /// Names of the quantity and of coordinates in it.
+    pub labels: Labels,
 }
 
 /// The poses of a table with a value each.
@@ -44,95 +49,137 @@ struct Poses {
 /// Of every coordinate the level that it is held at.
 type Held = Vec<Option<usize>>;
 
+/// What a map shows of one table.
+pub(super) struct Part {
+    /// What is drawn, in words.
+    words: String,
+    /// Over what, in words.
+    over: Vec<String>,
+    pub(super) axes: [Quantity; 2],
+    /// The coordinates along the axes.
+    pub(super) along: [String; 2],
+    pub(super) quantity: Quantity,
+    pub(super) panels: Vec<MapPanel>,
+}
+
 /// The figure of a map.
+///
+/// # Errors
+/// The table holds no such quantity, plane, axis, design or pose, several values at one place, or no
+/// result there; or it cannot be read.
 pub fn figure(table: &TableReader, map: &Map) -> Result<MapFigure, PlotError> {
-    let drawn = Drawn::of_table(&map.value, table)?;
-    let rows = map.choice.rows(table)?;
-    let poses = Poses {
-        coordinates: Coordinates::read(table, &rows, map.asked.as_deref())?,
-        values: chosen(&drawn.read(table)?, &rows),
-    };
-    let coordinates = &poses.coordinates;
-    let held = map.held(coordinates)?;
-    let free: Vec<usize> = (coordinates.asked.iter().copied())
-        .filter(|k| held[*k].is_none())
-        .collect();
-    let axes = map.axes(coordinates, &free, &held)?;
-    let of_planes = poses.rows(&held).len();
-    let others = coordinates.across(&free, axes, of_planes);
-    let across = others.first().copied();
-    let planes = match across {
-        None => vec![None],
-        Some(k) => {
-            let shown = evenly(coordinates.count(k), MOST_PLANES).into_iter();
-            shown.map(|level| Some((k, level))).collect()
+    let part = Part::read(table, map)?;
+    Ok(map.figure(part, || table.job()))
+}
+
+impl Part {
+    /// What a map shows of a table.
+    pub(super) fn read(table: &TableReader, map: &Map) -> Result<Self, PlotError> {
+        let drawn = Drawn::of_table(&map.value, table)?;
+        let rows = map.choice.rows(table)?;
+        let mut poses = Poses {
+            coordinates: Coordinates::read(table, &rows, map.asked.as_deref())?,
+            values: chosen(&drawn.read(table)?, &rows),
+        };
+        let names: Vec<&str> = (poses.coordinates.names()).chain([&*map.value]).collect();
+        map.labels.check(names.into_iter())?;
+        poses.coordinates.label(&map.labels);
+        let drawn = drawn.labelled(&map.labels);
+        let coordinates = &poses.coordinates;
+        let held = map.held(coordinates)?;
+        let free: Vec<usize> = (coordinates.asked.iter().copied())
+            .filter(|k| held[*k].is_none())
+            .collect();
+        let axes = map.axes(coordinates, &free, &held)?;
+        let of_planes = poses.rows(&held).len();
+        let others = coordinates.across(&free, axes, of_planes);
+        let across = others.first().copied();
+        let planes = match across {
+            None => vec![None],
+            Some(k) => {
+                let shown = evenly(coordinates.count(k), MOST_PLANES).into_iter();
+                shown.map(|level| Some((k, level))).collect()
+            }
+        };
+        let mut panels = Vec::new();
+        let mut lost = 0;
+        for plane in &planes {
+            let mut wanted = held.clone();
+            if let Some((k, level)) = plane {
+                wanted[*k] = Some(*level);
+            }
+            let mut rows = poses.rows(&wanted);
+            let all = rows.len();
+            rows.retain(|row| axes.iter().all(|k| poses.level(*k, *row).is_some()));
+            lost += all - rows.len();
+            panels.push(MapPanel {
+                name: plane.map_or_else(String::new, |(k, level)| coordinates.place(k, level)),
+                samples: poses.samples(&rows, axes, others.get(1..).unwrap_or_default())?,
+            });
         }
-    };
-    let mut panels = Vec::new();
-    let mut lost = 0;
-    for plane in &planes {
-        let mut wanted = held.clone();
-        if let Some((k, level)) = plane {
-            wanted[*k] = Some(*level);
+        if !panels.iter().any(|panel| panel.samples.has_value()) {
+            return Err(PlotError::Nothing {
+                path: table.path().into(),
+            });
         }
-        let mut rows = poses.rows(&wanted);
-        let all = rows.len();
-        rows.retain(|row| axes.iter().all(|k| poses.level(*k, *row).is_some()));
-        lost += all - rows.len();
-        panels.push(MapPanel {
-            name: plane.map_or_else(String::new, |(k, level)| coordinates.place(k, level)),
-            samples: poses.samples(&rows, axes, others.get(1..).unwrap_or_default())?,
-        });
-    }
-    let has_value = |panel: &MapPanel| match &panel.samples {
-        Samples::Grid { values, .. } | Samples::Points { values, .. } => {
-            values.iter().any(Option::is_some)
+        let mut over: Vec<String> = map.choice.in_words(table).into_iter().collect();
+        over.extend(poses.held_in_words(&held, axes));
+        if let Some(k) = across {
+            let (all, shown) = (coordinates.count(k), planes.len());
+            let name = &coordinates.get(k).label;
+            over.push(match shown < all {
+                true => format!("{shown} of {all} planes of {name}"),
+                false => format!("{all} planes of {name}"),
+            });
         }
-    };
-    if !panels.iter().any(has_value) {
-        return Err(PlotError::Nothing {
-            path: table.path().into(),
-        });
+        match lost {
+            0 => {}
+            1 => over.push("1 pose has no place here".into()),
+            lost => over.push(format!("{lost} poses have no place here")),
+        }
+        let axis = |k: usize| {
+            let coordinate = coordinates.get(k);
+            Quantity::new(&*coordinate.label, coordinate.unit)
+        };
+        Ok(Self {
+            words: match drawn.words == drawn.quantity.name {
+                true => drawn.words.clone(),
+                false => format!("{}: {}", drawn.quantity.name, drawn.words),
+            },
+            over,
+            axes: axes.map(axis),
+            along: axes.map(|k| coordinates.get(k).name.clone()),
+            quantity: drawn.quantity,
+            panels,
+        })
     }
-    let mut over: Vec<String> = map.choice.in_words(table).into_iter().collect();
-    over.extend(poses.held_in_words(&held, axes));
-    if let Some(k) = across {
-        let (all, shown) = (coordinates.count(k), planes.len());
-        let name = &coordinates.get(k).name;
-        over.push(match shown < all {
-            true => format!("{shown} of {all} planes of {name}"),
-            false => format!("{all} planes of {name}"),
-        });
+
+    /// What is drawn and over what, as a sentence; `and` is told of what is drawn.
+    pub(super) fn subtitle(&self, and: &str) -> String {
+        let over = match &*self.over {
+            [] => String::new(),
+            over => format!("; {}", over.join(", ")),
+        };
+        format!("{}{and}{over}.", self.words)
     }
-    match lost {
-        0 => {}
-        1 => over.push("1 pose has no place here".into()),
-        lost => over.push(format!("{lost} poses have no place here")),
-    }
-    let words = match drawn.words == drawn.quantity.name {
-        true => drawn.words.clone(),
-        false => format!("{}: {}", drawn.quantity.name, drawn.words),
-    };
-    let over = match &*over {
-        [] => String::new(),
-        over => format!("; {}", over.join(", ")),
-    };
-    let axis = |k: usize| {
-        let coordinate = coordinates.get(k);
-        Quantity::new(&*coordinate.name, coordinate.unit)
-    };
-    Ok(MapFigure {
-        title: map.title.clone().unwrap_or_else(|| table.job()),
-        subtitle: format!("{words}{over}."),
-        axes: axes.map(axis),
-        quantity: drawn.quantity,
-        limits: map.limits,
-        scale: map.scale,
-        panels,
-    })
 }
 
 impl Map {
+    /// The figure of what it shows; `own` is the title that it has by itself.
+    pub(super) fn figure(&self, part: Part, own: impl FnOnce() -> String) -> MapFigure {
+        MapFigure {
+            title: self.title.clone().unwrap_or_else(own),
+            subtitle: part.subtitle(""),
+            axes: part.axes,
+            quantity: part.quantity,
+            limits: self.limits,
+            scale: self.scale,
+            panels: part.panels,
+            columns: None,
+            marks: self.marks.clone(),
+        }
+    }
+
     /// That poses which give these coordinates have the planes and the axes.
     pub fn check(&self, commanded: &[Commanded]) -> Result<(), PlotError> {
         let names = || commanded.iter().map(|coordinate| &*coordinate.name);
@@ -146,6 +193,7 @@ impl Map {
                 return Err(unknown(name, all()));
             }
         }
+        self.labels.check(all().chain([&*self.value]))?;
         for (axis, value) in &self.planes {
             let given = commanded.iter().find(|coordinate| coordinate.name == *axis);
             let Some(given) = given else {

@@ -16,6 +16,8 @@ pub(super) fn add(figure: &mut DeformedFigure, model: &Model, case: Option<&str>
             Noted::Loads => figure.notes.loads = loads(model, case),
             Noted::Masses => figure.notes.masses = masses(model),
             Noted::Frames => figure.notes.frames = frames(model),
+            // That is told by who knows the job.
+            Noted::Pose => {}
         }
     }
 }

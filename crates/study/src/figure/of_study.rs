@@ -2,16 +2,24 @@
 
 use std::path::Path;
 
-use hyperstat_figures::Scale;
+use hyperstat_figures::{AnimatedFigure, DeformedFigure, Scale};
+use hyperstat_mechanisms::{Files, Input, Noted, Registry};
 
 use super::budget::budget;
 use super::deformed::{compare, deformed, mode};
 use super::drawing::Drawing;
+use super::labels::Labels;
+use super::map::evenly;
 use super::notes;
+use super::pose::{in_words, of_job};
 use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
+use crate::selection::{Selection, choose};
 use crate::study::Study;
+
+/// Most poses that a moving figure runs through.
+const MOST_POSES: usize = 40;
 
 /// What a figure of a study looks like.
 #[derive(Debug, Clone, Default)]
@@ -22,9 +30,37 @@ pub struct Look {
     pub title: Option<String>,
     /// Where it is seen from, and what stands beside the mechanism.
     pub look: hyperstat_mechanisms::Look,
+    /// Names of its axes.
+    pub labels: Labels,
 }
 
 impl Study {
+    /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in
+    /// place of one by its number.
+    ///
+    /// # Errors
+    /// As there; no pose has them, or several have.
+    pub fn open_at(
+        path: &Path,
+        selection: &Selection,
+        at: &[(String, f64)],
+        files: &dyn Files,
+        registry: &Registry,
+    ) -> Result<Self, StudyError> {
+        let loaded = hyperstat_mechanisms::load(path, files, registry)?;
+        let Input::Batch(batch) = &loaded else {
+            let (what, path) = ("pose", path.into());
+            return Err(StudyError::NotABatch { what, path });
+        };
+        let job = choose(batch.jobs.clone(), path, selection)?;
+        let pose = Some(of_job(&job, at)?);
+        let selection = Selection {
+            pose,
+            ..selection.clone()
+        };
+        Self::of(loaded, path, &selection)
+    }
+
     /// The mechanism undeformed and deformed, under its loads or those of a case; with the points of
     /// the independent solver where it is to `verify`.
     ///
@@ -38,10 +74,10 @@ impl Study {
     ) -> Result<Drawing, StudyError> {
         let solution = self.solve_held()?;
         let loaded = self.under(&solution, case)?;
-        let title = look.title.unwrap_or_else(|| self.title(case));
+        let title = look.title.clone().unwrap_or_else(|| self.title(case));
         let mut figure = deformed(self.model(), &loaded, title, look.scale)
             .map_err(|error| self.unsolvable(error))?;
-        notes::add(&mut figure, self.model(), case, &look.look);
+        self.dress(&mut figure, case, &look)?;
         if verify {
             let reference = self.reference()?;
             compare(&mut figure, self.model(), &solution, &reference);
@@ -67,11 +103,69 @@ impl Study {
             number,
             count: modes.len(),
         })?;
-        let title = look.title.unwrap_or_else(|| self.title(None));
+        let title = look.title.clone().unwrap_or_else(|| self.title(None));
         let mut figure = mode(self.model(), found, number, title, look.scale)
             .map_err(|error| self.unsolvable(error))?;
-        notes::add(&mut figure, self.model(), None, &look.look);
+        self.dress(&mut figure, None, &look)?;
         Ok(Drawing::Deformed(figure))
+    }
+
+    /// The mechanism deformed, at one pose of its job after the other, evenly chosen where there are
+    /// many; `None` where it is at the only one. Poses without a result are left out.
+    ///
+    /// # Errors
+    /// No pose has a result: that of its own; no such case.
+    pub fn through_poses(
+        &self,
+        case: Option<&str>,
+        look: &Look,
+    ) -> Result<Option<Drawing>, StudyError> {
+        let Some((job, _)) = self.of_pose().filter(|(job, _)| job.len() > 1) else {
+            return Ok(None);
+        };
+        let title = || crate::title::title(&job.name, self.design(), None, case);
+        let look = Look {
+            title: Some(look.title.clone().unwrap_or_else(title)),
+            ..look.clone()
+        };
+        let mut figures = Vec::new();
+        let mut refused = None;
+        for pose in evenly(job.len(), MOST_POSES) {
+            let Some(there) = self.at_pose(pose) else {
+                continue;
+            };
+            match there.deformed(case, false, look.clone()) {
+                Ok(Drawing::Deformed(figure)) => figures.push(DeformedFigure {
+                    pose: in_words(job, pose),
+                    ..figure
+                }),
+                Ok(_) => {}
+                Err(error) => refused = refused.or(Some(error)),
+            }
+        }
+        match (AnimatedFigure::run(figures), refused) {
+            (Ok(moving), _) => Ok(Some(Drawing::Moving(moving))),
+            (Err(_), Some(error)) => Err(error),
+            (Err(_), None) => Err(PlotError::NoPoses {
+                job: job.name.clone(),
+            }
+            .into()),
+        }
+    }
+
+    /// Gives a figure of it its look.
+    fn dress(
+        &self,
+        figure: &mut DeformedFigure,
+        case: Option<&str>,
+        look: &Look,
+    ) -> Result<(), StudyError> {
+        notes::add(figure, self.model(), case, &look.look);
+        figure.axis_names = look.labels.axes()?;
+        if look.look.shown.contains(&Noted::Pose) {
+            figure.pose = (self.of_pose()).and_then(|(job, pose)| in_words(job, pose));
+        }
+        Ok(())
     }
 
     /// What the deflection comes from, as bars; `path` is the file that an error names.

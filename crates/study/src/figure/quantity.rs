@@ -5,6 +5,7 @@ use hyperstat_figures::Quantity;
 use hyperstat_mechanisms::nearest;
 use nalgebra::{Matrix6, Vector6};
 
+use super::labels::Labels;
 use crate::measures::{self, Pose};
 use crate::plot_error::PlotError;
 use crate::schema::{self, DISPLACEMENT, STATUS, unit, words};
@@ -77,6 +78,16 @@ impl Drawn {
             name: name.into(),
             help: instead_of(name, table.names()),
         })
+    }
+
+    /// The same by the name that it has in a figure.
+    pub(super) fn labelled(mut self, labels: &Labels) -> Self {
+        let label = labels.of(&self.quantity.name).to_owned();
+        if self.words == self.quantity.name {
+            self.words.clone_from(&label);
+        }
+        self.quantity.name = label;
+        self
     }
 
     /// Its value at every row; `None` where a column that it needs has none.

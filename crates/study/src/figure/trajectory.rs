@@ -86,6 +86,7 @@ impl Trajectory {
             second: self.second(job),
             scale,
             view: Viewpoint::default(),
+            axis_names: None,
         }
     }
 
@@ -137,6 +138,7 @@ pub fn of_table(
         second: None,
         scale,
         view: Viewpoint::default(),
+        axis_names: None,
     };
     for row in choice.rows(table)? {
         let numbers: Option<Vec<f64>> = columns.iter().map(|column| column[row]).collect();

@@ -98,7 +98,7 @@ fn run(sweep: &Sweep<'_>, threads: &Threads) -> Result<Ran, StudyError> {
 
 fn spread(measures: &[MeasureReport]) -> Markup {
     let row = |of: &MeasureReport| Row {
-        words: vec![of.words.into(), of.unit.into()],
+        words: vec![of.words.clone(), of.unit.into()],
         numbers: [of.min.value]
             .into_iter()
             .chain(of.percentiles.iter().map(|percentile| percentile.value))
