@@ -26,5 +26,57 @@ pub fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
     let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Pdf(Box::new(error)))?;
     let page = PageOptions { dpi: DENSITY };
     svg2pdf::to_pdf(&tree, ConversionOptions::default(), page)
+        .map(|bytes| ordered(&bytes))
         .map_err(|error| FigureError::Pdf(error.to_string().into()))
+}
+
+/// The same file with the entries of its dictionaries of resources in order, where svg2pdf leaves them
+/// to chance. Each is a line, `/xo3 12 0 R`, so that all places in the file stay.
+fn ordered(bytes: &[u8]) -> Vec<u8> {
+    let mut lines: Vec<&[u8]> = bytes.split_inclusive(|byte| *byte == b'\n').collect();
+    let mut inside = false;
+    let is_entry: Vec<bool> = (lines.iter())
+        .map(|line| {
+            inside = match line.trim_ascii() {
+                b"stream" => true,
+                end if end.ends_with(b"endstream") => false,
+                _ => inside,
+            };
+            !inside && is_resource(line)
+        })
+        .collect();
+    let mut from = 0;
+    while from < lines.len() {
+        let count = is_entry[from..].iter().take_while(|own| **own).count();
+        lines[from..from + count].sort_by_key(|line| (line.len(), *line));
+        from += count.max(1);
+    }
+    lines.concat()
+}
+
+/// Whether a line is an entry of a dictionary of resources.
+fn is_resource(line: &[u8]) -> bool {
+    let words: Vec<&[u8]> = line.trim_ascii().split(|byte| *byte == b' ').collect();
+    let [name, number, b"0", b"R"] = words[..] else {
+        return false;
+    };
+    let digits = |text: &[u8]| !text.is_empty() && text.iter().all(u8::is_ascii_digit);
+    let letters = name
+        .iter()
+        .skip(1)
+        .take_while(|byte| byte.is_ascii_lowercase());
+    let letters = letters.count();
+    name.starts_with(b"/") && letters > 0 && digits(&name[1 + letters..]) && digits(number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ordered;
+
+    #[test]
+    fn resources_are_in_order() {
+        let file = b"<<\n  /xo10 12 0 R\n  /xo2 7 0 R\n>>\nstream\n/b2 1 0 R\n/a1 1 0 R\n\nendstream\n/gs1 3 0 R\n/gs0 4 0 R\n/Root 2 0 R\n";
+        let expected = b"<<\n  /xo2 7 0 R\n  /xo10 12 0 R\n>>\nstream\n/b2 1 0 R\n/a1 1 0 R\n\nendstream\n/gs0 4 0 R\n/gs1 3 0 R\n/Root 2 0 R\n";
+        assert_eq!(ordered(file), expected);
+    }
 }

@@ -170,7 +170,10 @@ fn every_field_is_told_in_one_line() {
 #[test]
 fn fields_that_hold_names_are_known_to_the_reader() {
     let of_map = FIGURE.kinds.iter().find(|kind| kind.name == "Map");
-    let of_map = of_map.map_or(&[][..], |kind| kind.fields);
+    let of_map = match of_map.map(|kind| &kind.arguments) {
+        Some(Arguments::Fields(fields)) => *fields,
+        _ => &[],
+    };
     let maps = [MECHANISM.fields, JOB.fields, COPIED.fields, of_map].concat();
     let maps = maps.iter().filter(|field| matches!(field.of, Type::Map(_)));
     assert_eq!(set(maps.map(|field| field.name)), set(MAPS));
