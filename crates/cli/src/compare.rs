@@ -77,7 +77,8 @@ fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> 
         let budget = found.results.budget.as_ref().ok_or_else(no_shares)?;
         let title = found.names.join(" and ");
         let bars = figure::compared(budget, &found.names, title).ok_or_else(no_shares)?;
-        plot::write(&Drawing::Budget(bars), &plot::without_extension(out))?;
+        let stem = plot::without_extension(out);
+        plot::write(&Drawing::Budget(bars), &stem, &plot::forms_of(out))?;
     }
     match args.format {
         Format::Text => Ok(text::compared(&found)),

@@ -268,6 +268,7 @@ mod tests {
             summary: false,
             yes: false,
             one_by_one: false,
+            pdf: false,
         };
         let outcome = run_job(&sweeps[0], &args, &threads, &bar).unwrap();
         assert!(!outcome.summary.is_complete());

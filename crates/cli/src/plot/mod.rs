@@ -231,9 +231,14 @@ pub(crate) fn is_table(path: &Path) -> bool {
     FileKind::of(path) == FileKind::Table
 }
 
+/// The forms of a figure that the command line names: a PDF too where that is the name's ending.
+pub(crate) fn forms_of(out: &Path) -> Vec<Form> {
+    Form::all(out.extension().is_some_and(|own| own == "pdf"))
+}
+
 /// The files of a figure that the command line names.
-pub(crate) fn files_of(out: &Path) -> [PathBuf; 2] {
-    files(&without_extension(out))
+pub(crate) fn files_of(out: &Path) -> Vec<PathBuf> {
+    files(&without_extension(out), &forms_of(out))
 }
 
 /// `map` for `map`, `map.svg` and `map.png`.
