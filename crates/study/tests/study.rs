@@ -241,6 +241,8 @@ fn tables_and_figures_need_no_disk() {
             pose: None,
         },
         title: None,
+        marks: Vec::new(),
+        labels: Default::default(),
     };
     let svg = |table: &TableReader| Drawing::Map(figure::map(table, &map).unwrap()).svg();
     assert_eq!(svg(&csv).unwrap(), svg(&parquet).unwrap());
