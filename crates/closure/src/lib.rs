@@ -9,6 +9,7 @@
 //! `hyperstat_assembly` solves the model in that pose. [`LoopClosure::place_at`] does all of it from
 //! home.
 
+mod adjust;
 mod closure;
 mod equations;
 mod error;
@@ -23,6 +24,7 @@ mod span;
 mod target;
 mod twist;
 
+pub use adjust::{Adjusted, Rounded, Unadjusted};
 pub use closure::LoopClosure;
 pub use error::ClosureError;
 pub use hyperstat_model::LANES;

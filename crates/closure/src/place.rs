@@ -73,6 +73,14 @@ impl Parts {
         })
     }
 
+    /// The other ends of the beams at a node that may be moved along them.
+    pub fn along(&self, node: NodeId) -> &[NodeId] {
+        match &self.nodes[node.0] {
+            Freedom::Along(others) => others,
+            Freedom::Held | Freedom::Any => &[],
+        }
+    }
+
     /// Writes the bodies' motions from home, in metres from the centre, and the values of all columns
     /// into a geometry of the model, which stays as it was where that fails. Allocates nothing once
     /// `room` has grown.
