@@ -10,6 +10,7 @@
 //! [`Mechanism::place_at`]. SI units; vectors in global axes; a pose is x y z \[m\] and a rotation vector
 //! rx ry rz \[rad\] from the home orientation.
 
+mod adjust;
 mod begin;
 mod builtin;
 mod error;
@@ -25,6 +26,7 @@ mod text;
 mod words;
 mod write;
 
+pub use adjust::{Adjustment, Digits, MOST as MOST_ROUNDINGS, Moved, NotAdjusted};
 pub use begin::{begin, beginnings, to_json};
 pub use error::{LoadError, Location};
 pub use file::mechanism::Mechanism;

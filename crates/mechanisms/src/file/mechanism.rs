@@ -229,6 +229,16 @@ impl Mechanism {
         &self.root
     }
 
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        self.root.source().written()
+    }
+
+    /// The kinds that it is read with.
+    pub(crate) fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
     /// The points of the file that no body runs through and no expression names, in its order.
     pub fn unused_points(&self) -> &[String] {
         &self.unused_points

@@ -5,6 +5,7 @@ pub(crate) mod brackets;
 pub(crate) mod columns;
 pub(crate) mod csv;
 pub mod dependence;
+pub(crate) mod digits;
 pub mod dimension;
 #[cfg(feature = "fs")]
 pub(crate) mod disk;

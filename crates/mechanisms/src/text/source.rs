@@ -193,6 +193,11 @@ impl Source {
         &self.text
     }
 
+    /// The text as the file has it.
+    pub(crate) fn written(&self) -> &str {
+        &self.text[..self.text.len() - usize::from(self.added)]
+    }
+
     /// Whether it is JSON; else it is RON.
     pub(crate) fn is_json(&self) -> bool {
         self.json

@@ -150,7 +150,7 @@ pub(crate) fn read(text: &str, wanted: Option<Dimension>) -> Result<Quantity, Wr
 const SEPARATORS: [char; 3] = ['*', '·', '/'];
 
 /// The number that a text begins with: its digits, its power of ten, and where it ends.
-fn number(text: &str) -> Option<(&str, i32, usize)> {
+pub(super) fn number(text: &str) -> Option<(&str, i32, usize)> {
     let bytes = text.as_bytes();
     let digits = |from: usize| {
         let rest = bytes[from..].iter();

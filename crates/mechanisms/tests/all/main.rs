@@ -1,5 +1,6 @@
 //! The tests of the mechanisms crate: one program, so that they are linked once.
 
+mod adjusting;
 mod batches;
 mod broken;
 mod corpus;
