@@ -11,8 +11,8 @@ use hyperstat_mechanisms::{Along, Noted, View};
 use hyperstat_study::Selection;
 use hyperstat_study::table;
 
-use files::{COMPLETIONS_HELP, EXPORT_HELP, FMT_HELP, NEW_HELP, SCHEMA_HELP};
-pub(crate) use files::{Completions, Export, FileFormat, Fmt, New, Shell};
+use files::{ADJUST_HELP, COMPLETIONS_HELP, EXPORT_HELP, FMT_HELP, NEW_HELP, SCHEMA_HELP};
+pub(crate) use files::{Adjust, Completions, Export, FileFormat, Fmt, New, Shell};
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -71,6 +71,9 @@ pub(crate) enum Command {
     /// Put the lines of files in order, in place, with their comments
     #[command(after_help = FMT_HELP)]
     Fmt(Fmt),
+    /// Move rounded coordinates of a mechanism file so that it has the freedoms which these miss
+    #[command(after_help = ADJUST_HELP)]
+    Adjust(Adjust),
     /// Print the JSON Schema of files, for editors
     #[command(after_help = SCHEMA_HELP)]
     Schema,

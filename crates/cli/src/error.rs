@@ -188,7 +188,13 @@ fn help(error: &StudyError) -> Option<String> {
         StudyError::NoSuchDesign { count, .. } => {
             format!("choose `--design` from 0 to {}", last(*count))
         }
-        StudyError::Pose { .. } => "choose a pose in reach with `--pose`".into(),
+        StudyError::Pose { near, .. } => {
+            let near = near.as_ref().map(|near| format!("{near}; else "));
+            format!(
+                "{}choose a pose in reach with `--pose`",
+                near.unwrap_or_default()
+            )
+        }
         StudyError::FreeOutput { .. } => format!(
             "{}; `solve --allow-free` takes it as it is",
             error.help().unwrap_or_default()

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use hyperstat_mechanisms::{Disk, Registry};
-use hyperstat_study::{Asked, CheckReport, Question, Study};
+use hyperstat_study::{AdjustReport, Asked, CheckReport, Question, Study};
 
 use args::{Cli, Command, FileFormat, Format};
 use error::CliError;
@@ -82,6 +82,7 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
         Command::Export(args) => export(args, registry),
         Command::New(args) => files::new(args).and_then(|text| printed(&text)),
         Command::Fmt(args) => fmt(args),
+        Command::Adjust(args) => adjust(args, registry),
         Command::Schema => printed(&hyperstat_study::files::schema(registry)),
         Command::Completions(args) => printed(&files::completions(args)),
         Command::Run(args) => run::run(args, registry, tell),
@@ -180,6 +181,22 @@ fn fmt(args: &args::Fmt) -> Result<bool, CliError> {
     let names = changed.iter().map(|path| format!("{}\n", path.display()));
     tell(&names.collect::<String>())?;
     Ok(changed.is_empty() || !args.check)
+}
+
+/// `hyperstat adjust`
+fn adjust(args: &args::Adjust, registry: &Registry) -> Result<bool, CliError> {
+    let mechanism = hyperstat_mechanisms::load_mechanism(&args.file, &Disk, registry)?;
+    outputs::refuse(args.out.as_deref(), &mechanism.files())?;
+    let (report, text) = AdjustReport::new(&mechanism, &args.file)?;
+    if let Some(path) = &args.out {
+        let text = text.as_deref().unwrap_or_else(|| mechanism.text());
+        outputs::write(path, text.as_bytes())?;
+    }
+    print(&match args.format {
+        Format::Text => text::adjust(&report),
+        Format::Json => json(&report)?,
+    })?;
+    Ok(true)
 }
 
 /// Prints what a command is asked for.

@@ -1,9 +1,11 @@
 //! Why a question has no answer: what is wrong, where the input says so, and what would be right.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hyperstat_assembly::SolveError;
-use hyperstat_mechanisms::{LoadError, Location, PoseError, WriteError};
+use hyperstat_mechanisms::{
+    LoadError, Location, MOST_ROUNDINGS, NotAdjusted, PoseError, WriteError,
+};
 use hyperstat_reference::ReferenceError;
 use serde::Serialize;
 use thiserror::Error;
@@ -91,6 +93,18 @@ pub enum StudyError {
         pose: usize,
         /// Why.
         source: Box<PoseError>,
+        /// The freedoms that the mechanism misses by rounding, in words.
+        near: Option<String>,
+    },
+    /// A mechanism file whose coordinates are not adjusted.
+    #[error("{}", unadjusted(.path, *.why))]
+    Unadjusted {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        why: NotAdjusted,
+        /// Coordinates that are no numbers of the file, by their paths.
+        held: Vec<String>,
     },
     /// A mechanism that has no solution.
     #[error("{source}")]
@@ -193,6 +207,7 @@ impl StudyError {
             Self::FreeOutput { .. } => "free-output",
             Self::Unverified(_) => "unverified",
             Self::Export { .. } => "export",
+            Self::Unadjusted { .. } => "not-adjusted",
             Self::Threads { .. } => "threads",
             #[cfg(feature = "figures")]
             Self::Plot(_) | Self::JobMap { .. } => "figure",
@@ -225,7 +240,14 @@ impl StudyError {
                 "choose a design from 0 to {}",
                 count.saturating_sub(1)
             )),
-            Self::Pose { .. } => Some("choose a pose in reach".into()),
+            Self::Pose { near, .. } => {
+                let near = near.as_ref().map(|near| format!("{near}; else "));
+                Some(format!(
+                    "{}choose a pose in reach",
+                    near.unwrap_or_default()
+                ))
+            }
+            Self::Unadjusted { why, held, .. } => Some(numbers_needed(*why, held)),
             Self::Unsolvable { source, drives, .. } => unsolvable(source, drives),
             Self::FreeOutput { drives, .. } => Some(drives.help()),
             Self::Threads { .. } => Some("give a smaller number of threads".into()),
@@ -302,4 +324,41 @@ fn poses(count: usize) -> String {
         1 => "1 pose".into(),
         _ => format!("{count} poses"),
     }
+}
+
+/// Why a file is not adjusted.
+fn unadjusted(path: &Path, why: NotAdjusted) -> String {
+    let why = match why {
+        NotAdjusted::NoNumbers => {
+            "no coordinate of a point or an axis is a number of few digits".into()
+        }
+        NotAdjusted::Nothing => format!(
+            "no moves of its coordinates by up to {MOST_ROUNDINGS} roundings give it more freedoms that \
+             hold when it moves"
+        ),
+        _ => "its loops cannot be closed, so that its freedoms are not known".to_owned(),
+    };
+    format!("{} is not adjusted: {why}", path.display())
+}
+
+/// What would be right of a file that is not adjusted.
+fn numbers_needed(why: NotAdjusted, held: &[String]) -> String {
+    const SHOWN: usize = 4;
+    if held.is_empty() || why == NotAdjusted::Unknown {
+        return "write its coordinates with all their digits, as `hyperstat export` does".into();
+    }
+    let shown: Vec<String> = held
+        .iter()
+        .take(SHOWN)
+        .map(|path| format!("`{path}`"))
+        .collect();
+    let more = match held.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!(
+        "expressions and what other files hold stay as they are: write {}{more} as numbers, or with more \
+         digits where they come from",
+        shown.join(", ")
+    )
 }

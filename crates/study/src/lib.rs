@@ -14,6 +14,7 @@ mod error;
 pub mod figure;
 pub mod files;
 mod measures;
+mod near;
 #[cfg(feature = "figures")]
 mod plot_error;
 mod schema;
@@ -26,11 +27,11 @@ mod verification;
 mod vtu;
 
 pub use answer::{
-    Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport, CountReport, FrameReport,
-    FrequencyReport, FrequencySensitivityReport, JointReport, MeasuresReport, MisfitEffectReport,
-    ModeReport, ModesReport, OutputReport, PartReport, PrincipalReport, Rows, ScrewReport,
-    SectionForces, SegmentReport, SensitivityReport, SolveReport, StrainReport, StressReport, Sum,
-    VirtualWork, Why, WorstReport,
+    AdjustReport, Asked, BodyReport, BudgetReport, CaseOutput, CaseReport, CheckReport,
+    CountReport, FrameReport, FrequencyReport, FrequencySensitivityReport, JointReport,
+    MeasuresReport, MisfitEffectReport, ModeReport, ModesReport, MovedReport, NumberReport,
+    OutputReport, PartReport, PrincipalReport, Rows, ScrewReport, SectionForces, SegmentReport,
+    SensitivityReport, SolveReport, StrainReport, StressReport, Sum, VirtualWork, Why, WorstReport,
 };
 pub use ask::{Answered, Question};
 pub use doubts::Watch;

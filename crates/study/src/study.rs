@@ -13,6 +13,7 @@ use hyperstat_mechanisms::{
 
 use crate::drives::MissingDrives;
 use crate::error::StudyError;
+use crate::near::of_mechanism;
 use crate::source::Written;
 use crate::title::title;
 
@@ -154,6 +155,7 @@ impl Study {
                 },
             }),
             Err(source) => Err(StudyError::Pose {
+                near: design.mechanism().and_then(of_mechanism),
                 location: Box::new(job.location()),
                 job: job.name,
                 pose,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::Input;
+use super::{Format, Input};
 
 pub(super) const EXPORT_HELP: &str = "\
 The file has every point, body and joint of the mechanism in that pose, and the job's loads; it
@@ -45,6 +45,30 @@ wrong is left alone.
 Examples:
   hyperstat fmt robot.ron
   hyperstat fmt --check *.ron              Ends with 1 where a file would change";
+
+pub(super) const ADJUST_HELP: &str = "\
+Points and axes that are written as numbers move by the least amount, each measured by its last digit,
+that gives the mechanism the freedoms which it nearly has, by finite amounts; and so that beams stay
+straight along which joints slide. No number moves by more than five roundings. Comments, layout, units
+and expressions stay. Without --out it says what would move.
+
+Examples:
+  hyperstat adjust robot.ron --out exact.ron
+  hyperstat adjust robot.ron --format json";
+
+/// `hyperstat adjust`
+#[derive(Debug, Args)]
+pub(crate) struct Adjust {
+    /// Mechanism file (RON or JSON)
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// File to write
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Form of the report on standard output
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) format: Format,
+}
 
 /// `hyperstat export`
 #[derive(Debug, Args)]

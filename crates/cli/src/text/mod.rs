@@ -1,5 +1,6 @@
 //! What is printed for people to read: answers as tables.
 
+mod adjust;
 mod answer;
 mod cases;
 mod check;
@@ -17,6 +18,7 @@ mod summary;
 mod table;
 mod why;
 
+pub(crate) use adjust::adjust;
 pub(crate) use answer::answer;
 pub(crate) use check::check;
 pub(crate) use solve::full;

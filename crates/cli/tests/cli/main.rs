@@ -1,5 +1,6 @@
 //! The binary as a user meets it: files in, reports, files and exit statuses out.
 
+mod adjust;
 mod answer;
 mod cases;
 mod check;

@@ -6,6 +6,7 @@ use serde::Serialize;
 use super::{doubts, redundancies};
 use crate::doubts::of_model;
 use crate::error::{Problem, StudyError};
+use crate::near::of_mechanism;
 use crate::study::Study;
 
 /// What the check of a file found. Field names are those of the JSON output.
@@ -118,6 +119,7 @@ impl CheckReport {
                 .collect();
             report.warnings = solution.warnings.iter().map(ToString::to_string).collect();
         }
+        report.warnings.extend(study.file().and_then(of_mechanism));
         report.warnings.extend(doubts(model));
         report.warnings.extend(of_model(model));
         report.notes = notes(study);

@@ -1,5 +1,6 @@
 //! What `solve` and `check` find, as plain data: what the JSON is, and what tables are made from.
 
+mod adjust;
 mod by_parameter;
 mod cases;
 mod check;
@@ -16,6 +17,7 @@ mod why;
 use hyperstat_assembly::{Configuration, Model};
 use nalgebra::{Matrix6, Vector6};
 
+pub use adjust::{AdjustReport, MovedReport, NumberReport};
 pub use cases::{CaseOutput, CaseReport};
 pub use check::CheckReport;
 pub use forces::{BodyReport, SectionForces, StrainReport, WorstReport};

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::doubts::{of_model, of_solution};
 use crate::entries::Entries;
+use crate::near::of_mechanism;
 use crate::study::Study;
 use crate::verification::Verification;
 
@@ -175,6 +176,7 @@ impl SolveReport {
                 })
                 .collect(),
             warnings: (solution.warnings.iter().map(ToString::to_string))
+                .chain(study.file().and_then(of_mechanism))
                 .chain(doubts(model))
                 .chain(verification.iter().flat_map(Verification::warnings))
                 .chain(of_model(model))

@@ -6,6 +6,7 @@ use nalgebra::Vector6;
 
 use super::of_model;
 use super::result::Findings;
+use crate::near::of_mechanism;
 use crate::study::job_model;
 
 /// The largest displacement of a job's output, and the first pose of the first design that has a
@@ -52,7 +53,8 @@ impl Watch {
         let Ok(model) = job.model() else {
             return Vec::new();
         };
-        let mut told = of_model(&model);
+        let near = job.mechanism().and_then(of_mechanism);
+        let mut told: Vec<String> = near.into_iter().chain(of_model(&model)).collect();
         let mut findings = Findings::of(&model);
         let output = || {
             let output = model.output().map(|node| model.node_name(node));
