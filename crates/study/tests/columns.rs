@@ -633,7 +633,10 @@ fn summaries_have_the_columns_and_the_coordinates_that_are_commanded() {
     let low = position.percentiles[0].value;
     assert!((low / -0.2 - 1.0).abs() < 1e-3, "{low}");
     let names = of("softest_force").max.commanded.iter();
-    assert_eq!(names.map(|(name, _)| name).collect::<Vec<_>>(), ["A1.v", "A2.v"]);
+    assert_eq!(
+        names.map(|(name, _)| name).collect::<Vec<_>>(),
+        ["A1.v", "A2.v"]
+    );
     of("deflection");
     assert!(of("stress").max.value >= 0.0);
     assert!(!report.iter().any(|own| own.measure == "stress_at"));
