@@ -140,7 +140,7 @@ impl<'a> Fit<'a> {
                 sample.configuration = system.linkage.advanced(&sample.configuration, &step);
             }
             moves += &change;
-            if !(moves.amax() <= LOST) {
+            if moves.iter().any(|own| !own.is_finite() || own.abs() > LOST) {
                 return None;
             }
             off = (change.amax() * rounding).min(off);
