@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use hyperstat_mechanisms::{Batch, Job, Registry};
-use hyperstat_study::sweep::{Chunk, Columns, Statistics, Summary, Sweep, Threads, Way, measure};
+use hyperstat_study::sweep::{Chunk, Columns, Sweep, Threads, Way};
 use hyperstat_study::table::{self, TableFormat, TableReader, TableWriter};
-use hyperstat_study::{Watch, figure};
+use hyperstat_study::{Ran, figure};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::atomic::{AtomicFile, LONGER};
@@ -127,14 +127,11 @@ fn run_job(
     };
     let file = AtomicFile::create(&path).map_err(cannot_write)?;
     let mut table = TableWriter::new(file, format, &Columns::of(job)).map_err(cannot_write)?;
-    let mut summary = Summary::new(job, 0);
-    let mut statistics = Statistics::of(job);
-    let mut trajectory = figure::Trajectory::wanted_by(job);
-    let mut watch = Watch::new(job);
+    let mut ran = Ran::new(job, args.summary);
     let render = |chunk: &mut Chunk| {
         table::render(format, chunk);
         if args.summary {
-            chunk.measures.extend(chunk.records.iter().map(measure));
+            Ran::measure(chunk);
         }
     };
     sweep.run(
@@ -143,36 +140,18 @@ fn run_job(
         render,
         |chunk| -> Result<(), CliError> {
             table.append(chunk).map_err(cannot_write)?;
-            summary.add(&chunk.records);
-            for (row, record) in chunk.rows.clone().zip(&chunk.records) {
-                if let Ok(found) = &record.result {
-                    watch.see(row, &found.displacement);
-                }
-            }
-            for (k, values) in chunk.measures.iter().enumerate() {
-                if let Some(values) = values {
-                    let row = chunk.rows.start + k;
-                    statistics.add(row, &chunk.records[k].pose, values);
-                }
-            }
-            if args.summary {
-                for (row, record) in chunk.rows.clone().zip(&chunk.records) {
-                    statistics.add_asked(row, record);
-                }
-            }
-            if let Some(trajectory) = &mut trajectory {
-                trajectory.add(chunk.rows.start, &chunk.records);
-            }
+            ran.see(chunk);
             bar.inc(chunk.records.len() as u64);
             Ok(())
         },
     )?;
     let file = table.finish().map_err(cannot_write)?;
     file.commit().map_err(cannot_write)?;
-    let mut outcome = Outcome::new(summary);
+    let (found, warnings) = (ran.measures(job), ran.warnings(job));
+    let mut outcome = Outcome::new(ran.summary);
     outcome.files.push(path.clone());
-    outcome.warnings = watch.warnings(job);
-    if let Some(found) = args.summary.then(|| statistics.report_of(job)).flatten() {
+    outcome.warnings = warnings;
+    if let Some(found) = found {
         let path = summary_path(job, args);
         outputs::write(&path, json(&found)?.as_bytes())?;
         outcome.files.push(path);
@@ -180,7 +159,7 @@ fn run_job(
     }
     bar.set_message(format!("{}: figures", job.name));
     let forms = Form::all(args.pdf);
-    threads.install(|| draw(job, trajectory.as_ref(), (&path, &forms), &mut outcome))?;
+    threads.install(|| draw(job, ran.trajectory.as_ref(), (&path, &forms), &mut outcome))?;
     Ok(outcome)
 }
 

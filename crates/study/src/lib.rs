@@ -23,6 +23,8 @@ mod number;
 mod page;
 #[cfg(feature = "figures")]
 mod plot_error;
+#[cfg(feature = "figures")]
+mod ran;
 mod schema;
 mod selection;
 mod source;
@@ -64,6 +66,8 @@ pub use number::number;
 pub use page::{Page, Reported};
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
+#[cfg(feature = "figures")]
+pub use ran::Ran;
 pub use selection::Selection;
 pub use study::Study;
 pub use verification::{StateDifferences, Verification};

@@ -80,7 +80,10 @@ fn two_designs_and_two_tables() {
         text.contains("rod.section.diameter  0.0140000 → 0.0180000"),
         "{text}"
     );
-    assert!(text.contains("(6)  0.0140000 → 0.0180000"), "{text}");
+    assert!(
+        text.contains("(6) section.diameter  0.0140000 → 0.0180000"),
+        "{text}"
+    );
     let first = STUDY.replace("[0.014, 0.018]", "[0.014]");
     let second = STUDY.replace("[0.014, 0.018]", "[0.018]");
     let second = second.replace("(2.0, 0.0, 0.5)", "(0.0, 0.1, 0.5)");

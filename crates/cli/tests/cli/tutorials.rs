@@ -148,6 +148,17 @@ fn what_should_i_make_thicker() {
     assert_eq!(shown, 3);
 }
 
+#[test]
+fn a_machine_of_your_own() {
+    let (bench, shown) = follow("tutorials/own-machine");
+    assert_eq!(shown, 4);
+    let file = bench.read("head.ron");
+    assert!(file.lines().count() < 60);
+    assert_eq!(file, bench.read("examples/head.ron"));
+    assert!(bench.read("head.html").contains("Natural frequencies"));
+    assert!(bench.path("out/head-map.svg").exists());
+}
+
 /// Pages with worked examples, and how many outputs they show.
 #[test]
 fn worked_examples() {

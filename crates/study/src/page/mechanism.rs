@@ -34,10 +34,16 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
         return Err(error);
     }
     let report = &answered.report;
+    let case = reported.asked.case.as_deref();
+    let loaded = study.under(&answered.solution, case)?.output.displacement;
+    let under = case.map_or_else(String::new, |case| format!(", case {case}"));
+    let state = case.and_then(|case| report.cases.get(case));
+    let bodies = state.map_or(&report.bodies, |state| &state.bodies);
+    let joints = state.map_or(&report.joints, |state| &state.joints);
     let output = &answered.solution.output;
     let pose = output.stiffness.as_ref().map(Pose::new);
     let measure = |of: &crate::measures::Measure| {
-        let value = pose.as_ref()?.measure(of.rule, &output.displacement)?;
+        let value = pose.as_ref()?.measure(of.rule, &loaded)?;
         let unit = [of.unit];
         let words = [of.name, of.words]
             .into_iter()
@@ -46,6 +52,7 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
         Some(Row {
             words: words.collect(),
             numbers: vec![Some(value)],
+            ..Row::default()
         })
     };
     let measures: Vec<Row> = MEASURES.iter().filter_map(measure).collect();
@@ -65,11 +72,11 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
             (matrix(["Fx", "Fy", "Fz", "Mx", "My", "Mz"], ["Δx", "Δy", "Δz", "φx", "φy", "φz"], stiffness))
         }
         @if !measures.is_empty() {
-            h3 { "Measures" }
+            h3 { "Measures" (under) }
             (table(&["", "what it is", "unit", "value"], &measures))
         }
         @if let Some(budget) = report.why.as_ref().and_then(|why| why.budget.as_ref()) {
-            h3 { "What is soft" }
+            h3 { "What is soft" (under) }
             (bars)
             (sums("by deformation", budget, &budget.by_deformation))
             (sums("by body or joint", budget, &budget.by_part))
@@ -85,10 +92,10 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
             (table(&["mode", "f [Hz]"], &rows))
             (modes)
         }
-        (worst_points(&report.bodies))
-        h3 { "Wrenches in the joints" }
+        (worst_points(bodies, &under))
+        h3 { "Wrenches in the joints" (under) }
         p { "On the second body of the joint, at the joint, in the joint's frame." }
-        @let joints = report.joints.iter().map(|(name, joint)| (name.to_string(), joint.wrench.as_ref()));
+        @let joints = joints.iter().map(|(name, joint)| (name.to_string(), joint.wrench.as_ref()));
         (sixes("joint", WRENCH, joints))
         (list("Joints whose wrenches redundant rigid constraints leave undetermined", &report.undetermined))
     })
@@ -152,6 +159,7 @@ fn sums(by: &str, budget: &BudgetReport, sums: &[Sum]) -> Markup {
     let row = |sum: &Sum| Row {
         words: vec![sum.name.clone()],
         numbers: vec![Some(sum.displacement), sum.share.map(|share| 100.0 * share)],
+        ..Row::default()
     };
     let rows: Vec<Row> = sums.iter().map(row).collect();
     table(&[by, &value, "share [%]"], &rows)
@@ -162,6 +170,7 @@ fn sensitive(sensitivities: &[SensitivityReport]) -> Markup {
     let row = |of: &SensitivityReport| Row {
         words: vec![of.parameter.clone()],
         numbers: vec![Some(of.value), of.relative],
+        ..Row::default()
     };
     let rows: Vec<Row> = told.iter().map(row).collect();
     html! {
@@ -175,7 +184,7 @@ fn sensitive(sensitivities: &[SensitivityReport]) -> Markup {
     }
 }
 
-fn worst_points(bodies: &Entries<BodyReport>) -> Markup {
+fn worst_points(bodies: &Entries<BodyReport>, under: &str) -> Markup {
     let rows = bodies.iter().filter_map(|(name, body)| {
         let worst = body.worst.as_ref()?;
         let [from, to] = &worst.segment;
@@ -186,6 +195,7 @@ fn worst_points(bodies: &Entries<BodyReport>) -> Markup {
                 .into_iter()
                 .chain([worst.utilisation])
                 .collect(),
+            ..Row::default()
         })
     });
     let rows: Vec<Row> = rows.collect();
@@ -200,7 +210,7 @@ fn worst_points(bodies: &Entries<BodyReport>) -> Markup {
     ];
     html! {
         @if !rows.is_empty() {
-            h3 { "Worst points" }
+            h3 { "Worst points" (under) }
             (table(&heads, &rows))
         }
     }

@@ -30,10 +30,12 @@ pub(super) const WRENCH: [&str; 6] = [
 /// below this share of the largest of their kind.
 const ROUNDING: f64 = 1e-14;
 
-/// A row: words to the left, numbers to the right; a dash stands for one that there is not.
+/// A row: words to the left, numbers to the right; a dash stands for one that there is not. Counts are last.
+#[derive(Default)]
 pub(super) struct Row {
     pub words: Vec<String>,
     pub numbers: Vec<Option<f64>>,
+    pub counts: Vec<usize>,
 }
 
 impl Row {
@@ -42,6 +44,7 @@ impl Row {
         Self {
             words: vec![name.into()],
             numbers: numbers.into_iter().map(Some).collect(),
+            counts: Vec::new(),
         }
     }
 }
@@ -61,6 +64,7 @@ pub(super) fn table(heads: &[&str], rows: &[Row]) -> Markup {
                     tr {
                         @for word in &row.words { td.word { (word) } }
                         @for number in &row.numbers { td { (shown(*number)) } }
+                        @for count in &row.counts { td { (count) } }
                     }
                 }
             }
@@ -99,6 +103,7 @@ pub(super) fn sixes<'a>(
         .map(|(name, row)| Row {
             words: vec![name.clone()],
             numbers: (0..6).map(|k| row.map(|row| clean(k, row[k]))).collect(),
+            counts: Vec::new(),
         })
         .collect();
     let heads: Vec<&str> = std::iter::once(first).chain(heads).collect();
