@@ -2,6 +2,7 @@
 
 mod compare;
 mod files;
+mod input;
 mod plot;
 mod report;
 
@@ -10,13 +11,14 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hyperstat_assembly::BeamMass;
 use hyperstat_mechanisms::Along;
-use hyperstat_study::Selection;
 use hyperstat_study::table;
 
 use compare::COMPARE_HELP;
 pub(crate) use compare::Compare;
 use files::{ADJUST_HELP, COMPLETIONS_HELP, EXPORT_HELP, FMT_HELP, NEW_HELP, SCHEMA_HELP};
 pub(crate) use files::{Adjust, Completions, Export, FileFormat, Fmt, New, Shell};
+use input::along;
+pub(crate) use input::{Format, Input};
 pub(crate) use plot::{Plot, Pose, Scale};
 use report::REPORT_HELP;
 pub(crate) use report::Report;
@@ -290,26 +292,6 @@ enum Mass {
     Lumped,
 }
 
-/// Reads the direction that the output gives along.
-fn along(text: &str) -> Result<Along, String> {
-    if let Some(named) = Along::named(text) {
-        return Ok(named);
-    }
-    let numbers: Result<Vec<f64>, _> = text
-        .split(',')
-        .map(|number| number.trim().parse())
-        .collect();
-    let right = format!(
-        "`{}` or three numbers such as `0,1,-1`",
-        Along::WORDS.join("`, `")
-    );
-    match numbers.as_deref() {
-        Ok(&[a, b, c]) => Along::direction([a, b, c])
-            .ok_or_else(|| format!("a direction has a length; give {right}")),
-        _ => Err(format!("give {right}")),
-    }
-}
-
 /// `hyperstat run`
 #[derive(Debug, Args)]
 pub(crate) struct Run {
@@ -350,44 +332,6 @@ pub(crate) struct Check {
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-}
-
-/// What is to be solved, checked or exported.
-#[derive(Debug, Args)]
-pub(crate) struct Input {
-    /// Mechanism file or batch file (RON or JSON)
-    #[arg(value_name = "FILE.ron")]
-    pub(crate) file: PathBuf,
-    /// Job of a batch file; may be left out where there is only one
-    #[arg(long, value_name = "NAME")]
-    pub(crate) job: Option<String>,
-    /// Design of a job that varies, counted from 0 [default: 0]
-    #[arg(long, value_name = "N")]
-    pub(crate) design: Option<usize>,
-    /// Pose of the job, counted from 0 [default: 0]
-    #[arg(long, value_name = "N")]
-    pub(crate) pose: Option<usize>,
-}
-
-impl Input {
-    /// What is chosen of a batch file.
-    pub(crate) fn selection(&self) -> Selection {
-        Selection {
-            job: self.job.clone(),
-            design: self.design,
-            pose: self.pose,
-        }
-    }
-}
-
-/// Form of a report.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Format {
-    /// Tables to read
-    #[default]
-    Text,
-    /// JSON, numbers that read back to the same double
-    Json,
 }
 
 /// Form of a job's table.

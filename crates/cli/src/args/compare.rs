@@ -6,7 +6,7 @@ use clap::Args;
 use hyperstat_mechanisms::Along;
 use hyperstat_study::Selection;
 
-use super::{Format, Input, along};
+use super::input::{Format, Input, along};
 
 pub(super) const COMPARE_HELP: &str = "\
 Of mechanisms: parameters and parts that differ, then stiffness, displacement, measures, natural

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{Format, Input};
+use super::input::{Format, Input};
 
 pub(super) const EXPORT_HELP: &str = "\
 The file has every point, body and joint of the mechanism in that pose, and the job's loads; it

@@ -7,7 +7,7 @@ use clap::Args;
 use hyperstat_figures::Extreme;
 use hyperstat_mechanisms::{Along, Noted, View};
 
-use super::along;
+use super::input::along;
 
 /// `hyperstat plot`
 #[derive(Debug, Args)]

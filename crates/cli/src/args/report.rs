@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use hyperstat_mechanisms::Along;
 
-use super::{Input, along};
+use super::input::{Input, along};
 
 pub(super) const REPORT_HELP: &str = "\
 One self-contained page: nothing is fetched when it is read, and nothing in it changes from run to run. Print
