@@ -68,7 +68,7 @@ pub(super) fn parameters(studies: [&Study; 2]) -> Vec<InputDifference> {
 
 /// What of the mechanisms differs; `None` where one has parts that no file can state.
 pub(super) fn parts(studies: [&Study; 2]) -> Option<Vec<PartDifference>> {
-    let [first, second] = studies.map(|study| leaves(study));
+    let [first, second] = studies.map(leaves);
     let [first, second] = [first?, second?];
     let size = lengths(&first).max(lengths(&second));
     let differ = |[a, b]: [Option<&Json>; 2], of: &str| match (a, b) {
