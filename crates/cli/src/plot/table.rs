@@ -106,7 +106,7 @@ fn of_two(args: &args::Plot, table: &TableReader, map: &Map) -> Result<MapFigure
     let names = [jobs, stems, paths.clone()].into_iter();
     let names = names.into_iter().find(|[a, b]| a != b).unwrap_or(paths);
     let named = |k: usize, table| NamedTable {
-        name: &*names[k],
+        name: &names[k],
         table,
     };
     let tables = [named(0, table), named(1, other)];
