@@ -1,0 +1,65 @@
+//! What several commands take: a file and what is chosen of it, a direction, the form of a report.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use hyperstat_mechanisms::Along;
+use hyperstat_study::Selection;
+
+/// What is to be solved, checked or exported.
+#[derive(Debug, Args)]
+pub(crate) struct Input {
+    /// Mechanism file or batch file (RON or JSON)
+    #[arg(value_name = "FILE.ron")]
+    pub(crate) file: PathBuf,
+    /// Job of a batch file; may be left out where there is only one
+    #[arg(long, value_name = "NAME")]
+    pub(crate) job: Option<String>,
+    /// Design of a job that varies, counted from 0 [default: 0]
+    #[arg(long, value_name = "N")]
+    pub(crate) design: Option<usize>,
+    /// Pose of the job, counted from 0 [default: 0]
+    #[arg(long, value_name = "N")]
+    pub(crate) pose: Option<usize>,
+}
+
+impl Input {
+    /// What is chosen of a batch file.
+    pub(crate) fn selection(&self) -> Selection {
+        Selection {
+            job: self.job.clone(),
+            design: self.design,
+            pose: self.pose,
+        }
+    }
+}
+
+/// Form of a report.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// Tables to read
+    #[default]
+    Text,
+    /// JSON, numbers that read back to the same double
+    Json,
+}
+
+/// Reads the direction that the output gives along.
+pub(super) fn along(text: &str) -> Result<Along, String> {
+    if let Some(named) = Along::named(text) {
+        return Ok(named);
+    }
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|number| number.trim().parse())
+        .collect();
+    let right = format!(
+        "`{}` or three numbers such as `0,1,-1`",
+        Along::WORDS.join("`, `")
+    );
+    match numbers.as_deref() {
+        Ok(&[a, b, c]) => Along::direction([a, b, c])
+            .ok_or_else(|| format!("a direction has a length; give {right}")),
+        _ => Err(format!("give {right}")),
+    }
+}
