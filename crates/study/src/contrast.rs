@@ -179,6 +179,11 @@ impl Partners {
         };
         let keys = [read(a)?, read(b)?];
         let rows = keys.each_ref().map(|keys| keys.first().map_or(0, Vec::len));
+        if let Some(empty) = (0..2).find(|k| rows[*k] == 0) {
+            return Err(PlotError::Empty {
+                path: tables[empty].path().into(),
+            });
+        }
         let pairs = by_pose(&keys, rows);
         if pairs.len() == rows[0].min(rows[1]) || (rows[0] != rows[1] && !pairs.is_empty()) {
             let (by, rows_of) = ("pose", pairs.len());
@@ -258,7 +263,7 @@ impl Partners {
                 .zip(ratios.last())
                 .map(|(least, most)| Ratios {
                     least: *least,
-                    median: ratios[ratios.len() / 2],
+                    median: 0.5 * (ratios[(ratios.len() - 1) / 2] + ratios[ratios.len() / 2]),
                     most: *most,
                 }),
         }

@@ -249,6 +249,7 @@ impl Study {
     }
 
     /// The job that it is of, and its pose in it.
+    #[cfg(feature = "figures")]
     pub(crate) fn of_pose(&self) -> Option<(&Job, usize)> {
         match &self.origin {
             Origin::Mechanism(_) => None,
@@ -257,6 +258,7 @@ impl Study {
     }
 
     /// The same design at another pose of its job; `None` where that is out of reach, or it is of no job.
+    #[cfg(feature = "figures")]
     pub(crate) fn at_pose(&self, pose: usize) -> Option<Self> {
         let Origin::Job {
             job,

@@ -123,6 +123,11 @@ fn two_designs_and_two_tables() {
             .iter()
             .any(|column| column["column"] == "pure_force_stiffness_min")
     );
+    // The median of two ratios is halfway between them.
+    let ratio = &of("k33")["ratio"];
+    let [least, median, most] = ["least", "median", "most"].map(|of| ratio[of].as_f64().unwrap());
+    assert!(least < most);
+    assert_near(median, 0.5 * (least + most), 1e-12, most);
     // Rows of the same pose, wherever they stand.
     let lines: Vec<String> = bench
         .read("a/study.csv")
@@ -153,7 +158,13 @@ fn what_cannot_be_compared_says_so() {
     bench.file("bar.ron", &bar("0.02"));
     bench.file("study.ron", STUDY);
     bench.hyperstat(&["run", "study.ron", "--out", "."]);
+    let header = bench.read("study.csv").lines().next().map(String::from);
+    bench.file("empty.csv", &(header.unwrap() + "\n"));
     for (arguments, parts) in [
+        (
+            vec!["empty.csv", "study.csv"],
+            ["empty.csv has no rows", "run the batch again"],
+        ),
         (
             vec!["bar.ron"],
             [
