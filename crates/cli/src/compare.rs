@@ -35,10 +35,14 @@ pub(crate) fn run(args: &Compare, registry: &Registry) -> Result<String, CliErro
 
 fn of_tables(args: &Compare, other: &Path) -> Result<String, CliError> {
     if let Some(option) = args.of_mechanisms() {
-        return Err(CliError::NoChoice {
-            path: args.input.file.clone(),
-            option,
-            what: "a table",
+        let path = args.input.file.clone();
+        return Err(match option {
+            "--case" | "--modes" | "--along" | "--out" => CliError::NoMechanism { path, option },
+            _ => CliError::NoChoice {
+                path,
+                option,
+                what: "a table",
+            },
         });
     }
     let [first, second] = [

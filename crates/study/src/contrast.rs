@@ -8,12 +8,13 @@ use serde::Serialize;
 use crate::figure::Drawn;
 use crate::measures::MEASURES;
 use crate::plot_error::PlotError;
-use crate::schema::{COORDINATES, DESIGN, POSE, STATUS, unit};
+use crate::schema::{self, COORDINATES, DESIGN, DISPLACEMENT, POSE, STATUS, unit};
 use crate::table::{Column, TableReader};
 
 /// Coordinates are the same where they do not differ by more \[m, rad\]: poses are written so or closer.
 const SAME_POSE: f64 = 1e-9;
-/// Values below this part of the largest of their column have no ratio: they are rounding beside it.
+/// Differences below this part of the largest of their kind are none, and values below it have no ratio: they
+/// are rounding beside it.
 const ROUNDING: f64 = 1e-12;
 /// Columns that are read in one pass through a file.
 const AT_ONCE: usize = 8;
@@ -115,8 +116,9 @@ pub fn tables(tables: [&TableReader; 2]) -> Result<TableComparison, PlotError> {
     };
     let mut columns = Vec::new();
     let mut same = Vec::new();
+    let sizes = Sizes::new(tables)?;
     let mut take = |name: &str, unit: &str, values: [&Column; 2]| {
-        let found = partners.difference(name, unit, values);
+        let found = partners.difference(name, unit, values, sizes.of(name));
         match found.furthest.is_some() || found.one_only > 0 {
             true => columns.push(found),
             false => same.push(name.to_string()),
@@ -155,6 +157,59 @@ pub fn tables(tables: [&TableReader; 2]) -> Result<TableComparison, PlotError> {
         columns,
         same,
     })
+}
+
+/// How large the numbers are beside which those of a column may be rounding.
+struct Sizes(HashMap<String, f64>);
+
+impl Sizes {
+    /// Of the diagonal of the stiffness, and of displacements.
+    fn new(tables: [&TableReader; 2]) -> Result<Self, PlotError> {
+        let mut sizes = HashMap::new();
+        for table in tables {
+            let counts = |name: &&String| diagonal(name).is_some() || block(name).is_some();
+            let names: Vec<&String> = table.names().iter().filter(counts).collect();
+            for names in names.chunks(AT_ONCE) {
+                let places: Vec<_> = names.iter().filter_map(|name| table.find(name)).collect();
+                for (name, column) in names.iter().zip(table.read(&places)?) {
+                    let numbers = column.iter().flatten();
+                    let largest = numbers.fold(0.0_f64, |largest, n| largest.max(n.abs()));
+                    let size = sizes.entry((*name).clone()).or_insert(0.0_f64);
+                    *size = size.max(largest);
+                }
+            }
+        }
+        Ok(Self(sizes))
+    }
+
+    /// Of the kind of a column: √(K_ii K_jj) of a stiffness, the largest translation or rotation of a
+    /// displacement; else 0.
+    fn of(&self, name: &str) -> f64 {
+        let size = |name: &str| self.0.get(name).copied().unwrap_or(0.0);
+        if let Some([row, column]) = schema::entry(name) {
+            return (size(&format!("k{row}{row}")) * size(&format!("k{column}{column}"))).sqrt();
+        }
+        let Some(block) = block(name) else { return 0.0 };
+        block.iter().map(|name| size(name)).fold(0.0, f64::max)
+    }
+}
+
+/// The place on the diagonal of a column that is of it.
+fn diagonal(name: &str) -> Option<usize> {
+    schema::entry(name).and_then(|[row, column]| (row == column).then_some(row))
+}
+
+/// The columns of the translation, or the rotation, of which a column is a component.
+fn block(name: &str) -> Option<[String; 3]> {
+    let (case, last) = match name.rsplit_once('.') {
+        Some((case, last)) => (format!("{case}."), last),
+        None => (String::new(), name),
+    };
+    let place = DISPLACEMENT.iter().position(|known| *known == last)?;
+    let first = place / 3 * 3;
+    Some(std::array::from_fn(|k| {
+        format!("{case}{}", DISPLACEMENT[first + k])
+    }))
 }
 
 /// Which row of the second table goes with a row of the first.
@@ -222,7 +277,13 @@ impl Partners {
         })
     }
 
-    fn difference(&self, name: &str, unit: &str, [a, b]: [&Column; 2]) -> ColumnDifference {
+    fn difference(
+        &self,
+        name: &str,
+        unit: &str,
+        [a, b]: [&Column; 2],
+        size: f64,
+    ) -> ColumnDifference {
         let both = self
             .pairs
             .iter()
@@ -235,7 +296,7 @@ impl Partners {
             .filter(|[i, j]| known(a, *i) != known(b, *j))
             .count();
         let largest = both.iter().flat_map(|(_, values)| values);
-        let largest = largest.fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let largest = largest.fold(size, |largest, value| largest.max(value.abs()));
         let apart = |[a, b]: [f64; 2]| (b - a).abs();
         let mut furthest: Option<Furthest> = None;
         for (row, values) in &both {

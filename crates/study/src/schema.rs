@@ -102,7 +102,7 @@ pub(crate) fn holds_words(name: &str) -> bool {
 }
 
 /// Row and column, from 1, of a stiffness column `k11` to `k66`.
-fn entry(name: &str) -> Option<[usize; 2]> {
+pub(crate) fn entry(name: &str) -> Option<[usize; 2]> {
     let digits: Vec<usize> = (name.strip_prefix('k')?.chars())
         .map(|c| {
             c.to_digit(10)

@@ -181,7 +181,10 @@ fn what_cannot_be_compared_says_so() {
         ),
         (
             vec!["study.csv", "study.csv", "--along", "z"],
-            ["`--along`", "leave `--along` out"],
+            [
+                "`--along` is drawn of a mechanism",
+                "give the mechanism file",
+            ],
         ),
         (vec!["study.ron", "--with-pose", "9"], ["pose 9", "choose"]),
         (

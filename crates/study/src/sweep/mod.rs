@@ -10,6 +10,7 @@ mod summary;
 mod threads;
 mod wide;
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -223,23 +224,24 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// Refuses a job whose table would have two columns of one name, one of them asked for.
+/// Refuses a job whose table would have two columns of one name.
 fn check(job: &Job) -> Result<(), StudyError> {
-    let groups = Group::all(job);
-    if groups.is_empty() {
+    let mut seen = HashSet::new();
+    let columns = Columns::of(job);
+    let mut all = schema::columns(&columns);
+    let Some(name) = all.find(|name| !seen.insert(name.clone())) else {
         return Ok(());
-    }
-    let all: Vec<String> = schema::columns(&Columns::of(job)).collect();
-    for (place, group) in groups.iter().enumerate() {
-        let twice = |name: &String| all.iter().filter(|own| *own == name).count() > 1;
-        if let Some(name) = group.names(job.cases()).into_iter().find(twice) {
-            return Err(StudyError::SameColumn {
-                location: Box::new(job.column_location(place)),
-                name,
-            });
-        }
-    }
-    Ok(())
+    };
+    // One that is asked for is told where that is.
+    let asked = |group: &Group| group.names(job.cases()).contains(&name);
+    let location = match Group::all(job).iter().position(asked) {
+        Some(place) => job.column_location(place),
+        None => job.location(),
+    };
+    Err(StudyError::SameColumn {
+        location: Box::new(location),
+        name,
+    })
 }
 
 impl Planned {

@@ -226,3 +226,45 @@ fn summaries_have_the_columns_and_the_coordinates_that_are_commanded() {
     assert!(of("stress").max.value >= 0.0);
     assert!(!report.iter().any(|own| own.measure == "stress_at"));
 }
+
+/// A parameter that is called as a column of every table is no second column of that name.
+#[test]
+fn what_varies_has_a_name_of_its_own() {
+    for (own, rest, refused) in [
+        ("x", "", true),
+        ("k33", "", true),
+        ("design", "", true),
+        ("dz", "", true),
+        ("f1", "modes: 1,", true),
+        ("f1", "", false),
+        ("parameters.x", "", false),
+    ] {
+        let parameter = own.trim_start_matches("parameters.");
+        let text = r#"(jobs: [(
+            name: "own",
+            parameters: { "NAME": 0.014 },
+            mechanism: Delta(
+                base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60, rod_spacing: 0.12,
+                arm: (section: Circle(diameter: 0.03), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
+                bar: (section: Circle(diameter: 0.02), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
+                rod: (section: Circle(diameter: "= NAME"), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
+            ),
+            poses: List([(0.0, 0.0, 0.5)]),
+            vary: { "OWN": [0.014, 0.016] },
+            REST
+        )])"#;
+        let text = text
+            .replace("NAME", parameter)
+            .replace("OWN", own)
+            .replace("REST", rest);
+        match (Sweep::new(&job(&text), Way::Lanes), refused) {
+            (Err(error), true) => {
+                assert_eq!(error.code(), "same-column", "{own}: {error}");
+                assert!(error.to_string().contains(&format!("`{own}`")), "{error}");
+                assert!(error.help().unwrap().contains("parameters.…"));
+            }
+            (Ok(_), false) => {}
+            (found, _) => panic!("{own}: {found:?}"),
+        }
+    }
+}
