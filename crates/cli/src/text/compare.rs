@@ -54,12 +54,16 @@ pub(crate) fn compared(found: &Comparison) -> String {
         return text;
     }
     let groups = [
-        ("Counts", &results.counts),
         ("Displacement of the output", &results.displacement),
         ("Stiffness of the output", &results.stiffness),
         ("Measures", &results.measures),
         ("Mass and natural frequencies", &results.frequencies),
     ];
+    let counts = results.counts.iter().filter(|pair| !pair.is_same());
+    let counts: Vec<_> = counts.map(count).collect();
+    if !counts.is_empty() {
+        section(&mut text, "Counts: A → B", lines_of(counts.into_iter()));
+    }
     for (heading, pairs) in groups {
         pairs_section(&mut text, heading, pairs);
     }
@@ -98,6 +102,12 @@ fn pairs_section(text: &mut String, heading: &str, pairs: &[Pair]) {
         same => format!("  and {same} that are the same\n"),
     };
     section(text, heading, format!("{table}{more}"));
+}
+
+/// A count of each.
+fn count(pair: &Pair) -> [String; 2] {
+    let [a, b] = pair.values.map(|value| value.unwrap_or(0.0).to_string());
+    [pair.name.clone(), format!("{a} → {b}")]
 }
 
 fn is_same(pair: &Pair) -> bool {

@@ -1,7 +1,8 @@
 //! By how much the drives of a prebuilt mechanism move between two poses.
 
 use hyperstat_closure::{ClosureError, Drive, LANES, Lanes, LoopClosure, Target};
-use hyperstat_model::{Geometry, Model, characteristic_length};
+use hyperstat_joints::Dof;
+use hyperstat_model::{Connection, Geometry, Model, NodeId, characteristic_length};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::prebuilt::{Placed, PoseError};
@@ -19,19 +20,13 @@ pub(super) fn drives_between(
 ) -> Result<Vec<Drive>, PoseError> {
     let following = Following::new(home, from)?;
     let reached = following.closure.place_at(&following.target(&to.pose))?;
-    let off = farthest(&reached.geometry, &to.geometry);
+    let off = following.farthest(&reached.geometry, &to.geometry);
     if off > SAME * characteristic_length(&to.geometry) {
         return Err(PoseError::Branch {
             what: format!("a point is {off:.6} m from where inverse kinematics has it"),
         });
     }
     Ok(reached.drives)
-}
-
-/// How far a point of one geometry is from where the other has it \[m\].
-fn farthest(one: &Geometry, other: &Geometry) -> f64 {
-    let pairs = one.positions.iter().zip(&other.positions);
-    pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
 }
 
 /// Loop closure that follows a prebuilt mechanism from a pose of it.
@@ -42,6 +37,9 @@ pub(crate) struct Following {
     home: Geometry,
     /// The output's rotation there.
     turned: Rotation3<f64>,
+    /// The nodes that no joint slides along: where on a leg a slide is, inverse kinematics may choose anew
+    /// in every pose.
+    fixed: Vec<usize>,
 }
 
 impl Following {
@@ -51,7 +49,15 @@ impl Following {
             closure: LoopClosure::new(home)?,
             home: home.geometry().clone(),
             turned: turned(pose),
+            fixed: unslid(home),
         })
+    }
+
+    /// How far a point of one geometry is from where the other has it \[m\].
+    fn farthest(&self, one: &Geometry, other: &Geometry) -> f64 {
+        let apart =
+            |node: &usize| Some((one.positions.get(*node)? - other.positions.get(*node)?).norm());
+        self.fixed.iter().filter_map(apart).fold(0.0, f64::max)
     }
 
     /// The target at a whole pose: loop closure counts rotations from the configuration that it begins in.
@@ -82,10 +88,26 @@ impl Following {
         let mut same = [false; LANES];
         for (k, geometry) in geometries.iter().enumerate() {
             same[k] = matches!(reached[k], Some(Ok(_)))
-                && farthest(&room[k], geometry) <= SAME * characteristic_length(geometry);
+                && self.farthest(&room[k], geometry) <= SAME * characteristic_length(geometry);
         }
         same
     }
+}
+
+/// The nodes that no joint slides along.
+fn unslid(model: &Model) -> Vec<usize> {
+    let slides = |joint: &&Connection| {
+        let free = joint.joint.free();
+        [Dof::X, Dof::Y, Dof::Z]
+            .into_iter()
+            .any(|dof| free.contains(dof))
+    };
+    let joints = model.joints().iter().filter(slides);
+    let slid: Vec<NodeId> = joints.flat_map(|joint| joint.between).flatten().collect();
+    let nodes = 0..model.nodes().len();
+    nodes
+        .filter(|node| !slid.contains(&NodeId(*node)))
+        .collect()
 }
 
 fn turned([.., x, y, z]: &[f64; 6]) -> Rotation3<f64> {
