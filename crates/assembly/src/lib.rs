@@ -29,7 +29,7 @@ mod solve;
 mod state;
 
 pub use answer::curve::segment_displacement;
-pub use answer::mass::moving_mass;
+pub use answer::mass::MovingMass;
 pub use answer::measures;
 pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};

@@ -5,7 +5,7 @@ use std::path::Path;
 use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::figure::{self, Drawing};
 use hyperstat_study::table::TableReader;
-use hyperstat_study::{Asked, Compared, Comparison, PlotError, Study, compare_tables};
+use hyperstat_study::{Comparison, PlotError, Study, compare_tables};
 
 use crate::args::{Compare, Format};
 use crate::error::CliError;
@@ -64,16 +64,7 @@ fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> 
         .cloned()
         .collect();
     outputs::refuse(files.iter().flatten().map(|path| &**path), &read)?;
-    let found = Comparison::new(
-        studies,
-        &Compared {
-            asked: Asked {
-                case: args.case.clone(),
-                along: args.along,
-            },
-            modes: args.modes.map(usize::from),
-        },
-    )?;
+    let found = Comparison::new(studies, &args.dwelling.focus())?;
     if let Some(out) = &args.out {
         let no_shares = || PlotError::NoShares {
             path: args.input.file.clone(),

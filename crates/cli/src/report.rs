@@ -2,7 +2,7 @@
 
 use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::sweep::Threads;
-use hyperstat_study::{Asked, Input, Page, Reported, Selection, Study, StudyError};
+use hyperstat_study::{Input, Page, Selection, Study, StudyError};
 
 use crate::args::Report;
 use crate::error::CliError;
@@ -14,37 +14,33 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
     let loaded = hyperstat_mechanisms::load(path, &Disk, registry)?;
     let read = loaded.files();
     outputs::refuse(args.out.as_deref(), &read)?;
-    let reported = Reported {
-        asked: Asked {
-            case: args.case.clone(),
-            along: args.along,
-        },
-        modes: args.modes.map(usize::from),
-    };
+    let focus = args.dwelling.focus();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut page = Page::new(args.title.clone().unwrap_or_else(|| name.into_owned()));
     let selection = args.input.selection();
     match loaded {
-        Input::Mechanism(_) => {
-            page.add_study(&mut Study::of(loaded, path, &selection)?, &reported)?
-        }
+        Input::Mechanism(_) => page.add_study(&mut Study::of(loaded, path, &selection)?, &focus)?,
         Input::Batch(batch) => {
             let threads = Threads::new(args.threads)?;
             let is_chosen =
                 |name: &str| selection.job.as_deref().is_none_or(|chosen| chosen == name);
-            if !batch.jobs.iter().any(|job| is_chosen(&job.name)) {
-                // The error that names the jobs that there are.
-                return Err(Study::of(Input::Batch(batch), path, &selection)
-                    .map_or_else(Into::into, |_| CliError::NothingToCompare {
-                        path: path.clone(),
-                    }));
+            if let Some(job) = selection
+                .job
+                .as_ref()
+                .filter(|_| !batch.jobs.iter().any(|job| is_chosen(&job.name)))
+            {
+                return Err(CliError::from(StudyError::UnknownJob {
+                    path: path.clone(),
+                    job: job.clone(),
+                    known: batch.jobs.iter().map(|job| job.name.clone()).collect(),
+                }));
             }
             for job in batch.jobs.into_iter().filter(|job| is_chosen(&job.name)) {
                 page.add_job(&job, &threads)?;
                 let Selection { design, pose, .. } = &selection;
                 let design = design.unwrap_or_else(|| job.first_design());
                 match Study::of_job(job, design, pose.unwrap_or(0)) {
-                    Ok(mut study) => page.add_study(&mut study, &reported)?,
+                    Ok(mut study) => page.add_study(&mut study, &focus)?,
                     // Its table says so.
                     Err(StudyError::Pose { .. }) if pose.is_none() => {}
                     Err(error) => return Err(error.into()),

@@ -2,6 +2,7 @@
 //! check, its natural frequencies, and a comparison with the independent solver.
 
 use hyperstat_assembly::{BeamMass, ModalOptions, ModalPlan, Modes, Solution};
+use hyperstat_mechanisms::Along;
 use hyperstat_reference::ReferenceSolution;
 
 use crate::answer::{
@@ -24,6 +25,27 @@ pub struct Question {
     pub mass: Option<BeamMass>,
     /// What is soft, and why.
     pub why: Option<Asked>,
+}
+
+/// What comparisons and reports dwell on, beside what they always tell.
+#[derive(Debug, Clone)]
+pub struct Focus {
+    /// Direction and case of compliance budgets, and of the displacement under loads.
+    pub asked: Asked,
+    /// So many natural frequencies; `None`: those of the job, else three where all that moves has mass.
+    pub modes: Option<usize>,
+}
+
+impl Default for Focus {
+    fn default() -> Self {
+        Self {
+            asked: Asked {
+                case: None,
+                along: Along::Displacement,
+            },
+            modes: None,
+        }
+    }
 }
 
 /// An answer, and what it was made from.
@@ -119,12 +141,15 @@ impl Study {
         Some(options)
     }
 
-    /// How many natural frequencies a report tells where nobody says: those of the job, else three where all
-    /// that moves has mass, else none.
-    pub(crate) fn usual_modes(&self) -> Option<ModalOptions> {
+    /// The natural frequencies that a focus is on; `None` where it says nothing, and not all that moves has
+    /// mass.
+    pub(crate) fn modes_in(&self, focus: &Focus) -> Option<ModalOptions> {
         const USUAL: usize = 3;
-        let usual = || Some(ModalOptions::lowest(USUAL));
-        let options = self.modes_of_job().cloned().or_else(usual)?;
+        if focus.modes.is_some() {
+            return self.modal_options(focus.modes, None);
+        }
+        let options = self.modal_options(None, None);
+        let options = options.unwrap_or_else(|| ModalOptions::lowest(USUAL));
         self.prepared.modal(&options).is_ok().then_some(options)
     }
 

@@ -42,10 +42,8 @@ pub use answer::{
     OutputReport, PartReport, PrincipalReport, Rows, ScrewReport, SectionForces, SegmentReport,
     SensitivityReport, SolveReport, StrainReport, StressReport, Sum, VirtualWork, Why, WorstReport,
 };
-pub use ask::{Answered, Question};
-pub use compare::{
-    BudgetComparison, Compared, Comparison, InputDifference, Pair, PartDifference, Results,
-};
+pub use ask::{Answered, Focus, Question};
+pub use compare::{BudgetComparison, Comparison, InputDifference, Pair, PartDifference, Results};
 #[cfg(feature = "figures")]
 pub use contrast::{
     ColumnDifference, Furthest, Matched, Ratios, StatusCount, TableComparison,
@@ -61,9 +59,9 @@ pub use hyperstat_mechanisms::{
     Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
     Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
 };
-pub use number::number;
+pub use number::{ROUNDING, Rounding, number, without_rounding};
 #[cfg(feature = "figures")]
-pub use page::{Page, Reported};
+pub use page::Page;
 #[cfg(feature = "figures")]
 pub use plot_error::PlotError;
 #[cfg(feature = "figures")]

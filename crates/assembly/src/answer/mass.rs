@@ -1,42 +1,62 @@
 //! The mass of what moves.
 
 use hyperstat_elements::{LineMass, Taper};
-use hyperstat_model::{BodyId, Geometry, Model, Segment};
+use hyperstat_model::{BodyId, Geometry, Model, NodeId, Segment};
 
 use crate::error::SolveError;
 use crate::sets::Sets;
 
-/// Mass \[kg\] of the bodies that can move, in a geometry of the model: of all beams and of the masses on
-/// nodes, but for bodies that only joints without a free direction hold to the ground, such as a frame that
-/// is bolted to it. A structure has none. Members whose length a pose changes, such as a piston in its
-/// cylinder, count with the length that they have there.
-///
-/// # Errors
-/// A geometry of another model; a beam among them whose material has no density.
-pub fn moving_mass(model: &Model, geometry: &Geometry) -> Result<f64, SolveError> {
-    model.check_size(geometry)?;
-    let fixed = fixed(model);
-    let mut total = 0.0;
-    for segment in model.segments() {
-        let BodyId(body) = segment.body;
-        if !fixed[body] {
-            let [a, b] = segment.ends.map(|node| geometry.positions[node.0]);
-            total += of_segment(model, segment, (b - a).norm())?;
-        }
-    }
-    let on_nodes = model.masses().iter();
-    let moving = on_nodes.filter(|mass| !fixed[model.nodes()[mass.node.0].body.0]);
-    Ok(total + moving.map(|mass| mass.mass.mass()).sum::<f64>())
+/// What moves of a mechanism, and its mass: all beams and the masses on nodes, but for bodies that only joints
+/// without a free direction hold to the ground, such as a frame that is bolted to it. A structure has none.
+#[derive(Debug, Clone)]
+pub struct MovingMass {
+    /// Masses on nodes \[kg\].
+    on_nodes: f64,
+    /// Ends of the segments, and their mass per length \[kg/m\].
+    segments: Vec<([NodeId; 2], f64)>,
 }
 
-fn of_segment(model: &Model, segment: &Segment, length: f64) -> Result<f64, SolveError> {
+impl MovingMass {
+    /// Of a mechanism, in every configuration of it.
+    ///
+    /// # Errors
+    /// A beam that moves, whose material has no density.
+    pub fn new(model: &Model) -> Result<Self, SolveError> {
+        let fixed = fixed(model);
+        let moves = |body: BodyId| !fixed[body.0];
+        let segments = model
+            .segments()
+            .iter()
+            .filter(|segment| moves(segment.body));
+        let segments = segments.map(|segment| Ok((segment.ends, per_length(model, segment)?)));
+        let masses = model.masses().iter();
+        let moving = masses.filter(|mass| moves(model.nodes()[mass.node.0].body));
+        Ok(Self {
+            on_nodes: moving.map(|mass| mass.mass.mass()).sum(),
+            segments: segments.collect::<Result<_, SolveError>>()?,
+        })
+    }
+
+    /// It in a geometry of the model \[kg\]. Members whose length a pose changes, such as a piston in its
+    /// cylinder, count with the length that they have there.
+    pub fn at(&self, geometry: &Geometry) -> f64 {
+        let mass = |(ends, per_length): &([NodeId; 2], f64)| {
+            let [a, b] = ends.map(|node| geometry.positions[node.0]);
+            per_length * (b - a).norm()
+        };
+        self.on_nodes + self.segments.iter().map(mass).sum::<f64>()
+    }
+}
+
+/// Mean mass per length of a segment \[kg/m\].
+fn per_length(model: &Model, segment: &Segment) -> Result<f64, SolveError> {
     let no_density = || SolveError::NoDensity {
         body: model.bodies()[segment.body.0].name.clone(),
     };
     let density = segment.material.density().ok_or_else(no_density)?;
     let taper = segment.change_of_section()?;
     let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    Ok(LineMass::new(density, taper)?.total(length))
+    Ok(LineMass::new(density, taper)?.total(1.0))
 }
 
 /// Of every body whether joints without a free direction hold it to the ground.

@@ -6,7 +6,7 @@ use clap::Args;
 use hyperstat_mechanisms::Along;
 use hyperstat_study::Selection;
 
-use super::input::{Format, Input, along};
+use super::input::{Dwelling, Format, Input};
 
 pub(super) const COMPARE_HELP: &str = "\
 Of mechanisms: parameters and parts that differ, then stiffness, displacement, measures, natural
@@ -47,22 +47,8 @@ pub(crate) struct Compare {
     /// Pose of OTHER [default: that of --pose]
     #[arg(long, value_name = "N")]
     with_pose: Option<usize>,
-    /// Direction of the budgets, as of `solve --why`; `displacement` is that of the first
-    #[arg(
-        long,
-        value_name = "DIRECTION",
-        value_parser = along,
-        default_value = "displacement",
-        allow_hyphen_values = true
-    )]
-    pub(crate) along: Along,
-    /// The case of both whose displacements and budgets are compared [default: the loads of no case]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) case: Option<String>,
-    /// Compare the N lowest natural frequencies [default: a job's `modes`, or 3 where all that moves has
-    /// mass]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
-    pub(crate) modes: Option<u16>,
+    #[command(flatten)]
+    pub(crate) dwelling: Dwelling,
     /// Draw both budgets as bars too: NAME.svg and NAME.png
     #[arg(long, value_name = "NAME")]
     pub(crate) out: Option<PathBuf>,
@@ -106,9 +92,9 @@ impl Compare {
             ("--with-job", self.with_job.is_some()),
             ("--with-design", self.with_design.is_some()),
             ("--with-pose", self.with_pose.is_some()),
-            ("--case", self.case.is_some()),
-            ("--modes", self.modes.is_some()),
-            ("--along", self.along != Along::Displacement),
+            ("--case", self.dwelling.case.is_some()),
+            ("--modes", self.dwelling.modes.is_some()),
+            ("--along", self.dwelling.along != Along::Displacement),
             ("--out", self.out.is_some()),
         ];
         given

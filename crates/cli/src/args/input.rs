@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use hyperstat_mechanisms::Along;
-use hyperstat_study::Selection;
+use hyperstat_study::{Asked, Focus, Selection};
 
 /// What is to be solved, checked or exported.
 #[derive(Debug, Args)]
@@ -30,6 +30,39 @@ impl Input {
             job: self.job.clone(),
             design: self.design,
             pose: self.pose,
+        }
+    }
+}
+
+/// What a comparison or a report dwells on.
+#[derive(Debug, Args)]
+pub(crate) struct Dwelling {
+    /// Direction of the budget, as of `solve --why`; `displacement` of a comparison is that of the first
+    #[arg(
+        long,
+        value_name = "DIRECTION",
+        value_parser = along,
+        default_value = "displacement",
+        allow_hyphen_values = true
+    )]
+    pub(crate) along: Along,
+    /// The case whose displacement and budget are told [default: the loads of no case]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
+    /// Tell the N lowest natural frequencies [default: a job's `modes`, or 3 where all that moves has mass]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub(crate) modes: Option<u16>,
+}
+
+impl Dwelling {
+    /// The same as the library takes it.
+    pub(crate) fn focus(&self) -> Focus {
+        Focus {
+            asked: Asked {
+                case: self.case.clone(),
+                along: self.along,
+            },
+            modes: self.modes.map(usize::from),
         }
     }
 }

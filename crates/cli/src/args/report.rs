@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hyperstat_mechanisms::Along;
 
-use super::input::{Input, along};
+use super::input::{Dwelling, Input};
 
 pub(super) const REPORT_HELP: &str = "\
 One self-contained page: nothing is fetched when it is read, and nothing in it changes from run to run. Print
@@ -30,21 +29,8 @@ pub(crate) struct Report {
     /// Title of the page [default: the name of the file]
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
-    /// Direction of the budget, as of `solve --why`
-    #[arg(
-        long,
-        value_name = "DIRECTION",
-        value_parser = along,
-        default_value = "displacement",
-        allow_hyphen_values = true
-    )]
-    pub(crate) along: Along,
-    /// The case whose displacement is drawn and explained [default: the loads of no case]
-    #[arg(long, value_name = "NAME")]
-    pub(crate) case: Option<String>,
-    /// Tell the N lowest natural frequencies [default: a job's `modes`, or 3 where all that moves has mass]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=100))]
-    pub(crate) modes: Option<u16>,
+    #[command(flatten)]
+    pub(crate) dwelling: Dwelling,
     /// Number of threads for the jobs of a batch, at most 8 a core; 0 is one a core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) threads: usize,

@@ -3,9 +3,9 @@
 use std::collections::HashSet;
 
 use hyperstat_assembly::larger_first;
-use hyperstat_study::{BodyReport, Entries, WorstReport};
+use hyperstat_study::{BodyReport, Entries, ROUNDING, WorstReport};
 
-use super::parts::{ROUNDING, section};
+use super::parts::section;
 use super::table::Table;
 
 /// The worst point of every body, the worst first; `title` begins its heading.

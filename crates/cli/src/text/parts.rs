@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use hyperstat_study::{Entries, Rows};
+pub(crate) use hyperstat_study::Rounding;
+use hyperstat_study::{Entries, Rows, without_rounding};
 
 use super::table::Table;
 
@@ -34,47 +35,10 @@ pub(crate) fn heads<'a>(names: &[&'a str], components: [&'a str; 6]) -> Vec<&'a 
 /// A 6×6 matrix as a table. What is rounding beside its diagonal entries is shown as 0.
 pub(crate) fn matrix_table(row_names: [&str; 6], column_names: [&str; 6], matrix: &Rows) -> Table {
     let mut table = Table::new(1, &heads(&[""], column_names));
-    for (r, name) in row_names.iter().enumerate() {
-        let shown = |c: usize| {
-            let scale = (matrix[r][r] * matrix[c][c]).abs().sqrt();
-            let entry = matrix[r][c];
-            if entry.abs() < ROUNDING * scale {
-                0.0
-            } else {
-                entry
-            }
-        };
-        table.row(&[name], (0..6).map(shown));
+    for (name, row) in row_names.iter().zip(without_rounding(matrix)) {
+        table.row(&[name], row);
     }
     table
-}
-
-/// What is rounding beside the largest number of its kind, shown as 0: of six components, the first
-/// three are of one kind and the last three of another.
-pub(crate) struct Rounding([f64; 2]);
-
-impl Rounding {
-    /// Of all rows of a table.
-    pub(crate) fn of<'a>(rows: impl IntoIterator<Item = &'a [f64; 6]>) -> Self {
-        let mut largest = [0.0_f64; 2];
-        for row in rows {
-            for (k, number) in row.iter().enumerate() {
-                largest[k / 3] = largest[k / 3].max(number.abs());
-            }
-        }
-        Self(largest.map(|largest| ROUNDING * largest))
-    }
-
-    /// A row as it is shown.
-    pub(crate) fn shown(&self, row: &[f64; 6]) -> [f64; 6] {
-        std::array::from_fn(|k| {
-            if row[k].abs() < self.0[k / 3] {
-                0.0
-            } else {
-                row[k]
-            }
-        })
-    }
 }
 
 /// The displacement of the output as a table; what is rounding beside those of the `nodes` is 0.
@@ -94,10 +58,6 @@ pub(crate) fn displacement_table(displacements: &Entries<[f64; 6]>) -> Table {
     }
     table
 }
-
-/// Entries of a matrix below this share of √(K_ii K_jj) are rounding, and numbers of a list below
-/// this share of the largest.
-pub(crate) const ROUNDING: f64 = 1e-14;
 
 /// A stiffness matrix as a table: each column the wrench of a unit displacement.
 pub(crate) fn stiffness_table(stiffness: &Rows) -> Table {

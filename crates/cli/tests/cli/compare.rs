@@ -1,6 +1,6 @@
 //! `hyperstat compare` as a user meets it: two designs, two files, two tables, and what goes wrong.
 
-use crate::support::{Bench, assert_near};
+use crate::support::{Bench, assert_near, delta_batch};
 
 /// A bar of steel held at one end, of some diameter.
 fn bar(diameter: &str) -> String {
@@ -19,21 +19,14 @@ fn bar(diameter: &str) -> String {
     )
 }
 
-/// A delta whose rods vary, over a small grid of which one pose is out of reach.
-const STUDY: &str = r#"(jobs: [(
-    name: "study",
-    mechanism: Delta(
-        base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60,
-        rod_spacing: 0.12,
-        arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3)),
-        bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3)),
-        rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3)),
-    ),
-    loads: [(on: ("platform", "P"), force: (0.0, 0.0, -50.0))],
-    poses: List([(0.0, 0.0, 0.5), (0.1, 0.05, 0.55), (2.0, 0.0, 0.5)]),
-    vary: { "rod.section.diameter": [0.014, 0.018] },
-)])
-"#;
+/// A delta whose rods vary, over some poses, of which one is out of reach.
+fn study(diameters: &str, third: &str) -> String {
+    let poses = format!("List([(0.0, 0.0, 0.5), (0.1, 0.05, 0.55), {third}])");
+    let vary = format!("vary: {{ \"rod.section.diameter\": {diameters} }},");
+    delta_batch("study", &poses, &vary)
+}
+
+const FAR: &str = "(2.0, 0.0, 0.5)";
 
 #[test]
 fn two_files_and_their_budgets() {
@@ -73,7 +66,7 @@ fn two_files_and_their_budgets() {
 #[test]
 fn two_designs_and_two_tables() {
     let bench = Bench::new("compare-designs");
-    bench.file("study.ron", STUDY);
+    bench.file("study.ron", &study("[0.014, 0.018]", FAR));
     let told = bench.hyperstat(&["compare", "study.ron", "--with-design", "1"]);
     let text = told.ends_with(0).out().to_string();
     assert!(
@@ -84,9 +77,8 @@ fn two_designs_and_two_tables() {
         text.contains("(6) section.diameter  0.0140000 → 0.0180000"),
         "{text}"
     );
-    let first = STUDY.replace("[0.014, 0.018]", "[0.014]");
-    let second = STUDY.replace("[0.014, 0.018]", "[0.018]");
-    let second = second.replace("(2.0, 0.0, 0.5)", "(0.0, 0.1, 0.5)");
+    let first = study("[0.014]", FAR);
+    let second = study("[0.018]", "(0.0, 0.1, 0.5)");
     for (name, text) in [("a", first), ("b", second)] {
         bench.file(&format!("{name}.ron"), &text);
         bench.hyperstat(&["run", &format!("{name}.ron"), "--out", name]);
@@ -156,7 +148,7 @@ fn two_designs_and_two_tables() {
 fn what_cannot_be_compared_says_so() {
     let bench = Bench::new("compare-errors");
     bench.file("bar.ron", &bar("0.02"));
-    bench.file("study.ron", STUDY);
+    bench.file("study.ron", &study("[0.014, 0.018]", FAR));
     bench.hyperstat(&["run", "study.ron", "--out", "."]);
     let header = bench.read("study.csv").lines().next().map(String::from);
     bench.file("empty.csv", &(header.unwrap() + "\n"));

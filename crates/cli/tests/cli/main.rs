@@ -18,6 +18,7 @@ mod maps;
 mod messages;
 mod misfits;
 mod modes;
+mod outcomes;
 mod parameters;
 mod pictures;
 mod plot;

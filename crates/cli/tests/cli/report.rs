@@ -1,26 +1,17 @@
 //! `hyperstat report` as a user meets it: one page with everything on it.
 
-use crate::support::Bench;
+use crate::support::{Bench, delta_batch};
 
-const BATCH: &str = r#"(jobs: [(
-    name: "grid",
-    mechanism: Delta(
-        base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60,
-        rod_spacing: 0.12,
-        arm: (section: Circle(diameter: 0.030), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
-        bar: (section: Circle(diameter: 0.020), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
-        rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
-    ),
-    loads: [(on: ("platform", "P"), force: (0.0, 0.0, -50.0))],
-    poses: Grid(x: (-0.1, 0.1, 3), y: (-0.1, 0.1, 3), z: (0.5, 0.5, 1)),
-    figures: [Map(value: "k33")],
-)])
-"#;
+/// A map of a delta.
+fn grid(z: &str) -> String {
+    let poses = format!("Grid(x: (-0.1, 0.1, 3), y: (-0.1, 0.1, 3), z: ({z}, {z}, 1))");
+    delta_batch("grid", &poses, "figures: [Map(value: \"k33\")],")
+}
 
 #[test]
 fn a_page_of_a_batch_stands_by_itself() {
     let bench = Bench::new("report-batch");
-    bench.file("grid.ron", BATCH);
+    bench.file("grid.ron", &grid("0.5"));
     bench
         .hyperstat(&[
             "report",
@@ -88,9 +79,8 @@ fn a_page_of_a_batch_stands_by_itself() {
 #[test]
 fn what_cannot_be_reported_says_so() {
     let bench = Bench::new("report-errors");
-    bench.file("grid.ron", BATCH);
-    let long = BATCH.replace("(0.5, 0.5, 1)", "(5.0, 5.0, 1)");
-    bench.file("far.ron", &long);
+    bench.file("grid.ron", &grid("0.5"));
+    bench.file("far.ron", &grid("5.0"));
     for (arguments, part) in [
         (
             vec!["grid.ron", "--out", "grid.ron"],
@@ -110,7 +100,7 @@ fn what_cannot_be_reported_says_so() {
             outcome.err()
         );
     }
-    assert_eq!(bench.read("grid.ron"), BATCH);
+    assert_eq!(bench.read("grid.ron"), grid("0.5"));
     // Nothing of it is in reach: the page says so.
     let page = bench
         .hyperstat(&["report", "far.ron"])

@@ -130,6 +130,37 @@ impl Outcome {
     }
 }
 
+/// A table: names of its columns and cells of its rows.
+pub struct Table {
+    pub names: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// That of a file in the folder of a test.
+    pub fn read(bench: &Bench, path: &str) -> Self {
+        let text = bench.read(path);
+        let cells = |line: &str| line.split(',').map(String::from).collect::<Vec<_>>();
+        let mut lines = text.lines();
+        let names = cells(lines.next().unwrap());
+        let rows: Vec<_> = lines.map(cells).collect();
+        assert!(rows.iter().all(|row| row.len() == names.len()));
+        Self { names, rows }
+    }
+
+    /// A cell by the name of its column.
+    pub fn cell(&self, row: usize, name: &str) -> &str {
+        let column = self.names.iter().position(|known| known == name);
+        &self.rows[row][column.unwrap_or_else(|| panic!("no column {name}"))]
+    }
+
+    /// The number in it.
+    pub fn number(&self, row: usize, name: &str) -> f64 {
+        let cell = self.cell(row, name);
+        cell.parse().unwrap_or_else(|_| panic!("{name}: `{cell}`"))
+    }
+}
+
 /// The numbers of a JSON array.
 #[track_caller]
 pub fn numbers(value: &Value) -> Vec<f64> {

@@ -8,7 +8,7 @@ mod tests;
 
 use serde::Serialize;
 
-use crate::answer::Asked;
+use crate::ask::Focus;
 use crate::error::StudyError;
 use crate::study::Study;
 
@@ -28,15 +28,6 @@ pub struct Comparison {
     pub parts: Option<Vec<PartDifference>>,
     /// What is found of each.
     pub results: Results,
-}
-
-/// What is compared beside what always is.
-#[derive(Debug, Clone)]
-pub struct Compared {
-    /// Direction and case of the compliance budgets, and of the displacement under loads.
-    pub asked: Asked,
-    /// So many natural frequencies; `None`: three where all that moves has mass, else none.
-    pub modes: Option<usize>,
 }
 
 /// A number of each of the two.
@@ -78,12 +69,12 @@ impl Comparison {
     /// # Errors
     /// One of them has no solution, or its output moves freely, or it has no case of the name that is
     /// asked about, or not the natural frequencies.
-    pub fn new(studies: [&Study; 2], compared: &Compared) -> Result<Self, StudyError> {
+    pub fn new(studies: [&Study; 2], focus: &Focus) -> Result<Self, StudyError> {
         Ok(Self {
             names: studies.map(Study::called),
             parameters: input::parameters(studies),
             parts: input::parts(studies),
-            results: Results::new(studies, compared)?,
+            results: Results::new(studies, focus)?,
         })
     }
 }

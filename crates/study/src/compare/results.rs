@@ -5,8 +5,9 @@ use hyperstat_mechanisms::Along;
 use nalgebra::{Matrix6, Vector6};
 use serde::Serialize;
 
-use super::{Compared, Pair};
+use super::Pair;
 use crate::answer::{Asked, BudgetReport, Sum};
+use crate::ask::Focus;
 use crate::error::StudyError;
 use crate::measures::{MEASURES, Pose};
 use crate::schema::{DISPLACEMENT, stiffness, unit};
@@ -57,14 +58,11 @@ struct Found {
 }
 
 impl Found {
-    fn new(study: &Study, compared: &Compared) -> Result<Self, StudyError> {
+    fn new(study: &Study, focus: &Focus) -> Result<Self, StudyError> {
         let solution = study.solve_held()?;
-        let loaded = study.under(&solution, compared.asked.case.as_deref())?;
+        let loaded = study.under(&solution, focus.asked.case.as_deref())?;
         let displacement = loaded.output.displacement;
-        let options = match compared.modes {
-            Some(count) => study.modal_options(Some(count), None),
-            None => study.usual_modes(),
-        };
+        let options = study.modes_in(focus);
         let modes = options.map(|options| study.modes(&options)).transpose()?;
         Ok(Self {
             displacement: cleaned(&displacement),
@@ -90,9 +88,9 @@ fn cleaned(displacement: &Vector6<f64>) -> Vector6<f64> {
 }
 
 impl Results {
-    pub(super) fn new(studies: [&Study; 2], compared: &Compared) -> Result<Self, StudyError> {
+    pub(super) fn new(studies: [&Study; 2], focus: &Focus) -> Result<Self, StudyError> {
         let [a, b] = studies;
-        let found = [Found::new(a, compared)?, Found::new(b, compared)?];
+        let found = [Found::new(a, focus)?, Found::new(b, focus)?];
         let both = |of: &dyn Fn(&Found) -> Option<f64>| found.each_ref().map(of);
         let count = |name: &str, of: fn(&Solution) -> usize| {
             Pair::new(name, "", both(&|found| Some(of(&found.solution) as f64)))
@@ -149,7 +147,7 @@ impl Results {
             frequencies: (has_mass.then_some(mass).into_iter())
                 .chain(frequencies)
                 .collect(),
-            budget: budgets(studies, &found, &compared.asked)?,
+            budget: budgets(studies, &found, &focus.asked)?,
         })
     }
 

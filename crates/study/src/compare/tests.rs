@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{Along, Disk, Registry, mechanism_from_str};
+use hyperstat_mechanisms::{Disk, Registry, mechanism_from_str};
 use serde_json::json;
 
-use super::{Compared, Comparison, Pair};
-use crate::answer::Asked;
+use super::{Comparison, Pair};
+use crate::ask::Focus;
 use crate::study::Study;
 
 /// A round bar held at one end.
@@ -33,12 +33,7 @@ fn study(changes: &[(&str, &str)]) -> Study {
 }
 
 fn compared(changes: &[(&str, &str)]) -> Comparison {
-    let asked = Asked {
-        case: None,
-        along: Along::Displacement,
-    };
-    let compared = Compared { asked, modes: None };
-    Comparison::new([&study(&[]), &study(changes)], &compared).unwrap()
+    Comparison::new([&study(&[]), &study(changes)], &Focus::default()).unwrap()
 }
 
 #[track_caller]

@@ -5,10 +5,9 @@ use std::path::Path;
 use hyperstat_mechanisms::{Look, Noted};
 use maud::{Markup, html};
 
-use super::Reported;
 use super::parts::{DISPLACEMENT, Row, WRENCH, figure, list, matrix, sixes, table};
 use crate::answer::{BodyReport, BudgetReport, SensitivityReport, SolveReport, Sum};
-use crate::ask::Question;
+use crate::ask::{Focus, Question};
 use crate::entries::Entries;
 use crate::error::StudyError;
 use crate::figure;
@@ -20,21 +19,18 @@ use crate::study::Study;
 /// Parameters that are told of, those that change most.
 const PARAMETERS: usize = 20;
 
-pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, StudyError> {
-    let options = match reported.modes {
-        Some(count) => study.modal_options(Some(count), None),
-        None => study.usual_modes(),
-    };
+pub(super) fn section(study: &mut Study, focus: &Focus) -> Result<Markup, StudyError> {
+    let options = study.modes_in(focus);
     let answered = study.answer(&Question {
         modes: options.as_ref().map(|options| options.count),
-        why: Some(reported.asked.clone()),
+        why: Some(focus.asked.clone()),
         ..Question::default()
     })?;
     if let Some(error) = study.free_output(&answered.solution) {
         return Err(error);
     }
     let report = &answered.report;
-    let case = reported.asked.case.as_deref();
+    let case = focus.asked.case.as_deref();
     let loaded = study.under(&answered.solution, case)?.output.displacement;
     let under = case.map_or_else(String::new, |case| format!(", case {case}"));
     let state = case.and_then(|case| report.cases.get(case));
@@ -56,7 +52,7 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
         })
     };
     let measures: Vec<Row> = MEASURES.iter().filter_map(measure).collect();
-    let (drawn, bars, modes) = drawings(study, reported, report);
+    let (drawn, bars, modes) = drawings(study, focus, report);
     Ok(html! {
         (drawn)
         (counts(report))
@@ -102,7 +98,7 @@ pub(super) fn section(study: &mut Study, reported: &Reported) -> Result<Markup, 
 }
 
 /// The mechanism as it deforms, its budget, its modes; what cannot be drawn is left out.
-fn drawings(study: &Study, reported: &Reported, report: &SolveReport) -> (Markup, Markup, Markup) {
+fn drawings(study: &Study, focus: &Focus, report: &SolveReport) -> (Markup, Markup, Markup) {
     let look = || figure::Look {
         look: Look {
             shown: vec![Noted::Names, Noted::Loads],
@@ -111,10 +107,10 @@ fn drawings(study: &Study, reported: &Reported, report: &SolveReport) -> (Markup
         ..figure::Look::default()
     };
     let path = Path::new(&report.name);
-    let case = reported.asked.case.as_deref();
+    let case = focus.asked.case.as_deref();
     let draw = |drawn: Result<Drawing, StudyError>| drawn.ok().map(|drawing| figure(&drawing));
     let deformed = draw(study.deformed(case, false, look()));
-    let budget = draw(study.budget_figure(path, &reported.asked, None));
+    let budget = draw(study.budget_figure(path, &focus.asked, None));
     let count = report.modes.as_ref().map_or(0, |found| found.modes.len());
     let modes = (1..=count).filter_map(|number| draw(study.mode(path, number, look())));
     let modes: Vec<Markup> = modes.collect();

@@ -8,35 +8,13 @@ mod parts;
 
 use std::path::{Path, PathBuf};
 
-use hyperstat_mechanisms::{Along, Files, Job};
+use hyperstat_mechanisms::{Files, Job};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use crate::answer::Asked;
+use crate::ask::Focus;
 use crate::error::StudyError;
 use crate::study::Study;
 use crate::sweep::Threads;
-
-/// What a report tells beside what it always does.
-#[derive(Debug, Clone)]
-pub struct Reported {
-    /// Direction and case of the compliance budget.
-    pub asked: Asked,
-    /// So many natural frequencies and modes; `None`: those of the job, or three where all that moves has
-    /// mass.
-    pub modes: Option<usize>,
-}
-
-impl Default for Reported {
-    fn default() -> Self {
-        Self {
-            asked: Asked {
-                case: None,
-                along: Along::Displacement,
-            },
-            modes: None,
-        }
-    }
-}
 
 /// A report in the making: sections are added, then it is a document. The same sections make the same
 /// document, on any machine.
@@ -59,9 +37,9 @@ impl Page {
     ///
     /// # Errors
     /// It has no solution, or its output moves freely; it has no such case, or not the natural frequencies.
-    pub fn add_study(&mut self, study: &mut Study, reported: &Reported) -> Result<(), StudyError> {
+    pub fn add_study(&mut self, study: &mut Study, focus: &Focus) -> Result<(), StudyError> {
         let heading = study.title(None);
-        let section = mechanism::section(study, reported)?;
+        let section = mechanism::section(study, focus)?;
         self.sections.push((heading, section));
         Ok(())
     }

@@ -4,7 +4,7 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::answer::Rows;
 use crate::figure::Drawing;
-use crate::number::number;
+use crate::number::{Rounding, number, without_rounding};
 
 /// Components of a displacement, as heads.
 pub(super) const DISPLACEMENT: [&str; 6] = [
@@ -25,10 +25,6 @@ pub(super) const WRENCH: [&str; 6] = [
     "My [N·m]",
     "Mz [N·m]",
 ];
-
-/// Entries of a matrix below this share of √(K_ii K_jj) are rounding, shown as 0, and numbers of a table
-/// below this share of the largest of their kind.
-const ROUNDING: f64 = 1e-14;
 
 /// A row: words to the left, numbers to the right; a dash stands for one that there is not. Counts are last.
 #[derive(Default)]
@@ -84,45 +80,24 @@ pub(super) fn sixes<'a>(
     rows: impl Iterator<Item = (String, Option<&'a [f64; 6]>)>,
 ) -> Markup {
     let rows: Vec<_> = rows.collect();
-    let largest = |k: usize| {
-        let numbers = rows.iter().filter_map(|(_, row)| *row);
-        numbers
-            .flat_map(|row| &row[k..k + 3])
-            .fold(0.0_f64, |most, c| most.max(c.abs()))
+    let rounding = Rounding::of(rows.iter().filter_map(|(_, row)| *row));
+    let shown = |(name, row): &(String, Option<&[f64; 6]>)| Row {
+        words: vec![name.clone()],
+        numbers: match row {
+            Some(row) => rounding.shown(row).map(Some).into(),
+            None => vec![None; 6],
+        },
+        ..Row::default()
     };
-    let floors = [largest(0), largest(3)].map(|largest| ROUNDING * largest);
-    let clean = |k: usize, value: f64| {
-        if value.abs() < floors[k / 3] {
-            0.0
-        } else {
-            value
-        }
-    };
-    let rows: Vec<Row> = rows
-        .iter()
-        .map(|(name, row)| Row {
-            words: vec![name.clone()],
-            numbers: (0..6).map(|k| row.map(|row| clean(k, row[k]))).collect(),
-            counts: Vec::new(),
-        })
-        .collect();
+    let rows: Vec<Row> = rows.iter().map(shown).collect();
     let heads: Vec<&str> = std::iter::once(first).chain(heads).collect();
     table(&heads, &rows)
 }
 
 /// A 6×6 matrix; what is rounding beside its diagonal is 0.
 pub(super) fn matrix(rows: [&str; 6], columns: [&str; 6], matrix: &Rows) -> Markup {
-    let entry = |r: usize, c: usize| {
-        let scale = (matrix[r][r] * matrix[c][c]).abs().sqrt();
-        match matrix[r][c] {
-            entry if entry.abs() < ROUNDING * scale => 0.0,
-            entry => entry,
-        }
-    };
-    let named = rows.iter().enumerate();
-    let rows: Vec<Row> = named
-        .map(|(r, name)| Row::new(*name, (0..6).map(|c| entry(r, c))))
-        .collect();
+    let named = rows.iter().zip(without_rounding(matrix));
+    let rows: Vec<Row> = named.map(|(name, row)| Row::new(*name, row)).collect();
     let heads: Vec<&str> = std::iter::once("").chain(columns).collect();
     table(&heads, &rows)
 }

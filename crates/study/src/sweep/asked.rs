@@ -1,10 +1,11 @@
 //! What a job's `columns` ask for, found at one pose.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Configuration, Geometry, JointId, Model, PartSource, Prepared, SegmentForces, Solution,
-    SolveError, State, moving_mass, worst_stress,
+    Configuration, Geometry, JointId, Model, MovingMass, PartSource, Prepared, SegmentForces,
+    Solution, SolveError, State, worst_stress,
 };
 use hyperstat_joints::Dof;
 use hyperstat_mechanisms::Job;
@@ -25,6 +26,8 @@ pub(super) struct Asked {
     segments: Vec<Arc<str>>,
     /// Names of the drives of this design, and which they are.
     drives: Vec<(String, (JointId, Dof))>,
+    /// Where it is asked for.
+    mass: Option<MovingMass>,
 }
 
 /// What is known of a pose.
@@ -58,13 +61,13 @@ impl Asked {
         if groups.is_empty() {
             return Ok(None);
         }
-        if groups.contains(&Group::Mass) {
-            moving_mass(model, model.geometry())?;
-        }
+        let asks = groups.contains(&Group::Mass);
+        let mass = asks.then(|| MovingMass::new(model)).transpose()?;
         Ok(Some(Self {
             cases: job.cases().len(),
             segments: segment_names(model).into_iter().map(Arc::from).collect(),
             drives: drives(model).into_iter().zip(model.drives()).collect(),
+            mass,
             groups,
         }))
     }
@@ -115,7 +118,8 @@ impl Asked {
                     cells.extend(names.iter().map(value).map(Cell::from));
                 }
                 Group::Mass => {
-                    cells.push(moving_mass(found.prepared.model(), found.geometry)?.into())
+                    let mass = self.mass.as_ref();
+                    cells.push(mass.map(|mass| mass.at(found.geometry)).into());
                 }
                 Group::Measures => add_measures(found, cells),
                 Group::Frequencies(0) => {}
@@ -215,12 +219,10 @@ impl Asked {
             PartSource::Body(id) => format!("body {}", model.bodies()[id.0].name),
             PartSource::Joint(id) => format!("joint {}", model.joints()[id.0].name),
         };
-        let cases = solution
-            .cases
-            .iter()
-            .map(|case| solution.of_case(&case.name));
-        for solution in std::iter::once(Some(solution.clone())).chain(cases) {
-            let budget = solution.and_then(|solution| shares(model, &influence, &solution));
+        let cases = solution.cases.iter();
+        let cases = cases.map(|case| solution.of_case(&case.name).map(Cow::Owned));
+        for state in std::iter::once(Some(Cow::Borrowed(solution))).chain(cases) {
+            let budget = state.and_then(|state| shares(model, &influence, &state));
             let total = budget.as_ref().map(|budget| budget.total);
             let share = |sum: f64| total.filter(|total| *total != 0.0).map(|total| sum / total);
             let by_part: Vec<(String, f64)> = (budget.iter())
