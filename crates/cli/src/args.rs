@@ -71,7 +71,7 @@ pub(crate) enum Command {
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
     #[command(after_help = CHECK_HELP)]
     Check(Check),
-    /// Draw maps, lines, trajectories, deformed shapes, modes and budgets, as SVG and PNG
+    /// Draw maps, lines, trajectories, deformed shapes, modes and budgets, as SVG, PNG and PDF
     #[command(after_help = PLOT_HELP)]
     Plot(Box<Plot>),
     /// Write a report of a mechanism or a batch as one HTML page: drawings, tables, figures, definitions
@@ -201,6 +201,8 @@ Examples:
   hyperstat plot out/delta-map.csv --map pure_force_stiffness_min
                                              Every plane, side by side
   hyperstat plot out/delta-map.csv --map deflection --limits 1e-4,1e-3 --scale log
+  hyperstat plot out/a.csv --map k33 --mark least --beside out/b.csv
+                                             Two tables in one set of colours; --ratio: one over the other
   hyperstat plot out/path.csv --lines dx,dy,dz,drx
   hyperstat plot out/path.csv --lines deflection --over x
   hyperstat plot out/designs.csv --lines pure_force_stiffness_min --over rod.section.diameter --pose 3
@@ -208,6 +210,8 @@ Examples:
   hyperstat plot portal.ron --deformed --scale 200
   hyperstat plot portal.ron --deformed --view front --show names,loads
   hyperstat plot paper.ron --job delta --pose 12 --mode 1
+  hyperstat plot paper.ron --job delta --pose x=0.1,y=0,z=0.5 --deformed
+  hyperstat plot portal.ron --mode 1 --animate
   hyperstat plot portal.ron --budget --along z";
 
 /// `hyperstat solve`

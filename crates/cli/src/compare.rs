@@ -5,7 +5,7 @@ use std::path::Path;
 use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::figure::{self, Drawing};
 use hyperstat_study::table::TableReader;
-use hyperstat_study::{Comparison, PlotError, Study, compare_tables};
+use hyperstat_study::{Comparison, Input, PlotError, Study, compare_tables};
 
 use crate::args::{Compare, Format};
 use crate::error::CliError;
@@ -23,7 +23,13 @@ pub(crate) fn run(args: &Compare, registry: &Registry) -> Result<String, CliErro
         [true, true] => of_tables(args, &other),
         [false, false] => {
             let first = Study::open(file, &args.input.selection(), &Disk, registry)?;
-            let second = Study::open(&other, &selection, &Disk, registry)?;
+            let loaded = hyperstat_mechanisms::load(&other, &Disk, registry)?;
+            let selection = match &loaded {
+                // What chooses of the first has nothing to choose from here.
+                Input::Mechanism(_) => args.chosen_with(),
+                _ => selection,
+            };
+            let second = Study::of(loaded, &other, &selection)?;
             of_studies(args, [&first, &second])
         }
         [first, _] => Err(CliError::Unlike {
@@ -57,7 +63,9 @@ fn of_tables(args: &Compare, other: &Path) -> Result<String, CliError> {
 }
 
 fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> {
-    let files = args.out.as_deref().map(plot::files_of);
+    let drawn = args.out.as_deref();
+    let drawn = drawn.map(|out| (plot::named(out, "compare"), plot::forms_of(out)));
+    let files = drawn.as_ref().map(|(stem, forms)| plot::files(stem, forms));
     let read: Vec<_> = studies
         .iter()
         .flat_map(|study| study.files())
@@ -65,15 +73,14 @@ fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> 
         .collect();
     outputs::refuse(files.iter().flatten().map(|path| &**path), &read)?;
     let found = Comparison::new(studies, &args.dwelling.focus())?;
-    if let Some(out) = &args.out {
+    if let Some((stem, forms)) = &drawn {
         let no_shares = || PlotError::NoShares {
             path: args.input.file.clone(),
         };
         let budget = found.results.budget.as_ref().ok_or_else(no_shares)?;
         let title = found.names.join(" and ");
         let bars = figure::compared(budget, &found.names, title).ok_or_else(no_shares)?;
-        let stem = plot::without_extension(out);
-        plot::write(&Drawing::Budget(bars), &stem, &plot::forms_of(out))?;
+        plot::write(&Drawing::Budget(bars), stem, forms)?;
     }
     match args.format {
         Format::Text => Ok(text::compared(&found)),

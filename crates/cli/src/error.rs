@@ -59,6 +59,9 @@ pub(crate) enum CliError {
         option: &'static str,
         what: &'static str,
     },
+    /// A picture that is to move, of what stands still.
+    #[error("{} is a picture that moves", .path.display())]
+    Still { path: PathBuf },
     /// A file that nothing is named beside.
     #[error("nothing is named that {} is to be compared with", .path.display())]
     NothingToCompare { path: PathBuf },
@@ -124,6 +127,9 @@ impl CliError {
             Self::NoBeginning { .. } => {
                 let known = hyperstat_study::files::beginnings();
                 Some(format!("give one of `{}`", known.join("`, `")))
+            }
+            Self::Still { .. } => {
+                Some("give `--animate`, of a mode or a deformed mechanism, or another ending".into())
             }
             Self::NothingToCompare { .. } => Some(
                 "give a second file, or `--with-job`, `--with-design` or `--with-pose` for another of the \

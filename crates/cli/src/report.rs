@@ -36,14 +36,17 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
                 }));
             }
             for job in batch.jobs.into_iter().filter(|job| is_chosen(&job.name)) {
-                page.add_job(&job, &threads)?;
-                let Selection { design, pose, .. } = &selection;
+                let Selection { design, pose, .. } = selection;
                 let design = design.unwrap_or_else(|| job.first_design());
-                match Study::of_job(job, design, pose.unwrap_or(0)) {
-                    Ok(mut study) => page.add_study(&mut study, &focus)?,
+                let study = match Study::of_job(job.clone(), design, pose.unwrap_or(0)) {
                     // Its table says so.
-                    Err(StudyError::Pose { .. }) if pose.is_none() => {}
-                    Err(error) => return Err(error.into()),
+                    Err(StudyError::Pose { .. }) if pose.is_none() => None,
+                    // What is chosen wrongly is told before the job is run.
+                    other => Some(other?),
+                };
+                page.add_job(&job, &threads)?;
+                if let Some(mut study) = study {
+                    page.add_study(&mut study, &focus)?;
                 }
             }
         }

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use hyperstat_joints::Dof;
-use hyperstat_model::{Geometry, JointId, Model};
+use hyperstat_model::{Geometry, JointId, Model, NodeId};
 use nalgebra::{DMatrix, IsometryMatrix3, Point3, Vector3};
 
 use crate::equations::{Goal, System};
@@ -48,7 +48,14 @@ impl LoopClosure {
     /// No output, a model that is not one whole ([`Model::check`]) or too large, a segment without a
     /// frame, a kind of joint whose basis does not say how it moves.
     pub fn new(model: &Model) -> Result<Self, ClosureError> {
-        let node = model.output().ok_or(ClosureError::NoOutput)?;
+        Self::of_node(model, model.output().ok_or(ClosureError::NoOutput)?)
+    }
+
+    /// The same, whose poses are those of a node of the model, be it the output or not.
+    ///
+    /// # Errors
+    /// As [`LoopClosure::new`].
+    pub fn of_node(model: &Model, node: NodeId) -> Result<Self, ClosureError> {
         model.check()?;
         let (centre, size) = middle_and_size(model.geometry());
         let place = model.geometry().positions[node.0].coords - centre;
@@ -64,7 +71,7 @@ impl LoopClosure {
         let at_home = system.coordinates(&home);
         let spans = Span::all(&system, model);
         Ok(Self {
-            parts: Parts::new(model, centre, size)?,
+            parts: Parts::new(model, node, centre, size)?,
             system,
             freedom,
             prescribed: vec![OnceLock::new(); 64],

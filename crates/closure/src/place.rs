@@ -48,7 +48,13 @@ pub(crate) struct Room {
 }
 
 impl Parts {
-    pub fn new(model: &Model, centre: Vector3<f64>, size: f64) -> Result<Self, ClosureError> {
+    /// Of a model whose poses are those of a node. That node and the output are fixed in their bodies.
+    pub fn new(
+        model: &Model,
+        posed: NodeId,
+        centre: Vector3<f64>,
+        size: f64,
+    ) -> Result<Self, ClosureError> {
         let geometry = model.geometry();
         let mut y_axes = Vec::new();
         for (segment, y) in model.segments().iter().zip(&geometry.y_axes) {
@@ -59,7 +65,8 @@ impl Parts {
         let mut uses = vec![0; model.nodes().len()];
         let joints = model.joints().iter().flat_map(|j| j.between);
         let loads = model.loads().iter().map(|load| Some(load.node));
-        for node in joints.chain(loads).chain([model.output()]).flatten() {
+        let held = [Some(posed), model.output().filter(|node| *node != posed)];
+        for node in joints.chain(loads).chain(held).flatten() {
             uses[node.0] += 1;
         }
         Ok(Self {

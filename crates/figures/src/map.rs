@@ -162,6 +162,10 @@ impl MapFigure {
         };
         match self.limits {
             Some([low, high]) => {
+                let [low, high] = match self.scale {
+                    ColorScale::Ratio => colors::parted([low, high]),
+                    _ => [low, high],
+                };
                 caption += &format!(" {kind} from {} to {}.", told(low), told(high));
             }
             None if logarithmic => caption += &format!(" {kind}."),

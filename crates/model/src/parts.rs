@@ -100,6 +100,15 @@ impl Segment {
     pub fn change_of_section(&self) -> Result<Option<Taper>, ElementError> {
         change_of_section(&self.section, self.taper.as_ref())
     }
+
+    /// The sections along it, be they all the same.
+    ///
+    /// # Errors
+    /// As [`Segment::change_of_section`].
+    pub fn sections_along(&self) -> Result<Taper, ElementError> {
+        let taper = self.change_of_section()?;
+        Ok(taper.unwrap_or_else(|| Taper::constant(self.section.clone())))
+    }
 }
 
 /// A segment to be added to a body, by the places of its ends in the body's list of points.

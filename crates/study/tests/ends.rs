@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use hyperstat_mechanisms::{Disk, Registry, Target, batch_from_str, begin};
+use hyperstat_mechanisms::{Disk, MemoryFiles, Registry, Target, batch_from_str, begin};
 use hyperstat_study::sweep::{Found, Record, Sweep, Way};
 use hyperstat_study::{Job, Question, Study};
 use nalgebra::{Matrix6, Rotation3, Vector3};
@@ -247,5 +247,35 @@ fn what_is_wrong_with_an_output_or_a_tool_is_told() {
     ] {
         let found = refused(fields);
         assert!(found.contains(told), "{fields:?}: {found}");
+    }
+}
+
+/// A point on a ram that a job names stays where it is on the ram, as one that the file names does: poses of
+/// the drives, which both have alike.
+#[test]
+fn an_output_that_a_job_names_is_that_of_a_file_that_names_it() {
+    let text = include_str!("../../../examples/exechon.ron");
+    let own = "output: (\"platform\", \"P\")";
+    assert!(text.contains(own));
+    let named = text.replace(own, "output: (\"ram1\", \"M1\")");
+    let drives = "D1.y,D2.y,D3.y\n0.05,0.06,0.04\n-0.03,0.0,0.02\n";
+    let files =
+        MemoryFiles::from_iter([("own.ron", text), ("named.ron", &named), ("d.csv", drives)]);
+    let job = |file: &str, more: &str| {
+        let text = format!(
+            r#"(jobs: [(name: "e", mechanism: File("{file}"), poses: Drives(Csv("d.csv")), {more})])"#
+        );
+        let batch = batch_from_str(&text, Path::new("a.ron"), &files, &Registry::builtin());
+        batch.expect("a batch").jobs.remove(0)
+    };
+    let by_job = rows(&job("own.ron", r#"output: ("ram1", "M1")"#), Way::Lanes);
+    let by_file = rows(&job("named.ron", ""), Way::Lanes);
+    for (one, other) in by_job.iter().zip(&by_file) {
+        let [one, other] = [found(one).stiffness, found(other).stiffness];
+        let scale = |k: usize| other[(k, k)].sqrt();
+        for (r, c) in (0..6).flat_map(|r| (0..6).map(move |c| (r, c))) {
+            let off = (one[(r, c)] - other[(r, c)]).abs();
+            assert!(off <= SAME * scale(r) * scale(c), "k{r}{c}: {one} {other}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The mass of what moves.
 
-use hyperstat_elements::{LineMass, Taper};
+use hyperstat_elements::LineMass;
 use hyperstat_model::{BodyId, Geometry, Model, NodeId, Segment};
 
 use crate::error::SolveError;
@@ -54,9 +54,7 @@ fn per_length(model: &Model, segment: &Segment) -> Result<f64, SolveError> {
         body: model.bodies()[segment.body.0].name.clone(),
     };
     let density = segment.material.density().ok_or_else(no_density)?;
-    let taper = segment.change_of_section()?;
-    let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    Ok(LineMass::new(density, taper)?.total(1.0))
+    Ok(LineMass::new(density, segment.sections_along()?)?.total(1.0))
 }
 
 /// Of every body whether joints without a free direction hold it to the ground.

@@ -71,17 +71,18 @@ fn worst_of_body(model: &Model, body: BodyId, forces: &[SegmentForces]) -> Optio
 /// The largest stresses along a segment under these forces, each with its place; `None` where its section has
 /// no stresses.
 pub fn worst_stress(segment: &Segment, forces: &SegmentForces) -> Option<BeamStress> {
-    let taper = (segment.change_of_section().ok()?)
-        .unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    stress_along(&taper, forces.length, &forces.ends[1], &forces.load)
+    largest(&segment.sections_along().ok()?, forces)
+}
+
+fn largest(taper: &Taper, forces: &SegmentForces) -> Option<BeamStress> {
+    stress_along(taper, forces.length, &forces.ends[1], &forces.load)
 }
 
 /// The worst point of a segment.
 fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<WorstPoint> {
     let segment = &model.segments()[id.0];
-    let taper = (segment.change_of_section().ok()?)
-        .unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    let peak = worst_stress(segment, forces)?.von_mises;
+    let taper = segment.sections_along().ok()?;
+    let peak = largest(&taper, forces)?.von_mises;
     let section_wrench = section_wrench(model, id, forces, peak.xi)?;
     let section_strain = section_strain(model, id, forces, peak.xi)?;
     let section = if taper.is_constant() {

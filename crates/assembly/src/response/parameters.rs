@@ -151,9 +151,7 @@ impl SegmentChange {
 
 /// The mass along a segment, were it of this density \[kg/m³\].
 pub(crate) fn line_mass(segment: &Segment, density: f64) -> Result<LineMass, SolveError> {
-    let taper = segment.change_of_section()?;
-    let taper = taper.unwrap_or_else(|| Taper::constant(segment.section.clone()));
-    Ok(LineMass::new(density, taper)?)
+    Ok(LineMass::new(density, segment.sections_along()?)?)
 }
 
 /// All parameters of a model, in the order of its segments, joints and masses.

@@ -1,6 +1,7 @@
 //! One pose of a sweep.
 
 use hyperstat_model::{Geometry, Model};
+use nalgebra::Matrix6;
 
 use super::output::inverse;
 use super::{ROUNDING, settled};
@@ -78,9 +79,7 @@ impl Plan {
         if self.condense(workspace, &[], ROUNDING).is_err() {
             return Ok(None);
         }
-        let stiffness = self.stiffness_by_energy(workspace);
-        let loose = is_nearly_free(&stiffness, at.size) || self.is_faint(workspace, &stiffness);
-        if loose || inverse(&stiffness, SUSPICIOUS_PIVOT).is_none() {
+        if self.held(&at, workspace).1.is_none() {
             return Ok(None);
         }
         let at_rest = Floor::at_rest(&at);
@@ -99,6 +98,19 @@ impl Plan {
         states.collect::<Result<_, _>>().map(Some)
     }
 
+    /// The output's stiffness, and its compliance where it is surely held: next to nothing may be nothing, and
+    /// is looked at, whatever the plan's own configuration was.
+    fn held(
+        &self,
+        at: &Posture<'_>,
+        workspace: &mut Workspace,
+    ) -> (Matrix6<f64>, Option<Matrix6<f64>>) {
+        let stiffness = self.stiffness_by_energy(workspace);
+        let held = !is_nearly_free(&stiffness, at.size) && !self.is_faint(workspace, &stiffness);
+        let compliance = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held);
+        (stiffness, compliance)
+    }
+
     fn sweep_pose(
         &self,
         at: &Posture<'_>,
@@ -109,12 +121,8 @@ impl Plan {
         let ready = !self.has_idle && self.output_is_independent();
         let converged = |result| matches!(result, Ok(change) if change < ENOUGH_IN_SWEEP);
         if ready && converged(self.condense(workspace, &[], ENOUGH_IN_SWEEP)) {
-            let stiffness = self.stiffness_by_energy(workspace);
-            // Next to nothing may be nothing: then it is looked at, whatever the plan's own
-            // configuration was.
-            let held =
-                !is_nearly_free(&stiffness, at.size) && !self.is_faint(workspace, &stiffness);
-            if let Some(compliance) = inverse(&stiffness, SUSPICIOUS_PIVOT).filter(|_| held) {
+            let (stiffness, compliance) = self.held(at, workspace);
+            if let Some(compliance) = compliance {
                 let even = inverse(&stiffness, UNEVEN_PIVOT).is_some();
                 let mut displacement = |column| {
                     if even {

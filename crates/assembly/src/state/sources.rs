@@ -1,7 +1,7 @@
 //! What acts in one state, as it is before any configuration: the one description that both passes
 //! read.
 
-use hyperstat_elements::{BeamLoad, LineMass, Taper, TemperatureChange};
+use hyperstat_elements::{BeamLoad, LineMass, TemperatureChange};
 use hyperstat_model::{Axes, Directions, JointId, LineLoad, LoadSet, Model, NodeId, SegmentId};
 use nalgebra::{Vector3, Vector6};
 
@@ -113,11 +113,7 @@ impl<'m> Sources<'m> {
                 let density = density.ok_or_else(|| SolveError::NoDensity {
                     body: model.bodies()[segment.body.0].name.clone(),
                 })?;
-                let taper = match segment.change_of_section()? {
-                    Some(taper) => taper,
-                    None => Taper::constant(segment.section.clone()),
-                };
-                let mass = LineMass::new(density, taper)?;
+                let mass = LineMass::new(density, segment.sections_along()?)?;
                 sources.along.push((id, Along::Weight(mass)));
             }
         }

@@ -61,15 +61,10 @@ impl Compare {
     /// What is compared with: a file, and what is chosen of it; `None` where nothing is said of it.
     pub(crate) fn with(&self) -> Option<(PathBuf, Selection)> {
         let own = self.input.selection();
-        let chosen = Selection {
-            job: self.with_job.clone(),
-            design: self.with_design,
-            pose: self.with_pose,
-        };
+        let chosen = self.chosen_with();
         if self.other.is_none() && chosen == Selection::default() {
             return None;
         }
-        // What chooses from a batch file is no choice where the other is a mechanism.
         let file = self
             .other
             .clone()
@@ -80,6 +75,15 @@ impl Compare {
             pose: chosen.pose.or(own.pose),
         };
         Some((file, chosen))
+    }
+
+    /// What is chosen of the other alone.
+    pub(crate) fn chosen_with(&self) -> Selection {
+        Selection {
+            job: self.with_job.clone(),
+            design: self.with_design,
+            pose: self.with_pose,
+        }
     }
 
     /// The first option that is given and has no meaning for tables.

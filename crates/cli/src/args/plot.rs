@@ -20,11 +20,11 @@ pub(crate) struct Plot {
     pub(crate) kind: PlotKind,
     /// Map: the plane, such as z=0.5 (or of a drive, A1.v=0.2); several where poses differ in more.
     /// Without it, all planes
-    #[arg(long, value_name = "AXIS=VALUE", value_parser = plane, requires = "map")]
+    #[arg(long, value_name = "AXIS=VALUE", value_parser = plane, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) plane: Vec<(String, f64)>,
     /// Map: the coordinates to the right and up, such as x,z (or drives, A1.v,A2.v) [default: two of
     /// those that the poses were asked for by]
-    #[arg(long, value_name = "X,Y", value_parser = axes, requires = "map")]
+    #[arg(long, value_name = "X,Y", value_parser = axes, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) axes: Option<[String; 2]>,
     /// Map: where the colours begin and end, in the SI unit, such as 1e-5,1e-3 [default: the least
     /// and the largest value]
@@ -33,29 +33,30 @@ pub(crate) struct Plot {
         value_name = "LOW,HIGH",
         value_parser = limits,
         requires = "map",
+        conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"],
         allow_hyphen_values = true
     )]
     pub(crate) limits: Option<[f64; 2]>,
     /// Map: what is marked where it stands, with its value: least, most or both
-    #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = mark, requires = "map")]
+    #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = mark, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) mark: Vec<Extreme>,
     /// Map: another table, drawn beside the first in the same colours
-    #[arg(long, value_name = "TABLE", requires = "map")]
+    #[arg(long, value_name = "TABLE", requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) beside: Option<PathBuf>,
     /// Map: in place of both tables the ratio of the one beside to the first
     #[arg(long, requires = "beside", conflicts_with = "scale")]
     pub(crate) ratio: bool,
     /// Lines: the column along the lower axis [default: pose]
-    #[arg(long, value_name = "COLUMN", requires = "lines")]
+    #[arg(long, value_name = "COLUMN", requires = "lines", conflicts_with_all = ["map", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) over: Option<String>,
     /// Deformed, budget: the case of the mechanism or the job [default: the loads of no case]
     #[arg(long, value_name = "NAME", conflicts_with_all = ["map", "lines", "trajectory", "mode"])]
     pub(crate) case: Option<String>,
     /// Deformed: mark the points of the independent solver too, and tell the largest difference
-    #[arg(long, requires = "deformed", conflicts_with = "case")]
+    #[arg(long, requires = "deformed", conflicts_with_all = ["case", "map", "lines", "trajectory", "mode", "budget"])]
     pub(crate) verify: bool,
     /// Budget: the direction, as of `solve --why` [default: displacement]
-    #[arg(long, value_name = "DIRECTION", requires = "budget", value_parser = along, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DIRECTION", requires = "budget", conflicts_with_all = ["map", "lines", "trajectory", "deformed", "mode"], value_parser = along, allow_hyphen_values = true)]
     pub(crate) along: Option<Along>,
     /// Trajectory, deformed, mode: magnification [default: a round number that shows it]. Map:
     /// `log` or `linear` colours [default: log where most values would share a colour]

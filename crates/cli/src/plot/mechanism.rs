@@ -26,6 +26,10 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
     };
     let study = match at {
         Some(at) => Study::open_at(&args.file, &selection, at, &Disk, registry)?,
+        // Poses that run begin where one can be taken.
+        None if args.animate && args.kind.deformed => {
+            Study::open_first(&args.file, &selection, &Disk, registry)?
+        }
         None => Study::open(&args.file, &selection, &Disk, registry)?,
     };
     let name = study

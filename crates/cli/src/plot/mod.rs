@@ -61,6 +61,10 @@ pub(crate) fn run(
     registry: &Registry,
     tell: impl FnOnce(&str) -> Result<(), CliError>,
 ) -> Result<bool, CliError> {
+    let gif = |out: &PathBuf| out.extension().is_some_and(|own| own == "gif");
+    if let Some(path) = args.out.as_ref().filter(|out| gif(out) && !args.animate) {
+        return Err(CliError::Still { path: path.clone() });
+    }
     let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
     for path in write(&drawing, &stem, &forms(args))? {
@@ -144,8 +148,13 @@ pub(crate) fn files(stem: &Path, forms: &[Form]) -> Vec<PathBuf> {
 
 /// The forms that the command line asks for.
 fn forms(args: &args::Plot) -> Vec<Form> {
-    let named = args.out.as_deref().and_then(Path::extension);
-    let mut forms = Form::all(args.pdf || named.is_some_and(|own| own == "pdf"));
+    let mut forms = args
+        .out
+        .as_deref()
+        .map_or_else(|| Form::all(false), forms_of);
+    if args.pdf && !forms.contains(&Form::Pdf) {
+        forms.push(Form::Pdf);
+    }
     if args.animate {
         forms.push(Form::Gif);
     }
@@ -156,8 +165,17 @@ fn forms(args: &args::Plot) -> Vec<Form> {
 /// the input.
 fn stem_of(args: &args::Plot, name: &str) -> PathBuf {
     match &args.out {
-        Some(out) => without_extension(out),
+        Some(out) => named(out, name),
         None => args.file.with_file_name(name),
+    }
+}
+
+/// The files that `--out` names, without their extensions; of a folder, a file of this name in it.
+pub(crate) fn named(out: &Path, name: &str) -> PathBuf {
+    let is_folder = out.file_name().is_none() || out.to_string_lossy().ends_with('/');
+    match is_folder || out.is_dir() {
+        true => out.join(name),
+        false => without_extension(out),
     }
 }
 
@@ -236,13 +254,8 @@ pub(crate) fn forms_of(out: &Path) -> Vec<Form> {
     Form::all(out.extension().is_some_and(|own| own == "pdf"))
 }
 
-/// The files of a figure that the command line names.
-pub(crate) fn files_of(out: &Path) -> Vec<PathBuf> {
-    files(&without_extension(out), &forms_of(out))
-}
-
 /// `map` for `map`, `map.svg` and `map.png`.
-pub(crate) fn without_extension(out: &Path) -> PathBuf {
+fn without_extension(out: &Path) -> PathBuf {
     let extension = out.extension().and_then(|extension| extension.to_str());
     match extension {
         Some("svg" | "png" | "pdf" | "gif") => out.with_extension(""),

@@ -7,11 +7,15 @@ use hyperstat_study::{
 };
 use serde_json::Value as Json;
 
+use hyperstat_study::figure::in_words;
+
 use super::parts::section;
 use super::table::{Table, left, number};
 
 /// Lines of a list that the text tells; JSON has all.
 const TOLD: usize = 15;
+/// Numbers of one kind that the text tells, enough for all measures.
+const MOST: usize = 22;
 /// Names that are told of parts that differ alike.
 const NAMES: usize = 4;
 /// Ratios this near to 1 are told as no difference.
@@ -70,9 +74,9 @@ pub(crate) fn compared(found: &Comparison) -> String {
     if let Some(budget) = &results.budget {
         let whole = std::slice::from_ref(&budget.total);
         let heading = format!(
-            "Where the {} comes from, along {}",
+            "Where the {} comes from, {}",
             budget.total.name,
-            along(&budget.along)
+            in_words(&budget.along)
         );
         pairs_section(&mut text, &heading, whole);
         pairs_section(&mut text, "By deformation", &budget.by_deformation);
@@ -88,7 +92,7 @@ fn pairs_section(text: &mut String, heading: &str, pairs: &[Pair]) {
         return;
     }
     let mut table = Table::new(1, &["", "A", "B", "B/A"]);
-    for pair in differ.iter().take(TOLD.max(pairs.len().min(22))) {
+    for pair in differ.iter().take(MOST) {
         let name = match &*pair.unit {
             "" => pair.name.clone(),
             unit => format!("{} [{unit}]", pair.name),
@@ -96,7 +100,11 @@ fn pairs_section(text: &mut String, heading: &str, pairs: &[Pair]) {
         let [a, b] = pair.values;
         table.row(&[&name], [a, b, pair.ratio]);
     }
-    let more = match pairs.len() - differ.len() {
+    let mut more = match differ.len().saturating_sub(MOST) {
+        0 => String::new(),
+        left => format!("  … and {left} more\n"),
+    };
+    more += &match pairs.len() - differ.len() {
         0 => String::new(),
         1 => "  and 1 that is the same\n".into(),
         same => format!("  and {same} that are the same\n"),
@@ -112,15 +120,6 @@ fn count(pair: &Pair) -> [String; 2] {
 
 fn is_same(pair: &Pair) -> bool {
     pair.is_same() || pair.ratio.is_some_and(|ratio| (ratio - 1.0).abs() < SAME)
-}
-
-fn along(along: &[f64; 6]) -> String {
-    let part = match along[..3].iter().all(|c| *c == 0.0) {
-        true => &along[3..],
-        false => &along[..3],
-    };
-    let part: Vec<_> = part.iter().map(|c| number(*c)).collect();
-    format!("({})", part.join(", "))
 }
 
 fn parameter(found: &InputDifference) -> [String; 2] {

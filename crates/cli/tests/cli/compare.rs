@@ -144,6 +144,39 @@ fn two_designs_and_two_tables() {
     assert!(found.contains("The same in all rows."), "{found}");
 }
 
+/// What chooses of the first has nothing to choose from where the other is a mechanism; a rotation is about an
+/// axis; bars go into a folder by a name of their own.
+#[test]
+fn a_pose_of_a_job_beside_a_mechanism() {
+    let bench = Bench::new("compare-kinds");
+    bench.file("bar.ron", &bar("0.02"));
+    bench.file("study.ron", &study("[0.014, 0.018]", FAR));
+    std::fs::create_dir(bench.path("pictures")).unwrap();
+    let told = bench.hyperstat(&[
+        "compare",
+        "study.ron",
+        "bar.ron",
+        "--pose",
+        "1",
+        "--along",
+        "ry",
+        "--out",
+        "pictures",
+    ]);
+    let told = told.ends_with(0).out().to_string();
+    assert!(
+        told.contains("A  study, design 0, pose 1\nB  bar.ron\n"),
+        "{told}"
+    );
+    assert!(told.contains("comes from, about y\n"), "{told}");
+    assert_eq!(bench.names("pictures"), ["compare.png", "compare.svg"]);
+    let wrong = ["compare", "study.ron", "bar.ron", "--with-pose", "1"];
+    bench
+        .hyperstat(&wrong)
+        .ends_with(2)
+        .says(&["bar.ron is a mechanism file"]);
+}
+
 #[test]
 fn what_cannot_be_compared_says_so() {
     let bench = Bench::new("compare-errors");

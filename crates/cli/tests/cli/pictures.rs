@@ -365,3 +365,96 @@ fn pictures_move_without_a_script() {
     let refused = plot(&bench, &["job.ron", "--budget", "--animate"]).ends_with(2);
     refused.says(&["--animate"]);
 }
+
+/// The grid of two poses along x and y, at a height.
+fn level(name: &str, z: &str) -> String {
+    let poses = format!("Grid(x: (-0.1, 0.1, 2), y: (-0.1, 0.1, 2), z: ({z}, {z}, 1))");
+    delta_batch(name, &poses, "")
+}
+
+/// Tables of another plane each have no scale and no ratio together, though each has one plane only.
+#[test]
+fn two_planes_are_not_one() {
+    let bench = Bench::new("pictures-planes");
+    for (name, z) in [("low", "0.5"), ("high", "0.6")] {
+        let file = format!("{name}.ron");
+        bench.file(&file, &level(name, z));
+        bench
+            .hyperstat(&["run", &file, "--out", "out"])
+            .ends_with(0);
+    }
+    let words = ["out/low.csv", "--map", "k33", "--beside", "out/high.csv"];
+    for more in [&[][..], &["--ratio"]] {
+        let outcome = plot(&bench, &[&words[..], more].concat());
+        outcome.ends_with(2).says(&["are of other planes"]);
+    }
+    let zero = ["out/low.csv", "--map", "drx", "--beside", "out/low.csv"];
+    let outcome = plot(&bench, &[&zero[..], &["--ratio", "--out", "same"]].concat());
+    assert!(outcome.status() == 0 || outcome.err().contains("has no ratio above zero"));
+}
+
+/// A pose of a table is the one that has these coordinates, wherever its row stands.
+#[test]
+fn a_pose_is_found_in_a_table_in_another_order() {
+    let bench = Bench::new("pictures-order");
+    bench.file("low.ron", &level("low", "0.5"));
+    bench
+        .hyperstat(&["run", "low.ron", "--out", "."])
+        .ends_with(0);
+    let csv = bench.read("low.csv");
+    let mut lines: Vec<&str> = csv.lines().collect();
+    lines[1..].reverse();
+    bench.file("turned.csv", &(lines.join("\n") + "\n"));
+    let drawn = |file: &str| {
+        let words = [file, "--lines", "k33,k11", "--over", "z"];
+        let pose = ["--pose", "x=0.1,y=-0.1", "--title", "one", "--out", "one"];
+        plot(&bench, &[&words[..], &pose].concat()).ends_with(0);
+        bench.read("one.svg")
+    };
+    assert_eq!(drawn("low.csv"), drawn("turned.csv"));
+}
+
+#[test]
+fn what_is_of_another_kind_of_picture_is_refused() {
+    let bench = Bench::new("pictures-kinds");
+    bench.file("low.ron", &level("low", "0.5"));
+    bench
+        .hyperstat(&["run", "low.ron", "--out", "."])
+        .ends_with(0);
+    let lines = ["low.csv", "--lines", "k33"];
+    let map = ["low.csv", "--map", "k33"];
+    let shape = ["low.ron", "--deformed"];
+    for (words, more) in [
+        (&lines[..], &["--mark", "least"][..]),
+        (&lines, &["--plane", "z=0.5"]),
+        (&lines, &["--beside", "low.csv"]),
+        (&lines, &["--limits", "1,2"]),
+        (&map, &["--over", "x"]),
+        (&shape, &["--along", "z"]),
+        (&shape, &["--out", "still.gif"]),
+    ] {
+        let outcome = plot(&bench, &[words, more].concat());
+        outcome.ends_with(2);
+    }
+    plot(&bench, &[&shape[..], &["--out", "still.gif"]].concat()).says(&["give `--animate`"]);
+    // A folder gets the usual name; a mark that is asked for twice stands once.
+    fs::create_dir(bench.path("here")).unwrap();
+    let marks = ["--mark", "least,least", "--out", "here"];
+    let told = plot(&bench, &[&map[..], &marks].concat()).ends_with(0);
+    assert_eq!(told.out().matches("Least").count(), 1, "{}", told.out());
+    assert_eq!(bench.names("here"), ["low-k33.png", "low-k33.svg"]);
+}
+
+/// Poses that run begin with the first that can be taken.
+#[test]
+fn a_pose_out_of_reach_is_left_out_of_what_runs() {
+    let bench = Bench::new("pictures-run");
+    let poses = "List([(2.0, 0.0, 0.5), (0.0, 0.0, 0.5), (0.1, 0.0, 0.5)])";
+    bench.file("far.ron", &delta_batch("far", poses, ""));
+    let words = ["far.ron", "--deformed", "--animate", "--out", "far"];
+    plot(&bench, &words).ends_with(0);
+    assert!(bench.path("far.gif").exists());
+    plot(&bench, &["far.ron", "--deformed"])
+        .ends_with(2)
+        .says(&["pose 0"]);
+}

@@ -72,14 +72,13 @@ impl Colors {
             }
             ColorScale::Auto => {
                 let middle = values[values.len() / 2].clamp(ends[0], ends[1]);
-                ends[0] > 0.0 && middle - ends[0] < CROWDED * (ends[1] - ends[0])
+                ends[0] > 0.0
+                    && ends[1] - ends[0] > FLAT * ends[1]
+                    && middle - ends[0] < CROWDED * (ends[1] - ends[0])
             }
         };
         let ends = match map.scale {
-            ColorScale::Ratio => {
-                let reach = ends[1].max(ends[0].recip());
-                [reach.recip(), reach]
-            }
+            ColorScale::Ratio => parted(ends),
             _ => ends,
         };
         let largest = ends[0].abs().max(ends[1].abs());
@@ -268,6 +267,12 @@ fn round_factors([first, last]: [f64; 2]) -> Vec<f64> {
         }
         every += 1;
     }
+}
+
+/// The ends of colours of a ratio, as far above 1 as below, that hold these.
+pub(super) fn parted([low, high]: [f64; 2]) -> [f64; 2] {
+    let reach = high.max(low.recip());
+    [reach.recip(), reach]
 }
 
 #[cfg(test)]

@@ -42,9 +42,16 @@ impl Extreme {
 }
 
 impl MapFigure {
+    /// What is marked, each once.
+    fn asked_once(&self) -> impl Iterator<Item = &Extreme> {
+        let marks = self.marks.iter().enumerate();
+        let is_new = |(k, of): &(usize, &Extreme)| !self.marks[..*k].contains(of);
+        marks.filter(is_new).map(|(_, of)| of)
+    }
+
     /// What is marked on a plane.
     pub(super) fn marked(&self, panel: &MapPanel) -> Vec<Marked> {
-        let marks = self.marks.iter();
+        let marks = self.asked_once();
         let marked = marks.filter_map(|of| {
             let (at, value) = panel.samples.extreme(*of)?;
             Some(Marked {
@@ -59,7 +66,7 @@ impl MapFigure {
 
     /// Where the least and the largest value of all planes are, of those that are marked.
     pub(super) fn extremes_in_words(&self) -> Option<String> {
-        let told = self.marks.iter().filter_map(|of| {
+        let told = self.asked_once().filter_map(|of| {
             let panels = self.panels.iter();
             let found = panels.filter_map(|panel| {
                 let (at, value) = panel.samples.extreme(*of)?;

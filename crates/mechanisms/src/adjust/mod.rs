@@ -210,5 +210,6 @@ impl Mechanism {
     }
 }
 
-/// Loops that open by less are closed, as far as doubles go.
+/// Loops that open by less are closed, as far as doubles go: ten times what an adjustment closes them to, so that
+/// what is adjusted is never told of.
 const CLOSED: f64 = 1e-10;

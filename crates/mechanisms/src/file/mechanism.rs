@@ -237,12 +237,7 @@ impl Mechanism {
 
     /// Its loop closure, whose poses are those of its own output.
     pub(crate) fn loops(&self) -> Result<LoopClosure, PoseError> {
-        if self.model.output() == Some(self.end.own) {
-            return Ok(LoopClosure::new(&self.model)?);
-        }
-        let mut model = self.model.clone();
-        model.set_output(self.end.own);
-        Ok(LoopClosure::new(&model)?)
+        Ok(LoopClosure::of_node(&self.model, self.end.own)?)
     }
 
     /// Its own output, whatever a job names.

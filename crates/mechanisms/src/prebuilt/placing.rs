@@ -1,7 +1,6 @@
 //! By how much the drives of a prebuilt mechanism move between two poses.
 
 use hyperstat_closure::{ClosureError, Drive, LANES, Lanes, LoopClosure, Target};
-use hyperstat_joints::Dof;
 use hyperstat_model::{Connection, Geometry, Model, NodeId, characteristic_length};
 use nalgebra::{Rotation3, Vector3};
 
@@ -97,10 +96,8 @@ impl Following {
 /// The nodes that no joint slides along.
 fn unslid(model: &Model) -> Vec<usize> {
     let slides = |joint: &&Connection| {
-        let free = joint.joint.free();
-        [Dof::X, Dof::Y, Dof::Z]
-            .into_iter()
-            .any(|dof| free.contains(dof))
+        let mut free = joint.joint.free().iter();
+        free.any(|dof| !dof.is_rotation())
     };
     let joints = model.joints().iter().filter(slides);
     let slid: Vec<NodeId> = joints.flat_map(|joint| joint.between).flatten().collect();
@@ -110,6 +107,7 @@ fn unslid(model: &Model) -> Vec<usize> {
         .collect()
 }
 
+/// The rotation of a whole pose.
 fn turned([.., x, y, z]: &[f64; 6]) -> Rotation3<f64> {
     Rotation3::new(Vector3::new(*x, *y, *z))
 }

@@ -29,7 +29,7 @@ pub fn budget(budget: &BudgetReport, output: &str, title: String) -> Option<BarF
         title,
         subtitle: format!(
             "Where the {name} of {output} {} comes from.",
-            direction(budget)
+            in_words(&budget.along)
         ),
         quantity: Quantity::new(name, unit),
         total: budget.total,
@@ -113,13 +113,8 @@ fn bars(sums: &[Sum], budget: &BudgetReport) -> Vec<Bar> {
     bars
 }
 
-/// A direction in words: `along z`, `about x`, `along (0, 0.6, −0.8)`.
-fn direction(budget: &BudgetReport) -> String {
-    in_words(&budget.along)
-}
-
-/// The same of a unit wrench.
-fn in_words(along: &[f64; 6]) -> String {
+/// A unit wrench in words: `along z`, `about x`, `along (0, 0.6, −0.8)`.
+pub fn in_words(along: &[f64; 6]) -> String {
     let turns = along[..3].iter().all(|component| *component == 0.0);
     let (word, components) = match turns {
         true => ("about", &along[3..]),
@@ -139,7 +134,7 @@ fn in_words(along: &[f64; 6]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{bars, direction};
+    use super::{bars, in_words};
     use crate::answer::{BudgetReport, Sum};
 
     /// A budget along a wrench with these parts.
@@ -169,7 +164,7 @@ mod tests {
             ([0.0, 0.0, 0.0, 1.0, 0.0, 0.0], "about x"),
             ([0.0, 0.6, -0.8, 0.0, 0.0, 0.0], "along (0, 0.6, −0.8)"),
         ] {
-            assert_eq!(direction(&budget(along, &[1.0])), words);
+            assert_eq!(in_words(&along), words);
         }
     }
 

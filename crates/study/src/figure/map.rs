@@ -55,6 +55,8 @@ pub(super) struct Part {
     words: String,
     /// Over what, in words.
     over: Vec<String>,
+    /// The coordinates that are held, and at what, in words.
+    pub(super) held: Vec<String>,
     pub(super) axes: [Quantity; 2],
     /// The coordinates along the axes.
     pub(super) along: [String; 2],
@@ -123,7 +125,8 @@ impl Part {
             });
         }
         let mut over: Vec<String> = map.choice.in_words(table).into_iter().collect();
-        over.extend(poses.held_in_words(&held, axes));
+        let held: Vec<String> = poses.held_in_words(&held, axes).into_iter().collect();
+        over.extend(held.iter().cloned());
         if let Some(k) = across {
             let (all, shown) = (coordinates.count(k), planes.len());
             let name = &coordinates.get(k).label;
@@ -147,6 +150,7 @@ impl Part {
                 false => format!("{}: {}", drawn.quantity.name, drawn.words),
             },
             over,
+            held,
             axes: axes.map(axis),
             along: axes.map(|k| coordinates.get(k).name.clone()),
             quantity: drawn.quantity,

@@ -20,7 +20,7 @@ mod solved;
 mod tables;
 mod trajectory;
 
-pub use budget::{budget, compared};
+pub use budget::{budget, compared, in_words};
 pub use deformed::{compare, deformed, mode};
 pub use drawing::Drawing;
 pub use job::{check, draw, names};

@@ -1,9 +1,12 @@
 //! Poses by their coordinates: which one is meant, and which one it is in words.
 
+use std::collections::HashSet;
+
 use hyperstat_mechanisms::Job;
 
 use super::coordinates::unknown;
 use super::plane::Levels;
+use super::rows::chosen;
 use crate::digits::digits;
 use crate::plot_error::PlotError;
 use crate::schema::{COORDINATES, unit};
@@ -48,25 +51,19 @@ pub fn of_table(table: &TableReader, at: &[(String, f64)]) -> Result<usize, Plot
     let poses = table
         .read(&[table.find(crate::schema::POSE).unwrap_or(0)])?
         .remove(0);
-    // Every design has the same poses.
-    let count = poses
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, pose| most.max(*pose)) as usize
-        + 1;
-    let names = COORDINATES
-        .map(String::from)
-        .into_iter()
-        .chain(table.drives());
+    // Every design has the same poses, and a table may have lost or moved rows: one of each number.
+    let mut seen = HashSet::new();
+    let is_new = |row: &usize| poses[*row].is_some_and(|pose| seen.insert(pose.to_bits()));
+    let rows: Vec<usize> = (0..poses.len()).filter(is_new).collect();
+    let drives = table.drives();
     let mut columns = Vec::new();
-    for name in names {
+    for name in COORDINATES.map(String::from).into_iter().chain(drives) {
         if let Some(place) = table.find(&name) {
-            let mut column = table.read(&[place])?.remove(0);
-            column.truncate(count);
-            columns.push((name, column));
+            columns.push((name, chosen(&table.read(&[place])?.remove(0), &rows)));
         }
     }
-    found(&columns, at)
+    let row = rows[found(&columns, at)?];
+    Ok(poses[row].unwrap_or(0.0) as usize)
 }
 
 /// The place at which all columns have what is asked of them.

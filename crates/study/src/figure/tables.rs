@@ -73,6 +73,15 @@ pub fn ratio(tables: [NamedTable<'_>; 2], map: &Map) -> Result<MapFigure, PlotEr
     }
     let found = panels.iter().flat_map(|panel| panel.samples.values());
     let found: Vec<f64> = found.copied().flatten().collect();
+    let has_both = |(a, b): (&MapPanel, &MapPanel)| {
+        let mut values = a.samples.values().iter().zip(b.samples.values());
+        values.any(|(a, b)| a.is_some() && b.is_some())
+    };
+    if found.is_empty() && first.panels.iter().zip(&second.panels).any(has_both) {
+        return Err(PlotError::NoRatio {
+            value: map.value.clone(),
+        });
+    }
     if found.is_empty() {
         return Err(PlotError::Nothing {
             path: tables[1].table.path().into(),
@@ -102,8 +111,10 @@ fn parts(tables: [NamedTable<'_>; 2], map: &Map) -> Result<[Part; 2], PlotError>
         ..map.clone()
     };
     let second = Part::read(tables[1].table, &map)?;
+    // Those that are drawn, and the one that is held, be it chosen or the only one.
     let planes = |part: &Part| -> Vec<String> {
-        part.panels.iter().map(|panel| panel.name.clone()).collect()
+        let drawn = part.panels.iter().map(|panel| panel.name.clone());
+        drawn.chain(part.held.iter().cloned()).collect()
     };
     let [planes, others] = [planes(&first), planes(&second)];
     if planes == others {
