@@ -4,6 +4,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use hyperstat_model::{Geometry, LoadSet, ModalOptions, Model, characteristic_length};
 
+use crate::answer::forces::Forces;
 use crate::answer::solution::{CaseSolution, Solution, State};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
@@ -161,11 +162,13 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// What the model's loads, and those of each of its cases, do: the states of [`Configuration::solve`].
-    pub(crate) fn states(&self) -> Result<Vec<State>, SolveError> {
+    /// What joints and segments carry under the model's loads, and those of each of its cases: of the states
+    /// of [`Configuration::solve`].
+    pub(crate) fn forces(&self) -> Result<Vec<Forces>, SolveError> {
         let plan = self.plan()?;
         let acting = Acting::of_model(&self.posture())?;
-        Ok(self.solve_all(plan, &acting, Asked::States)?.states)
+        let states = self.solve_all(plan, &acting, Asked::States)?.states;
+        Ok(states.into_iter().map(Forces::from).collect())
     }
 
     /// What each of these sets of loads alone does: without the model's loads, weight and

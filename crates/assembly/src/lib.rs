@@ -29,6 +29,7 @@ mod solve;
 mod state;
 
 pub use answer::curve::segment_displacement;
+pub use answer::forces::Forces;
 pub use answer::mass::MovingMass;
 pub use answer::measures;
 pub use answer::pose_result::PoseResult;

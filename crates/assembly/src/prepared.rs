@@ -2,8 +2,9 @@
 
 use hyperstat_model::{Geometry, LANES, ModalOptions, Model};
 
+use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
-use crate::answer::solution::{Solution, State};
+use crate::answer::solution::Solution;
 use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
@@ -163,7 +164,15 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::unknowns`].
     pub fn lanes(&self) -> Result<Lanes, SolveError> {
-        Ok(self.plan()?.lanes(&self.model))
+        Ok(self.plan()?.lanes(&self.model, false))
+    }
+
+    /// The same where [`Prepared::forces`] will be asked for at every pose: what they need is kept.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn lanes_with_forces(&self) -> Result<Lanes, SolveError> {
+        Ok(self.plan()?.lanes(&self.model, true))
     }
 
     /// The same for poses that all go through [`Prepared::sweep`], one by one.
@@ -196,7 +205,15 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::unknowns`].
     pub fn single(&self) -> Result<Single, SolveError> {
-        Ok(self.plan()?.single(&self.model))
+        Ok(self.plan()?.single(&self.model, false))
+    }
+
+    /// The same where [`Prepared::forces_single`] will be asked for at every pose.
+    ///
+    /// # Errors
+    /// As [`Prepared::unknowns`].
+    pub fn single_with_forces(&self) -> Result<Single, SolveError> {
+        Ok(self.plan()?.single(&self.model, true))
     }
 
     /// Output stiffness and displacement at the pose that [`Single::geometry_mut`] was brought to: what
@@ -209,26 +226,29 @@ impl Prepared {
         self.plan()?.sweep_single(&self.model, single)
     }
 
-    /// What the model's loads, and then those of each of its cases, do at a pose of [`Lanes::geometry_mut`]:
-    /// the states that [`Configuration::solve`] finds there, by the numeric pass and its recovery alone where
-    /// nothing moves without energy. `lanes` are of this mechanism.
+    /// What joints and segments carry under the model's loads, and then under those of each of its cases, at
+    /// a pose of [`Lanes::geometry_mut`] that was swept: what [`Configuration::solve`] finds there. In lanes
+    /// that were made for it ([`Prepared::lanes_with_forces`]) it is found beside the stiffness, as long as
+    /// the mechanism is made of beams, rigid bodies and elastic joints without loops of rigid bodies, and
+    /// the numbers are in balance; else, and in others, by the numeric pass and its recovery. `lanes` are of
+    /// this mechanism.
     ///
     /// # Errors
     /// As [`Configuration::solve`].
-    pub fn states(&self, lanes: &mut Lanes, pose: usize) -> Result<Vec<State>, SolveError> {
+    pub fn forces(&self, lanes: &mut Lanes, pose: usize) -> Result<Vec<Forces>, SolveError> {
         let plan = self.plan()?;
-        match lanes.states(plan, &self.model, pose)? {
-            Some(states) => Ok(states),
-            None => self.at(lanes.geometry_mut(pose))?.states(),
+        match lanes.forces(plan, &self.model, pose)? {
+            Some(forces) => Ok(forces),
+            None => self.at(lanes.geometry_mut(pose))?.forces(),
         }
     }
 
     /// The same at the pose of [`Single::geometry_mut`].
     ///
     /// # Errors
-    /// As [`Prepared::states`].
-    pub fn states_single(&self, single: &mut Single) -> Result<Vec<State>, SolveError> {
-        self.states(single.lanes_mut(), 0)
+    /// As [`Prepared::forces`].
+    pub fn forces_single(&self, single: &mut Single) -> Result<Vec<Forces>, SolveError> {
+        self.forces(single.lanes_mut(), 0)
     }
 
     /// The mechanism made ready for natural frequencies.

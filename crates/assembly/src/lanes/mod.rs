@@ -11,6 +11,7 @@
 // be compiled with the instruction set chosen at run time.
 #![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
 
+mod forces;
 mod pass;
 mod program;
 #[cfg(test)]
@@ -22,9 +23,10 @@ use hyperstat_model::{Geometry, LANES, Model};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
+use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
-use crate::answer::solution::State;
 use crate::error::SolveError;
+use crate::lanes::forces::ForceRoom;
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
 use crate::lanes::pass::{ERROR, Pass, displacement as place_of_displacement, displacement_error};
@@ -46,14 +48,18 @@ pub struct Lanes {
     workspace: Workspace,
     arch: Arch,
     engine: Option<Engine>,
-    /// Poses that went one by one.
+    /// By poses: what joints and segments carry, where it is asked for and the lanes found it.
+    forces: [Option<Vec<Forces>>; LANES],
+    /// Poses that went one by one, and those whose forces did.
     one_by_one: u64,
+    recovered_one_by_one: u64,
 }
 
 #[derive(Debug)]
 struct Engine {
     program: Program,
     buffers: Buffers,
+    room: ForceRoom,
 }
 
 /// Numbers in a register of the machine.
@@ -70,9 +76,9 @@ impl WithSimd for Width {
 
 impl Plan {
     /// Poses and buffers for one thread, for the model that the plan was made for. The poses are in the
-    /// model's configuration.
-    pub(crate) fn lanes(&self, model: &Model) -> Lanes {
-        self.lanes_on(model, Arch::new())
+    /// model's configuration. With `forces`, what joints and segments carry is found too.
+    pub(crate) fn lanes(&self, model: &Model, forces: bool) -> Lanes {
+        self.lanes_on(model, Arch::new(), forces)
     }
 
     /// The same for poses that all go through `Plan::sweep`, one by one.
@@ -80,15 +86,19 @@ impl Plan {
         self.lanes_with(model, Arch::new(), None)
     }
 
-    fn lanes_on(&self, model: &Model, arch: Arch) -> Lanes {
+    fn lanes_on(&self, model: &Model, arch: Arch, forces: bool) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let program = Program::new(self, model, model.geometry());
+        let program = Program::new(self, model, model.geometry(), forces);
         let engine = program.map(|mut program| {
             let mut inputs = vec![0.0; 3 * program.inputs.len()];
             program.inputs.read(model, &[model.geometry()], &mut inputs);
             order_chains(&mut program, &inputs);
             let buffers = Buffers::new(&program, width);
-            Engine { buffers, program }
+            Engine {
+                buffers,
+                program,
+                room: ForceRoom::default(),
+            }
         });
         self.lanes_with(model, arch, engine)
     }
@@ -101,7 +111,9 @@ impl Plan {
             workspace: self.workspace(),
             arch,
             engine,
+            forces: [const { None }; LANES],
             one_by_one: 0,
+            recovered_one_by_one: 0,
         }
     }
 
@@ -125,6 +137,7 @@ impl Plan {
         if let Some(error) = foreign {
             return filled.map(|filled| filled.then(|| Err(error.clone())));
         }
+        lanes.forces = [const { None }; LANES];
         let mut taken = filled;
         for (pose, taken) in taken.iter_mut().enumerate().filter(|(_, taken)| **taken) {
             if let Err(error) = model.check_geometry(&lanes.geometries[pose], self.one_point) {
@@ -148,6 +161,8 @@ impl Plan {
                 for (lane, pose) in range.enumerate() {
                     if taken[pose] && engine.vouches(lane) {
                         results[pose] = Some(Ok(engine.found(lane)));
+                        let geometry = &lanes.geometries[pose];
+                        lanes.forces[pose] = engine.forces(model, geometry, lane);
                     }
                 }
             }
@@ -169,22 +184,36 @@ impl Lanes {
     /// # Panics
     /// If `pose` is not below [`LANES`].
     pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
+        self.forces[pose] = None;
         &mut self.geometries[pose]
     }
 
     /// The configurations of all poses, to be changed.
     pub fn geometries_mut(&mut self) -> &mut [Geometry; LANES] {
+        self.forces = [const { None }; LANES];
         &mut self.geometries
     }
 
-    /// What acts on a model does at a pose, by the numeric pass, as [`Plan::states`] has it.
-    pub(crate) fn states(
+    /// What joints and segments carry at a pose that was swept: as the lanes found it, else by the numeric
+    /// pass, as [`Plan::forces`] has it.
+    pub(crate) fn forces(
         &mut self,
         plan: &Plan,
         model: &Model,
         pose: usize,
-    ) -> Result<Option<Vec<State>>, SolveError> {
-        plan.states(model, &self.geometries[pose], &mut self.workspace)
+    ) -> Result<Option<Vec<Forces>>, SolveError> {
+        match self.forces[pose].take() {
+            Some(found) => Ok(Some(found)),
+            None => {
+                self.recovered_one_by_one += 1;
+                plan.forces(model, &self.geometries[pose], &mut self.workspace)
+            }
+        }
+    }
+
+    /// Poses so far whose forces were found one by one.
+    pub fn recovered_one_by_one(&self) -> u64 {
+        self.recovered_one_by_one
     }
 
     /// Whether the mechanism goes through the lanes at all.
@@ -214,7 +243,9 @@ impl Engine {
     /// Sends geometries through the pass, as many as go side by side.
     #[inline(always)]
     fn solve(&mut self, model: &Model, geometries: &[&Geometry], arch: Arch) {
-        let Self { program, buffers } = self;
+        let Self {
+            program, buffers, ..
+        } = self;
         program.inputs.read(model, geometries, &mut buffers.inputs);
         arch.dispatch(Pass { program, buffers });
     }

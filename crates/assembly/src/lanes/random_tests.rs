@@ -8,11 +8,12 @@ use hyperstat_joints::{
 };
 use hyperstat_model::{
     Axes, BodyId, Connection, Directions, Geometry, JointId, JointStiffness, LANES, LineLoad, Load,
-    LoadCase, LoadSet, Member, Model, NodeId, SegmentId, Tapering,
+    LoadCase, LoadSet, Member, Model, NodeId, SegmentId, Tapering, characteristic_length,
 };
 use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 
 use super::pass::{ERROR, displacement, displacement_error};
+use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
 use crate::lanes::Lanes;
 use crate::plan::Plan;
@@ -22,6 +23,8 @@ const CASES: usize = 300;
 /// Lanes against one by one: relative to √(K_ii K_jj); of a displacement with its components times
 /// √K_ii, so that translations and rotations can be compared, to the largest one.
 const AGREEMENT: f64 = 1e-11;
+/// Forces of the lanes against those of the numeric pass: over the largest of their state.
+const FORCES_AGREE: f64 = 1e-10;
 
 /// Random numbers, the same in every run (xorshift64).
 struct Random(u64);
@@ -236,7 +239,7 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
         let Ok(plan) = Plan::new(&model) else {
             continue;
         };
-        let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+        let (mut lanes, mut workspace) = (plan.lanes(&model, false), plan.workspace());
         let Some(engine) = &lanes.engine else {
             continue;
         };
@@ -481,6 +484,43 @@ fn acted_on(random: &mut Random) -> Option<Model> {
     Some(model)
 }
 
+/// What forces differ by, over the largest of their state, moments over the mechanism's size.
+fn apart(found: &[Forces], expected: &[Forces], model: &Model, geometry: &Geometry) -> f64 {
+    let size = characteristic_length(geometry);
+    let over_size =
+        |w: &Vector6<f64>| Vector6::from_fn(|k, _| if k < 3 { w[k] } else { w[k] / size });
+    let all = |forces: &Forces| -> Vec<Vector6<f64>> {
+        let ends = forces.segments.iter().flat_map(|s| &s.ends);
+        let joints = forces.joint_wrenches.iter().flatten();
+        ends.chain(joints).map(over_size).collect()
+    };
+    assert_eq!(found.len(), expected.len());
+    let mut most = 0.0_f64;
+    for (found, expected) in found.iter().zip(expected) {
+        let known = |w: &Option<Vector6<f64>>| w.is_some();
+        assert!(
+            expected.joint_wrenches.iter().all(known),
+            "{}",
+            model.name
+        );
+        for (found, expected) in found.segments.iter().zip(&expected.segments) {
+            assert_eq!(found.load, expected.load);
+            assert_eq!(found.frame, expected.frame);
+        }
+        let (found, expected) = (all(found), all(expected));
+        assert_eq!(found.len(), expected.len());
+        let largest = expected.iter().fold(0.0_f64, |most, w| most.max(w.amax()));
+        let differences = found.iter().zip(&expected).map(|(a, b)| (a - b).amax());
+        let error = differences.fold(0.0_f64, f64::max);
+        most = most.max(if largest > 0.0 {
+            error / largest
+        } else {
+            error
+        });
+    }
+    most
+}
+
 #[test]
 fn wherever_the_lanes_answer_all_that_acts_agrees() {
     let cases = std::env::var("HYPERSTAT_RANDOM").ok();
@@ -488,6 +528,7 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
     let mut random = Random(0x2545_f491_4f6c_dd1d);
     let (mut taken, mut poses, mut handed_on, mut states) = (0, 0, 0, 0);
     let (mut largest, mut wrong) = (0.0_f64, Vec::new());
+    let (mut recovered, mut largest_force) = (0, 0.0_f64);
     for case in 0..cases {
         let Some(model) = acted_on(&mut random) else {
             continue;
@@ -495,7 +536,7 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         let Ok(plan) = Plan::new(&model) else {
             continue;
         };
-        let (mut lanes, mut workspace) = (plan.lanes(&model), plan.workspace());
+        let (mut lanes, mut workspace) = (plan.lanes(&model, true), plan.workspace());
         if lanes.engine.is_none() {
             continue;
         }
@@ -509,6 +550,19 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         poses += LANES;
         handed_on += (lanes.one_by_one() - before) as usize;
         for (lane, pose) in chosen.iter().enumerate() {
+            if let Some(found) = lanes.forces[lane].take() {
+                let one = plan.forces(&model, pose, &mut workspace);
+                let error = match one {
+                    Ok(Some(one)) => apart(&found, &one, &model, pose),
+                    Ok(None) => 0.0,
+                    Err(_) => f64::NAN,
+                };
+                recovered += 1;
+                largest_force = largest_force.max(error);
+                if error.is_nan() || error > FORCES_AGREE {
+                    wrong.push(format!("{case}, {lane}: forces {error:e}"));
+                }
+            }
             let one = plan.sweep(&model, pose, &mut workspace);
             match (&results[lane], &one) {
                 (Some(Ok(found)), Ok(one)) => {
@@ -542,7 +596,8 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         }
     }
     println!(
-        "{taken} mechanisms, {poses} poses, {states} states, {handed_on} handed on, error {largest:e}"
+        "{taken} mechanisms, {poses} poses, {states} states, {handed_on} handed on, error {largest:e}; \
+         forces of {recovered} poses, error {largest_force:e}"
     );
     assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
     assert!(taken > cases / 3, "only {taken} mechanisms");

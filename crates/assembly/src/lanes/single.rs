@@ -16,10 +16,10 @@ pub struct Single {
 
 impl Plan {
     /// A pose and its buffers, for the model that the plan was made for. The pose is in the model's
-    /// configuration.
-    pub(crate) fn single(&self, model: &Model) -> Single {
+    /// configuration. With `forces`, what joints and segments carry is found too.
+    pub(crate) fn single(&self, model: &Model, forces: bool) -> Single {
         Single {
-            lanes: self.lanes_on(model, narrow()),
+            lanes: self.lanes_on(model, narrow(), forces),
         }
     }
 
@@ -44,6 +44,7 @@ impl Plan {
             let width = engine.buffers.width;
             engine.solve(model, &[geometry; LANES][..width], lanes.arch);
             if let Some(result) = engine.result(0) {
+                lanes.forces[0] = engine.forces(model, geometry, 0);
                 return Ok(result);
             }
         }

@@ -5,8 +5,8 @@ use nalgebra::Matrix6;
 
 use super::output::inverse;
 use super::{ROUNDING, settled};
+use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
-use crate::answer::solution::State;
 use crate::error::SolveError;
 use crate::kinematics::diagnosis::Diagnosis;
 use crate::plan::Plan;
@@ -59,12 +59,12 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Plan::sweep`].
-    pub(crate) fn states(
+    pub(crate) fn forces(
         &self,
         model: &Model,
         geometry: &Geometry,
         workspace: &mut Workspace,
-    ) -> Result<Option<Vec<State>>, SolveError> {
+    ) -> Result<Option<Vec<Forces>>, SolveError> {
         self.check(model, geometry, workspace)?;
         if self.has_idle || !self.output_is_independent() {
             return Ok(None);
@@ -91,7 +91,7 @@ impl Plan {
         let states = sets.map(|(set, (acting, displacement))| {
             let state = recover(self, &at, workspace, set, acting, displacement)?.state;
             match state.is_finite() {
-                true => Ok(state),
+                true => Ok(state.into()),
                 false => Err(SolveError::Overflow),
             }
         });

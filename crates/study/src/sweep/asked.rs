@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Configuration, Geometry, JointId, Model, MovingMass, PartSource, Prepared, SegmentForces,
-    Solution, SolveError, State, worst_stress,
+    Configuration, Forces, Geometry, JointId, Model, MovingMass, PartSource, Prepared,
+    SegmentForces, Solution, SolveError, worst_stress,
 };
 use hyperstat_joints::Dof;
 use hyperstat_mechanisms::Job;
@@ -43,16 +43,12 @@ pub(super) struct Found<'f> {
     pub(super) drives: Option<&'f [f64]>,
     /// Natural frequencies.
     pub(super) frequencies: &'f [Cell],
-    /// What the loads do, then those of every case, where it is known.
-    pub(super) states: Option<&'f [State]>,
+    /// What joints and segments carry under the loads, then in every case, where it is known.
+    pub(super) forces: Option<&'f [Forces]>,
 }
 
 /// Wrenches in joints and forces of segments.
-type Forces<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
-
-fn forces(state: &State) -> Forces<'_> {
-    (&state.joint_wrenches, &state.segments)
-}
+type Carried<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
 
 impl Asked {
     /// Those of a job; `None` where it asks for none.
@@ -73,7 +69,7 @@ impl Asked {
     }
 
     /// Whether forces are asked for, and nothing that needs more of a solution.
-    pub(super) fn needs_states(&self) -> bool {
+    pub(super) fn needs_forces(&self) -> bool {
         self.groups.iter().any(Group::is_solved) && !self.needs_solution()
     }
 
@@ -96,12 +92,18 @@ impl Asked {
     pub(super) fn add(&self, found: &Found<'_>, cells: &mut Vec<Cell>) -> Result<(), SolveError> {
         let here;
         let solution;
-        let (states, solved): (Vec<Forces<'_>>, _) = match found.states {
-            Some(states) => (states.iter().map(forces).collect(), None),
+        let (states, solved): (Vec<Carried<'_>>, _) = match found.forces {
+            Some(forces) => {
+                let own = forces
+                    .iter()
+                    .map(|own| (&*own.joint_wrenches, &*own.segments));
+                (own.collect(), None)
+            }
             None if self.needs_solution() => {
                 here = found.prepared.at(found.geometry)?;
                 solution = here.solve()?;
-                let cases = solution.cases.iter().map(|case| forces(&case.state));
+                let cases = solution.cases.iter().map(|case| &case.state);
+                let cases = cases.map(|own| (&*own.joint_wrenches, &*own.segments));
                 let of_loads = (&*solution.joint_wrenches, &*solution.segments);
                 let states = std::iter::once(of_loads).chain(cases);
                 (states.collect(), Some((&here, &solution)))
@@ -145,7 +147,7 @@ impl Asked {
         &self,
         group: &Group,
         model: &Model,
-        states: &[Forces<'_>],
+        states: &[Carried<'_>],
         cells: &mut Vec<Cell>,
     ) {
         for (wrenches, segments) in states {

@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError, State,
+    Forces, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
 };
 use hyperstat_mechanisms::{Design, Job, Placing};
 
@@ -206,6 +206,7 @@ impl<'a> Sweep<'a> {
         };
         let ready = planned.and_then(|planned| {
             let lanes = match self.way {
+                Way::Lanes if planned.asks_forces() => planned.prepared.lanes_with_forces()?,
                 Way::Lanes => planned.prepared.lanes()?,
                 Way::OneByOne => planned.prepared.lanes_one_by_one()?,
             };
@@ -291,22 +292,27 @@ impl Planned {
     }
 
     /// Whether forces are asked for at a pose of this result.
-    fn needs_states(&self, result: &Result<PoseResult, SolveError>) -> bool {
+    fn needs_forces(&self, result: &Result<PoseResult, SolveError>) -> bool {
         let held = matches!(result, Ok(found) if found.displacement.is_some());
-        held && self.asked.as_ref().is_some_and(Asked::needs_states)
+        held && self.asks_forces()
+    }
+
+    /// Whether forces are asked for at every pose.
+    fn asks_forces(&self) -> bool {
+        self.asked.as_ref().is_some_and(Asked::needs_forces)
     }
 
     /// What is found in a configuration that a solution is known of, with the values of its drives and the
-    /// states of what acts, where they are.
+    /// forces of every state, where they are.
     fn found(
         &self,
         solved: Result<PoseResult, SolveError>,
         geometry: &Geometry,
         drives: Option<&[f64]>,
-        states: Option<Result<Vec<State>, SolveError>>,
+        forces: Option<Result<Vec<Forces>, SolveError>>,
     ) -> Result<Found, Failure> {
         let solved = solved?;
-        let states = states.transpose();
+        let forces = forces.transpose();
         let displacements = solved.displacement.into_iter();
         let displacements = match self.asked {
             Some(_) => displacements.chain(solved.cases.iter().copied()).collect(),
@@ -320,9 +326,9 @@ impl Planned {
             let Some(asked) = &self.asked else {
                 return Ok(());
             };
-            let states = states.as_ref().map_err(Clone::clone)?;
+            let forces = forces.as_ref().map_err(Clone::clone)?;
             let found = asked::Found {
-                states: states.as_deref(),
+                forces: forces.as_deref(),
                 prepared: &self.prepared,
                 geometry,
                 stiffness: stiffness.as_ref(),
@@ -406,12 +412,12 @@ impl Solver {
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
-                        let states = planned
-                            .needs_states(&result)
-                            .then(|| planned.prepared.states(lanes, lane));
+                        let forces = planned
+                            .needs_forces(&result)
+                            .then(|| planned.prepared.forces(lanes, lane));
                         let drives = self.placing.drives(lane);
                         let geometry = lanes.geometry_mut(lane);
-                        let result = planned.found(result, geometry, drives, states);
+                        let result = planned.found(result, geometry, drives, forces);
                         records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),

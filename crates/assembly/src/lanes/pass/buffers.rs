@@ -39,6 +39,8 @@ pub(crate) struct Buffers {
     /// Displacements by columns, with their relative errors and squared sizes.
     pub columns: Numbers,
     pub results: Numbers,
+    /// What forces are found from.
+    pub kept: Numbers,
 }
 
 impl Buffers {
@@ -68,7 +70,14 @@ impl Buffers {
             scales: zeros(conditions),
             columns: zeros(8 * program.rows.len()),
             results: zeros(results(program.states.len())),
+            kept: zeros(program.recovery.as_ref().map_or(0, |own| own.len)),
         }
+    }
+
+    /// What a pose has in one of these buffers.
+    pub fn of<'a>(&self, numbers: &'a Numbers, lane: usize) -> impl Fn(usize) -> f64 + Copy + 'a {
+        let width = self.width;
+        move |k| numbers[k * width + lane]
     }
 
     /// Entry `k` of a pose's results.

@@ -60,7 +60,8 @@ pub(crate) struct Acting<'a, S: Simd> {
 
 impl<S: Simd> Acting<'_, S> {
     /// Adds what a column does to a row of a front: `places` of the chain's coordinates, and that of
-    /// the row; `wrenches`: the transmitted ones' works, R a coordinate, and one more entry each.
+    /// the row; `wrenches`: the transmitted ones' works, R a coordinate, and one more entry each; `kept`:
+    /// what forces are found from, where they are asked for.
     #[inline(always)]
     pub fn add_column<const M: usize, const R: usize>(
         &self,
@@ -69,7 +70,7 @@ impl<S: Simd> Acting<'_, S> {
         (element, chain, frame): (&Element, &Chain, &Frame<S>),
         column: usize,
         (places, row): (&[usize], usize),
-        wrenches: &mut [S::f64s],
+        (wrenches, kept): (&mut [S::f64s], &mut [S::f64s]),
     ) {
         let (simd, inputs) = (self.simd, self.inputs);
         let (zero, nan) = (Lane::splat(simd, 0.0), Lane::splat(simd, f64::NAN));
@@ -168,6 +169,18 @@ impl<S: Simd> Acting<'_, S> {
         ];
         let [first, second] = &wrenches;
         works(assembly, chain, frame, &element.nodes, [first, second], own);
+        if !kept.is_empty() {
+            for k in 0..6 {
+                kept[k] = held[k].value;
+            }
+            for a in 0..R {
+                kept[6 + a] = forces[a].value;
+                kept[6 + R + a] = lost[a].value;
+            }
+            for k in 0..count {
+                kept[6 + 2 * R + k] = own[k];
+            }
+        }
         let error = &mut assembly.errors[row];
         *error = energy.mul_add(*growth, Lane::new(simd, *error)).value;
         let mut doubt = zero;

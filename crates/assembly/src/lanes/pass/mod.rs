@@ -78,6 +78,7 @@ struct Registers<'a, S: Simd> {
     scales: &'a mut [S::f64s],
     columns: &'a mut [S::f64s],
     results: &'a mut [S::f64s],
+    kept: &'a mut [S::f64s],
 }
 
 impl WithSimd for Pass<'_> {
@@ -104,6 +105,7 @@ impl WithSimd for Pass<'_> {
             scales,
             columns,
             results,
+            kept,
             ..
         } = self.buffers;
         let mut registers = Registers::<S> {
@@ -125,6 +127,7 @@ impl WithSimd for Pass<'_> {
             scales: S::as_mut_simd_f64s(scales).0,
             columns: S::as_mut_simd_f64s(columns).0,
             results: S::as_mut_simd_f64s(results).0,
+            kept: S::as_mut_simd_f64s(kept).0,
         };
         form(simd, &self.program.acts, registers.inputs, registers.acts);
         for screw in &self.program.screws {
@@ -136,8 +139,15 @@ impl WithSimd for Pass<'_> {
         }
         registers.errors.fill(simd.splat_f64s(0.0));
         registers.load_errors.fill(simd.splat_f64s(0.0));
-        for front in &self.program.fronts.list {
+        for (k, front) in self.program.fronts.list.iter().enumerate() {
             registers.solve_front(simd, self.program, front);
+            if let Some(recovery) = &self.program.recovery {
+                let kept = &mut registers.kept[recovery.panels[k]..];
+                let panel = &registers.panel[..front.pivots * front.variables.len()];
+                for (kept, entry) in kept.iter_mut().zip(panel) {
+                    *kept = *entry;
+                }
+            }
         }
         registers.finish(simd, self.program);
     }
@@ -288,7 +298,11 @@ impl<S: Simd> Registers<'_, S> {
         let nodes = &element.nodes;
         let points = match &element.kind {
             Kind::Chain(chain) => {
-                let room = (&mut *self.wrenches, &mut *self.links);
+                let kept = match &program.recovery {
+                    Some(recovery) => &mut self.kept[recovery.range(k)],
+                    None => &mut [],
+                };
+                let room = (&mut *self.wrenches, &mut *self.links, kept);
                 add_chain(
                     &mut assembly,
                     (element, chain),

@@ -20,6 +20,7 @@ use super::loaded::{Acting, Transmitted};
 use super::reflections::{Reflection, all_put_back, ordered, ordered_matrix, squares};
 use crate::lanes::program::chain::{Chain, DEPENDENT};
 use crate::lanes::program::element::Element;
+use crate::lanes::program::recovery::{AXES, Layout};
 
 /// Of a free motion, what the others leave of it must be above this share (squared).
 const INDEPENDENT: f64 = 1e-12;
@@ -27,13 +28,13 @@ const INDEPENDENT: f64 = 1e-12;
 /// Adds a chain to a front. `places` of its coordinates, and of the rows of what acts on it; `pairs`:
 /// places of its coordinates' entries, column by column of the lower triangle; `wrenches`: seven
 /// entries a coordinate; `links`: [`TRIANGLE`](super::lane::TRIANGLE) entries a link of a chain that
-/// something acts on.
+/// something acts on; `kept`: what forces are found from, where they are asked for.
 #[inline(always)]
 pub(crate) fn add_chain<S: Simd>(
     assembly: &mut Assembly<'_, S>,
     (element, chain): (&Element, &Chain),
     (places, pairs): (&[usize], &[u32]),
-    (wrenches, links): (&mut [S::f64s], &mut [S::f64s]),
+    (wrenches, links, kept): (&mut [S::f64s], &mut [S::f64s], &mut [S::f64s]),
 ) {
     let (simd, inputs) = (assembly.simd, assembly.inputs);
     let frame = Frame::new(simd, chain, inputs);
@@ -43,7 +44,7 @@ pub(crate) fn add_chain<S: Simd>(
         compliances(simd, chain, &frame, inputs, links)
     };
     let (seen, to) = ((element, chain, &frame), (places, pairs));
-    let room = (wrenches, &*links);
+    let room = (wrenches, &*links, kept);
     match chain.releases.len() {
         0 => transmit::<S, 0, 6>(assembly, seen, c, to, room),
         1 => transmit::<S, 1, 5>(assembly, seen, c, to, room),
@@ -61,7 +62,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     (element, chain, frame): (&Element, &Chain, &Frame<S>),
     c: [Six<S>; 6],
     (places, pairs): (&[usize], &[u32]),
-    (wrenches, links): (&mut [S::f64s], &[S::f64s]),
+    (wrenches, links, kept): (&mut [S::f64s], &[S::f64s], &mut [S::f64s]),
 ) {
     let (simd, inputs) = (assembly.simd, assembly.inputs);
     let nodes = &element.nodes;
@@ -138,6 +139,16 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
             wrenches[to * R + a] = simd.add_f64s(wrenches[to * R + a], own);
         }
     }
+    let layout = Layout {
+        wrenches: R,
+        coordinates: count,
+    };
+    if !kept.is_empty() {
+        keep(kept, layout, frame, (&directions, &stiffness, &trust));
+        for k in 0..R * count {
+            kept[layout.works() + k] = wrenches[k];
+        }
+    }
     let mut next = 0;
     for (end, node) in nodes.iter().enumerate() {
         for coordinate in node.coordinates() {
@@ -179,14 +190,42 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     for (k, column) in element.columns.iter().enumerate() {
         let row = places[count + k];
         let to = (&places[..count], row);
+        let kept = if kept.is_empty() {
+            &mut []
+        } else {
+            &mut kept[layout.column(k)..][..layout.of_column()]
+        };
         acting.add_column(
             assembly,
             &transmitted,
             (element, chain, frame),
             *column,
             to,
-            wrenches,
+            (wrenches, kept),
         );
+    }
+}
+
+/// Keeps what a chain transmits.
+#[inline(always)]
+fn keep<S: Simd, const R: usize>(
+    kept: &mut [S::f64s],
+    layout: Layout,
+    frame: &Frame<S>,
+    (directions, stiffness, trust): (&[Six<S>; R], &[Lane<S>; R], &[Lane<S>; R]),
+) {
+    for k in 0..3 {
+        kept[k] = frame.origin[k].value;
+        for c in 0..3 {
+            kept[AXES + 3 * k + c] = frame.axes[k][c].value;
+        }
+    }
+    for a in 0..R {
+        for k in 0..6 {
+            kept[layout.directions() + 6 * a + k] = directions[a][k].value;
+        }
+        kept[layout.stiffness() + a] = stiffness[a].value;
+        kept[layout.trust() + a] = trust[a].value;
     }
 }
 

@@ -7,7 +7,7 @@
 //! carried on over any number of links and joints.
 
 use hyperstat_elements::PlaneFlexibility;
-use hyperstat_model::{Geometry, Model, NodeId, SegmentBeam, SegmentId, unit_beam};
+use hyperstat_model::{Geometry, JointId, Model, NodeId, SegmentBeam, SegmentId, unit_beam};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::acts::Act;
@@ -104,12 +104,24 @@ pub(crate) struct InnerLoad {
 #[derive(Debug, Clone)]
 pub(crate) struct Link {
     pub kind: LinkKind,
+    pub source: LinkSource,
+    /// Whether its own second end is towards the chain's end 0.
+    pub flipped: bool,
     /// Largest deflection per force in the plan's configuration \[m/N\].
     softness: f64,
     /// Stiffness against translations there, all directions together \[N/m\].
     weight: f64,
     /// Length by which its rotations count beside its translations \[m\].
     length: f64,
+}
+
+/// What a link is of the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LinkSource {
+    Segment(SegmentId),
+    Joint(JointId),
+    /// A joint's coordinate, by a spring of its own.
+    Coordinate,
 }
 
 #[derive(Debug, Clone)]
@@ -184,10 +196,10 @@ impl Chain {
     /// The chain that goes on with `next`; `ends`: of either, the end that stays one.
     pub fn followed_by(mut self, mut next: Self, ends: [usize; 2]) -> Self {
         if ends[0] == 1 {
-            self.order.reverse();
+            self.reverse();
         }
         if ends[1] == 0 {
-            next.order.reverse();
+            next.reverse();
         }
         let (links, releases) = (self.links.len(), self.releases.len());
         let (idle, loads) = (self.idle.len(), self.loads.len());
@@ -207,6 +219,13 @@ impl Chain {
         self
     }
 
+    fn reverse(&mut self) {
+        self.order.reverse();
+        for link in &mut self.links {
+            link.flipped = !link.flipped;
+        }
+    }
+
     /// Adds a spring along a motion at an end.
     pub fn add_spring(&mut self, end: usize, along: Release, stiffness: f64) {
         let compliance = 1.0 / stiffness;
@@ -214,6 +233,8 @@ impl Chain {
         self.put(end, Item::Link(self.links.len()));
         self.links.push(Link {
             kind: LinkKind::Spring { along, compliance },
+            source: LinkSource::Coordinate,
+            flipped: false,
             softness: 0.0,
             weight: if slides { stiffness } else { f64::INFINITY },
             length: 0.0,
@@ -349,6 +370,8 @@ impl Link {
             softness: deflection[0].max(deflection[1]).max(axial * length),
             weight: 1.0 / (axial * length) + 1.0 / deflection[0] + 1.0 / deflection[1],
             length,
+            source: LinkSource::Segment(id),
+            flipped: false,
             kind: LinkKind::Beam(BeamLink {
                 y_axis: (!round).then(|| inputs.y_axis(id, ends)),
                 ends: ends.map(|n| inputs.point(n)),
@@ -362,6 +385,7 @@ impl Link {
     /// A joint at a node by its compliance in its own frame (its columns' places); `size` of the
     /// mechanism.
     pub fn joint(
+        joint: JointId,
         compliance: &Matrix6<f64>,
         node: NodeId,
         columns: [usize; 3],
@@ -388,6 +412,8 @@ impl Link {
                 f64::INFINITY
             },
             length: size,
+            source: LinkSource::Joint(joint),
+            flipped: false,
             kind: LinkKind::Joint(JointLink {
                 point: inputs.point(node),
                 columns,

@@ -11,6 +11,7 @@ use super::acts::{Act, Acts};
 use super::element::{NodeLoad, Shift};
 use super::inputs::{Inputs, Point, Turned};
 use super::parts::Parts;
+use super::recovery::NodeWrench;
 use crate::state::preload::{along as along_directions, spring_misfit};
 use crate::state::sources::{Along, Sources};
 
@@ -29,6 +30,8 @@ pub(crate) struct Brought {
     pub segments: Vec<(SegmentId, usize, Act)>,
     /// Displacements of the second bodies of joints.
     pub misfits: Vec<(JointId, usize, Act)>,
+    /// Wrenches on nodes, whether these move or not.
+    pub wrenches: Vec<NodeWrench>,
 }
 
 impl<'m> Columns<'m> {
@@ -88,7 +91,9 @@ impl<'m> Columns<'m> {
         let model = parts.model;
         let (mut loads, mut brought) = (Vec::new(), Brought::default());
         for (column, sources) in self.sources.iter().enumerate() {
+            let wrenches = &mut brought.wrenches;
             let mut add_load = |node, act, inputs: &mut Inputs| {
+                wrenches.push(NodeWrench { node, act, column });
                 let motion = parts.motion(node, inputs)?;
                 if motion.moves() {
                     loads.push(NodeLoad {

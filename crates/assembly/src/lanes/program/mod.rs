@@ -20,6 +20,7 @@ pub(crate) mod idle;
 pub(crate) mod inputs;
 pub(crate) mod loops;
 pub(crate) mod parts;
+pub(crate) mod recovery;
 pub(crate) mod scatter;
 pub(crate) mod series;
 
@@ -34,6 +35,7 @@ use super::program::idle::idle_coordinates;
 use super::program::inputs::{Inputs, Point};
 use super::program::loops::Loops;
 use super::program::parts::{Parts, Placed, screws};
+use super::program::recovery::Recovery;
 use super::program::series::Series;
 use crate::plan::Plan;
 use crate::plan::topology::Topology;
@@ -77,13 +79,18 @@ pub(crate) struct Program {
     pub most_ends: usize,
     /// Links of the loaded chain that has most.
     pub most_links: usize,
+    /// First of the output's six coordinates.
+    pub output: usize,
+    /// What is needed for forces, where they are asked for and can be found.
+    pub recovery: Option<Recovery>,
 }
 
 impl Program {
     /// The program of a plan; `None` where the lanes do not take it: loops of rigid bodies whose
     /// elimination is not clear, or with misfits; motions of the output without energy; too many
-    /// coordinates, or load cases that act within the mechanism.
-    pub fn new(plan: &Plan, model: &Model, geometry: &Geometry) -> Option<Self> {
+    /// coordinates, or load cases that act within the mechanism. With what is needed for `forces`, where
+    /// they are asked for.
+    pub fn new(plan: &Plan, model: &Model, geometry: &Geometry, forces: bool) -> Option<Self> {
         let topology = Topology::new(model, geometry, plan.output, false);
         let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
         let closed = topology
@@ -120,7 +127,8 @@ impl Program {
         };
         let columns = Columns::of(model)?;
         let mut acts = Acts::default();
-        let (loads, brought) = columns.bring(&parts, &mut acts, &mut inputs)?;
+        let (loads, mut brought) = columns.bring(&parts, &mut acts, &mut inputs)?;
+        let wrenches = std::mem::take(&mut brought.wrenches);
         parts.take(brought, &mut inputs);
         for subassembly in &topology.subassemblies {
             parts.add_subassembly(subassembly, &mut inputs)?;
@@ -208,6 +216,7 @@ impl Program {
         let late = |c: usize| late.iter().any(|root| (*root..*root + 6).contains(&c));
         let eliminated = (0..unknowns).filter(|c| !gone[*c]).collect();
         let own_rows = unknowns..unknowns + count;
+        let first = output.start;
         let mut fronts = Fronts::new(eliminated, groups, &idle, output, own_rows, late)?;
         hang(
             &mut fronts,
@@ -219,6 +228,8 @@ impl Program {
         for front in &mut fronts.list {
             front.scatter = Scatter::new(front, &elements);
         }
+        let seen = (&elements[..], &screws[..], &fronts);
+        let recovery = forces.then(|| Recovery::new(model, geometry, &topology, seen, wrenches));
         let blocks = elements.iter().map(Element::blocks);
         let ends = elements.iter().map(Element::ends);
         let links = elements.iter().map(Element::loaded_links);
@@ -227,6 +238,8 @@ impl Program {
             most_blocks: blocks.max().unwrap_or(0),
             most_ends: ends.max().unwrap_or(0),
             most_links: links.max().unwrap_or(0),
+            output: first,
+            recovery: recovery.flatten(),
             idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
             inputs,
             screws,

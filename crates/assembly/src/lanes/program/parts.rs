@@ -275,7 +275,7 @@ impl Parts<'_> {
         let kind = match compliance {
             Some(compliance) => {
                 let own = basis * compliance * basis.transpose();
-                let link = Link::joint(&own, *at, columns, self.size, inputs);
+                let link = Link::joint(joint, &own, *at, columns, self.size, inputs);
                 let free = role.directions.free.iter();
                 let releases = free.map(|dof| release(self.model, joint, dof, *at, inputs));
                 let releases = releases.collect();
