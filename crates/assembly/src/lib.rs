@@ -46,8 +46,8 @@ pub use hyperstat_model::{
 pub use kinematics::Kinematics;
 pub use kinematics::motion::{Motion, describe_motions};
 pub use kinematics::redundancy::Redundancy;
-pub use lanes::Lanes;
 pub use lanes::single::Single;
+pub use lanes::{Beside, Lanes};
 pub use modal::{Counted, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
 pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};

@@ -9,11 +9,14 @@ use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
 use crate::kinematics::redundancy::Redundancy;
-use crate::lanes::Lanes;
 use crate::lanes::single::Single;
+use crate::lanes::{Beside, Lanes};
 use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
+use crate::pose::restraint::{SUSPICIOUS_PIVOT, inverse};
+use crate::response::budget::Budget;
+use crate::response::influence::Influence;
 
 /// A mechanism made ready: a model, and with it what is worked out once for its topology and for its
 /// own configuration, each when it is first asked for.
@@ -164,15 +167,15 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::unknowns`].
     pub fn lanes(&self) -> Result<Lanes, SolveError> {
-        Ok(self.plan()?.lanes(&self.model, false))
+        self.lanes_beside(Beside::Nothing)
     }
 
-    /// The same where [`Prepared::forces`] will be asked for at every pose: what they need is kept.
+    /// The same where more is to be found at every pose: [`Prepared::forces`], [`Prepared::budgets`].
     ///
     /// # Errors
     /// As [`Prepared::unknowns`].
-    pub fn lanes_with_forces(&self) -> Result<Lanes, SolveError> {
-        Ok(self.plan()?.lanes(&self.model, true))
+    pub fn lanes_beside(&self, beside: Beside) -> Result<Lanes, SolveError> {
+        Ok(self.plan()?.lanes(&self.model, beside))
     }
 
     /// The same for poses that all go through [`Prepared::sweep`], one by one.
@@ -205,15 +208,15 @@ impl Prepared {
     /// # Errors
     /// As [`Prepared::unknowns`].
     pub fn single(&self) -> Result<Single, SolveError> {
-        Ok(self.plan()?.single(&self.model, false))
+        self.single_beside(Beside::Nothing)
     }
 
-    /// The same where [`Prepared::forces_single`] will be asked for at every pose.
+    /// The same where more is to be found at every pose.
     ///
     /// # Errors
     /// As [`Prepared::unknowns`].
-    pub fn single_with_forces(&self) -> Result<Single, SolveError> {
-        Ok(self.plan()?.single(&self.model, true))
+    pub fn single_beside(&self, beside: Beside) -> Result<Single, SolveError> {
+        Ok(self.plan()?.single(&self.model, beside))
     }
 
     /// Output stiffness and displacement at the pose that [`Single::geometry_mut`] was brought to: what
@@ -228,7 +231,7 @@ impl Prepared {
 
     /// What joints and segments carry under the model's loads, and then under those of each of its cases, at
     /// a pose of [`Lanes::geometry_mut`] that was swept: what [`Configuration::solve`] finds there. In lanes
-    /// that were made for it ([`Prepared::lanes_with_forces`]) it is found beside the stiffness, as long as
+    /// that were made for it ([`Prepared::lanes_beside`]) it is found beside the stiffness, as long as
     /// the mechanism is made of beams, rigid bodies and elastic joints without loops of rigid bodies, and
     /// the numbers are in balance; else, and in others, by the numeric pass and its recovery. `lanes` are of
     /// this mechanism.
@@ -243,12 +246,31 @@ impl Prepared {
         }
     }
 
-    /// The same at the pose of [`Single::geometry_mut`].
+    /// The budgets of every state at a pose of [`Lanes::geometry_mut`] that was swept, along the way that each
+    /// moves the output; where it does not, that of the compliance along the softest force; with what joints
+    /// and segments carry. `found` is what [`Prepared::sweep_lanes`] gave there. `None` where the lanes were
+    /// not made for it or do not have it: then [`Configuration::influence`] has.
     ///
     /// # Errors
-    /// As [`Prepared::forces`].
-    pub fn forces_single(&self, single: &mut Single) -> Result<Vec<Forces>, SolveError> {
-        self.forces(single.lanes_mut(), 0)
+    /// As [`Configuration::influence`].
+    pub fn budgets(
+        &self,
+        lanes: &mut Lanes,
+        pose: usize,
+        found: &PoseResult,
+    ) -> Result<Option<(Vec<Forces>, Vec<Budget>)>, SolveError> {
+        let compliance = found.stiffness.as_ref();
+        let compliance = compliance.and_then(|k| inverse(k, SUSPICIOUS_PIVOT));
+        let (Some(compliance), Some((forces, units, geometry))) = (compliance, lanes.found(pose))
+        else {
+            return Ok(None);
+        };
+        let influence = Influence::of_forces(&self.model, geometry, &units)?;
+        let displacements = found.displacement.iter().chain(&found.cases);
+        let states = displacements.zip(&forces);
+        let budget = |(moved, forces)| influence.pose_budget(moved, forces, &compliance);
+        let budgets = states.map(budget).collect();
+        Ok(Some((forces, budgets)))
     }
 
     /// The mechanism made ready for natural frequencies.

@@ -16,10 +16,10 @@ const POSES: usize = 240;
 type Result = std::result::Result<PoseResult, SolveError>;
 
 /// Random numbers, the same in every run (xorshift64).
-struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(0x9e37_79b9_7f4a_7c15)
     }
 
@@ -31,7 +31,7 @@ impl Random {
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    fn geometry(&mut self, case: &Case, like: &Geometry) -> Geometry {
+    pub(crate) fn geometry(&mut self, case: &Case, like: &Geometry) -> Geometry {
         let mut geometry = like.clone();
         let pose = case.pose(&std::array::from_fn(|_| self.unit()));
         let placed = case.mechanism.place(&pose, &mut geometry);
@@ -52,7 +52,7 @@ fn delta(delta: Delta) -> Case {
 
 /// All prebuilt mechanisms: with rigid and elastic joints and drives, ball-jointed rods, links of
 /// several elements.
-fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     let mut cases = legs::cases();
     cases.extend(links::cases());
     cases.extend([
@@ -87,7 +87,7 @@ fn cases() -> Vec<Case> {
 
 /// The mechanism in its first pose, loaded on its output; `everywhere` also by a force on every
 /// third node.
-fn model(case: &Case, everywhere: bool) -> Model {
+pub(crate) fn model(case: &Case, everywhere: bool) -> Model {
     let mut model = loaded(&*case.mechanism, &case.poses[0]);
     if everywhere {
         for node in (0..model.nodes().len()).step_by(3) {

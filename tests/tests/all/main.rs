@@ -15,6 +15,7 @@ mod frame3dd_example_b;
 mod frame3dd_self_weight;
 mod freed;
 mod lanes_agree;
+mod lanes_forces;
 mod lanes_soft;
 mod lanes_states;
 mod large_mechanisms;

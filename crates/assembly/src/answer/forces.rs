@@ -3,6 +3,7 @@
 use nalgebra::Vector6;
 
 use super::solution::{SegmentForces, State};
+use crate::state::floor::Floor;
 
 /// What joints and segments carry in one state.
 #[derive(Debug, Clone)]
@@ -12,6 +13,8 @@ pub struct Forces {
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     /// As [`Solution::segments`](crate::Solution::segments).
     pub segments: Vec<SegmentForces>,
+    /// As [`Solution::floor`](crate::Solution::floor).
+    pub floor: Floor,
 }
 
 impl From<State> for Forces {
@@ -19,6 +22,7 @@ impl From<State> for Forces {
         Self {
             joint_wrenches: state.joint_wrenches,
             segments: state.segments,
+            floor: state.floor,
         }
     }
 }

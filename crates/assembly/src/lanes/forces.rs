@@ -21,8 +21,10 @@ use super::program::fronts::Hang;
 use super::program::recovery::{AXES, KeptChain, Recovery};
 use crate::answer::forces::Forces;
 use crate::answer::solution::SegmentForces;
+use crate::pose::restraint::{SUSPICIOUS_PIVOT, inverse};
 use crate::posture::Posture;
 use crate::state::acting::Acting;
+use crate::state::floor::Floor;
 
 /// What coordinates may be out of balance by, beside the forces on them.
 const BALANCED: f64 = 1e-11;
@@ -32,6 +34,8 @@ const LOST: f64 = 1e-12;
 /// A thread's room for the forces of a pose.
 #[derive(Debug, Default)]
 pub(crate) struct ForceRoom {
+    /// The component of a wrench on the output that is 1, beside the columns of what acts.
+    unit: Option<usize>,
     /// By rows of what acts: whether it is of the state.
     rows: Vec<bool>,
     /// Displacements by coordinates.
@@ -126,21 +130,61 @@ impl Engine {
             true => Some(Acting::of_model(&at).ok()?),
             false => None,
         };
-        let states = 0..seen.recovery.floors.len();
-        states
-            .map(|state| {
-                seen.displace(state, room);
-                seen.transmit(state, room, at.size)
-                    .then(|| seen.gather(state, &at, acting.as_deref(), room))?
-            })
-            .collect()
+        room.unit = None;
+        let states = seen.recovery.floors.iter().enumerate();
+        let states = states.map(|(state, floor)| {
+            let first = place_of_displacement(state);
+            let output = Vector6::from_fn(|k, _| buffers.result(first + k, lane));
+            let acting = acting.as_ref().map(|acting| &acting[state]);
+            seen.state(&at, &output, &program.states[state], (acting, floor), room)
+        });
+        states.collect()
+    }
+
+    /// The same under a unit of each component of a wrench on the output, where that is asked for.
+    pub(super) fn units(
+        &mut self,
+        model: &Model,
+        geometry: &Geometry,
+        lane: usize,
+    ) -> Option<[Forces; 6]> {
+        let compliance = inverse(&self.found(lane).stiffness?, SUSPICIOUS_PIVOT)?;
+        let Self {
+            program,
+            buffers,
+            room,
+        } = self;
+        let seen = Seen {
+            recovery: program.recovery.as_ref()?,
+            program,
+            buffers,
+            lane,
+        };
+        let at = Posture::new(model, geometry);
+        let floors = seen.recovery.units.as_ref()?;
+        let units = floors.iter().zip(compliance.column_iter()).enumerate();
+        let units = units.map(|(k, (floor, moved))| {
+            room.unit = Some(k);
+            seen.state(&at, &moved.into_owned(), &[], (None, floor), room)
+        });
+        let units: Option<Vec<Forces>> = units.collect();
+        units?.try_into().ok()
     }
 }
 
 impl Seen<'_> {
-    /// Columns that make up a state.
-    fn columns(&self, state: usize) -> &[usize] {
-        &self.program.states[state]
+    /// What joints and segments carry where columns of what acts move the output so far.
+    fn state(
+        &self,
+        at: &Posture<'_>,
+        output: &Vector6<f64>,
+        columns: &[usize],
+        (acting, floor): (Option<&Acting>, &Floor),
+        room: &mut ForceRoom,
+    ) -> Option<Forces> {
+        self.displace(output, columns, room);
+        let trusted = self.transmit(columns, at.size, room);
+        trusted.then(|| self.gather(at, columns, (acting, floor), room))?
     }
 
     fn input(&self, place: usize) -> Vector3<f64> {
@@ -165,7 +209,7 @@ impl Seen<'_> {
     }
 
     /// Finds the displacements of all coordinates.
-    fn displace(&self, state: usize, room: &mut ForceRoom) {
+    fn displace(&self, moved: &Vector6<f64>, columns: &[usize], room: &mut ForceRoom) {
         let Program {
             fronts,
             coordinates,
@@ -174,15 +218,14 @@ impl Seen<'_> {
         } = self.program;
         room.rows.clear();
         room.rows.resize(fronts.rows, false);
-        let rows = self.columns(state).iter();
+        let rows = columns.iter();
         for row in rows.filter_map(|column| self.program.rows[*column]) {
             room.rows[row] = true;
         }
         room.moved.clear();
         room.moved.resize(*coordinates, 0.0);
         for k in 0..6 {
-            let place = place_of_displacement(state) + k;
-            room.moved[output + k] = self.buffers.result(place, self.lane);
+            room.moved[output + k] = moved[k];
         }
         room.relative.clone_from(&room.moved);
         let panel = self.buffers.of(&self.buffers.kept, self.lane);
@@ -232,7 +275,7 @@ impl Seen<'_> {
     }
 
     /// Finds the wrenches in all chains; whether they are to be trusted.
-    fn transmit(&self, state: usize, room: &mut ForceRoom, size: f64) -> bool {
+    fn transmit(&self, columns: &[usize], size: f64, room: &mut ForceRoom) -> bool {
         room.balance.clear();
         room.balance.resize(self.program.coordinates, [0.0; 2]);
         room.cuts.clear();
@@ -240,7 +283,7 @@ impl Seen<'_> {
         room.origins.clear();
         let (mut largest, mut doubt) = (0.0_f64, 0.0_f64);
         for (k, chain) in self.recovery.chains.iter().enumerate() {
-            let [force, lost] = self.add_chain(k, chain, state, room);
+            let [force, lost] = self.add_chain(k, chain, columns, room);
             largest = largest.max(force);
             doubt = doubt.max(lost);
         }
@@ -249,6 +292,9 @@ impl Seen<'_> {
             *sum += force;
             *terms += force.abs();
         };
+        if let Some(k) = room.unit {
+            add(self.program.output + k, -1.0);
+        }
         for spring in &self.program.springs {
             let [a, b] = spring.coordinates;
             add(a, spring.stiffness * room.moved[b]);
@@ -257,7 +303,7 @@ impl Seen<'_> {
             }
         }
         let own = self.program.loads.iter();
-        for load in own.filter(|load| self.columns(state).contains(&load.column)) {
+        for load in own.filter(|load| columns.contains(&load.column)) {
             let wrench = self.act(load.act).carried(&self.arm(load.node.arm));
             self.work(&load.node, &wrench.turned_back(), &mut add);
         }
@@ -287,7 +333,7 @@ impl Seen<'_> {
         &self,
         element: usize,
         own: &KeptChain,
-        state: usize,
+        columns: &[usize],
         room: &mut ForceRoom,
     ) -> [f64; 2] {
         let Kind::Chain(chain) = &self.program.elements[element].kind else {
@@ -296,7 +342,6 @@ impl Seen<'_> {
         let layout = own.layout;
         let all = self.buffers.of(&self.buffers.kept, self.lane);
         let kept = |k: usize| all(own.start + k);
-        let columns = self.columns(state);
         let acting = self.program.elements[element].columns.iter().enumerate();
         let acting = acting.filter(|(_, column)| columns.contains(column));
         let acting = acting.map(|(number, _)| layout.column(number));
@@ -424,15 +469,14 @@ impl Seen<'_> {
     /// What all joints and segments carry.
     fn gather(
         &self,
-        state: usize,
         at: &Posture<'_>,
-        acting: Option<&[Acting]>,
+        columns: &[usize],
+        (acting, floor): (Option<&Acting>, &Floor),
         room: &ForceRoom,
     ) -> Option<Forces> {
         let Posture {
             model, geometry, ..
         } = *at;
-        let floor = &self.recovery.floors[state];
         let mut segments = Vec::with_capacity(self.recovery.segments.len());
         for (k, own) in self.recovery.segments.iter().enumerate() {
             let id = SegmentId(k);
@@ -449,7 +493,7 @@ impl Seen<'_> {
             let origin = room.origins[own.element];
             let at_point = |point| rotate_vector6(&cut.carried(&(origin - point)).six(), &to_own);
             let mut ends = [-at_point(points[0]), at_point(points[1])];
-            let load = acting.and_then(|acting| acting[state].on_segment(id).copied());
+            let load = acting.and_then(|acting| acting.on_segment(id).copied());
             if let Some(load) = &load {
                 ends[0] -= load.resultant(length);
             }
@@ -474,7 +518,7 @@ impl Seen<'_> {
             }
             for (load, sign) in &own.loads {
                 let load = &self.recovery.loads[*load];
-                if self.columns(state).contains(&load.column) {
+                if columns.contains(&load.column) {
                     let arm = geometry.positions[load.node.0].coords - point;
                     let wrench = self.act(load.act).carried(&arm);
                     sum.force += wrench.force * *sign;
@@ -496,6 +540,7 @@ impl Seen<'_> {
         Some(Forces {
             joint_wrenches: joint_wrenches.into_iter().map(Some).collect(),
             segments,
+            floor: *floor,
         })
     }
 }

@@ -38,6 +38,19 @@ use crate::plan::workspace::Workspace;
 /// promised: of 210 600 states of 10 666 random mechanisms the largest error below this was 5.0e-12.
 const TRUSTED: f64 = 5e-13;
 
+/// What lanes find at a pose beside the output's stiffness and displacements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+#[non_exhaustive]
+pub enum Beside {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// What joints and segments carry in every state: [`Prepared::forces`](crate::Prepared::forces).
+    Forces,
+    /// That, and what budgets are made of: [`Prepared::budgets`](crate::Prepared::budgets).
+    Budgets,
+}
+
 /// One thread's poses and buffers; made by [`Prepared::lanes`](crate::Prepared::lanes).
 #[derive(Debug)]
 pub struct Lanes {
@@ -50,6 +63,8 @@ pub struct Lanes {
     engine: Option<Engine>,
     /// By poses: what joints and segments carry, where it is asked for and the lanes found it.
     forces: [Option<Vec<Forces>>; LANES],
+    /// The same under a unit of each component of a wrench on the output.
+    units: [Option<[Forces; 6]>; LANES],
     /// Poses that went one by one, and those whose forces did.
     one_by_one: u64,
     recovered_one_by_one: u64,
@@ -76,9 +91,9 @@ impl WithSimd for Width {
 
 impl Plan {
     /// Poses and buffers for one thread, for the model that the plan was made for. The poses are in the
-    /// model's configuration. With `forces`, what joints and segments carry is found too.
-    pub(crate) fn lanes(&self, model: &Model, forces: bool) -> Lanes {
-        self.lanes_on(model, Arch::new(), forces)
+    /// model's configuration.
+    pub(crate) fn lanes(&self, model: &Model, beside: Beside) -> Lanes {
+        self.lanes_on(model, Arch::new(), beside)
     }
 
     /// The same for poses that all go through `Plan::sweep`, one by one.
@@ -86,9 +101,9 @@ impl Plan {
         self.lanes_with(model, Arch::new(), None)
     }
 
-    fn lanes_on(&self, model: &Model, arch: Arch, forces: bool) -> Lanes {
+    fn lanes_on(&self, model: &Model, arch: Arch, beside: Beside) -> Lanes {
         let width = arch.dispatch(Width).min(LANES);
-        let program = Program::new(self, model, model.geometry(), forces);
+        let program = Program::new(self, model, model.geometry(), beside);
         let engine = program.map(|mut program| {
             let mut inputs = vec![0.0; 3 * program.inputs.len()];
             program.inputs.read(model, &[model.geometry()], &mut inputs);
@@ -112,6 +127,7 @@ impl Plan {
             arch,
             engine,
             forces: [const { None }; LANES],
+            units: [const { None }; LANES],
             one_by_one: 0,
             recovered_one_by_one: 0,
         }
@@ -137,7 +153,7 @@ impl Plan {
         if let Some(error) = foreign {
             return filled.map(|filled| filled.then(|| Err(error.clone())));
         }
-        lanes.forces = [const { None }; LANES];
+        lanes.forget();
         let mut taken = filled;
         for (pose, taken) in taken.iter_mut().enumerate().filter(|(_, taken)| **taken) {
             if let Err(error) = model.check_geometry(&lanes.geometries[pose], self.one_point) {
@@ -163,6 +179,9 @@ impl Plan {
                         results[pose] = Some(Ok(engine.found(lane)));
                         let geometry = &lanes.geometries[pose];
                         lanes.forces[pose] = engine.forces(model, geometry, lane);
+                        if lanes.forces[pose].is_some() {
+                            lanes.units[pose] = engine.units(model, geometry, lane);
+                        }
                     }
                 }
             }
@@ -184,14 +203,26 @@ impl Lanes {
     /// # Panics
     /// If `pose` is not below [`LANES`].
     pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
-        self.forces[pose] = None;
+        (self.forces[pose], self.units[pose]) = (None, None);
         &mut self.geometries[pose]
     }
 
     /// The configurations of all poses, to be changed.
     pub fn geometries_mut(&mut self) -> &mut [Geometry; LANES] {
-        self.forces = [const { None }; LANES];
+        self.forget();
         &mut self.geometries
+    }
+
+    fn forget(&mut self) {
+        self.forces = [const { None }; LANES];
+        self.units = [const { None }; LANES];
+    }
+
+    /// What joints and segments carry at a pose in every state, and under a unit of each component of a wrench
+    /// on the output, with its geometry, where the lanes found both.
+    pub(crate) fn found(&mut self, pose: usize) -> Option<(Vec<Forces>, [Forces; 6], &Geometry)> {
+        let units = self.units[pose].take()?;
+        Some((self.forces[pose].take()?, units, &self.geometries[pose]))
     }
 
     /// What joints and segments carry at a pose that was swept: as the lanes found it, else by the numeric

@@ -15,7 +15,7 @@ use nalgebra::{DMatrix, Matrix6, Point3, Rotation3, Vector3, Vector6};
 use super::pass::{ERROR, displacement, displacement_error};
 use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
-use crate::lanes::Lanes;
+use crate::lanes::{Beside, Lanes};
 use crate::plan::Plan;
 
 /// Mechanisms.
@@ -239,7 +239,7 @@ fn wherever_the_lanes_answer_random_mechanisms_agree() {
         let Ok(plan) = Plan::new(&model) else {
             continue;
         };
-        let (mut lanes, mut workspace) = (plan.lanes(&model, false), plan.workspace());
+        let (mut lanes, mut workspace) = (plan.lanes(&model, Beside::Nothing), plan.workspace());
         let Some(engine) = &lanes.engine else {
             continue;
         };
@@ -498,11 +498,7 @@ fn apart(found: &[Forces], expected: &[Forces], model: &Model, geometry: &Geomet
     let mut most = 0.0_f64;
     for (found, expected) in found.iter().zip(expected) {
         let known = |w: &Option<Vector6<f64>>| w.is_some();
-        assert!(
-            expected.joint_wrenches.iter().all(known),
-            "{}",
-            model.name
-        );
+        assert!(expected.joint_wrenches.iter().all(known), "{}", model.name);
         for (found, expected) in found.segments.iter().zip(&expected.segments) {
             assert_eq!(found.load, expected.load);
             assert_eq!(found.frame, expected.frame);
@@ -536,7 +532,7 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         let Ok(plan) = Plan::new(&model) else {
             continue;
         };
-        let (mut lanes, mut workspace) = (plan.lanes(&model, true), plan.workspace());
+        let (mut lanes, mut workspace) = (plan.lanes(&model, Beside::Forces), plan.workspace());
         if lanes.engine.is_none() {
             continue;
         }

@@ -3,7 +3,7 @@
 use hyperstat_model::{Geometry, LANES, Model};
 use pulp::Arch;
 
-use super::Lanes;
+use super::{Beside, Lanes};
 use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 use crate::plan::Plan;
@@ -16,10 +16,10 @@ pub struct Single {
 
 impl Plan {
     /// A pose and its buffers, for the model that the plan was made for. The pose is in the model's
-    /// configuration. With `forces`, what joints and segments carry is found too.
-    pub(crate) fn single(&self, model: &Model, forces: bool) -> Single {
+    /// configuration.
+    pub(crate) fn single(&self, model: &Model, beside: Beside) -> Single {
         Single {
-            lanes: self.lanes_on(model, narrow(), forces),
+            lanes: self.lanes_on(model, narrow(), beside),
         }
     }
 
@@ -45,6 +45,7 @@ impl Plan {
             engine.solve(model, &[geometry; LANES][..width], lanes.arch);
             if let Some(result) = engine.result(0) {
                 lanes.forces[0] = engine.forces(model, geometry, 0);
+                lanes.units[0] = engine.units(model, geometry, 0);
                 return Ok(result);
             }
         }
@@ -59,7 +60,8 @@ impl Single {
         self.lanes.geometry_mut(0)
     }
 
-    pub(crate) fn lanes_mut(&mut self) -> &mut Lanes {
+    /// The lanes whose pose 0 it is.
+    pub fn lanes_mut(&mut self) -> &mut Lanes {
         &mut self.lanes
     }
 

@@ -7,6 +7,7 @@ use hyperstat_model::{Connection, Geometry, JointStiffness, LANES, LoadCase, Loa
 use nalgebra::{DMatrix, Point3, Rotation3, Vector3, Vector6};
 use pulp::{Arch, Simd, WithSimd};
 
+use super::Beside;
 use super::pass::factor::{Matrix, eliminate};
 use crate::answer::pose_result::PoseResult;
 use crate::plan::Plan;
@@ -126,7 +127,7 @@ fn every_register_gives_what_the_one_by_one_path_gives() {
     let mut workspace = plan.workspace();
     let poses = poses(&model);
     for arch in archs() {
-        let mut lanes = plan.lanes_on(&model, arch, true);
+        let mut lanes = plan.lanes_on(&model, arch, Beside::Forces);
         assert!(lanes.is_parallel());
         for (lane, pose) in poses.iter().enumerate() {
             lanes.geometry_mut(lane).clone_from(pose);
@@ -200,7 +201,7 @@ fn a_bar_that_only_the_ground_holds_is_left_out() {
             model.add_load(node, wrench).expect("a load");
         }
         let plan = Plan::new(&model).expect("a plan");
-        let mut lanes = plan.lanes(&model, false);
+        let mut lanes = plan.lanes(&model, Beside::Nothing);
         assert_eq!(lanes.is_parallel(), is_parallel, "{moment:?}");
         let results = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
         let expected = plan.sweep(&model, model.geometry(), &mut plan.workspace());
@@ -219,7 +220,7 @@ fn a_spoilt_pose_leaves_the_others_as_they_are() {
     let model = portal();
     let plan = Plan::new(&model).expect("a plan");
     let poses = poses(&model);
-    let mut lanes = plan.lanes(&model, false);
+    let mut lanes = plan.lanes(&model, Beside::Nothing);
     for (lane, pose) in poses.iter().enumerate() {
         lanes.geometry_mut(lane).clone_from(pose);
     }
@@ -304,7 +305,7 @@ fn very_many_cases_within_the_mechanism_go_one_by_one() {
             model.add_case(LoadCase { name, loads }).expect("a case");
         }
         let plan = Plan::new(&model).expect("a plan");
-        let mut lanes = plan.lanes(&model, false);
+        let mut lanes = plan.lanes(&model, Beside::Nothing);
         assert_eq!(lanes.is_parallel(), is_parallel, "{cases}");
         let [found, ..] = plan.sweep_lanes(&model, &mut lanes, [true; LANES]);
         let found = found.expect("a filled lane").expect("a result");

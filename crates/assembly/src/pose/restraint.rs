@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use hyperstat_model::{BodyId, Geometry, Model, NodeId};
-use nalgebra::{DMatrix, DVector, Matrix6, Vector6};
+use nalgebra::{Cholesky, DMatrix, DVector, Matrix6, Vector6};
 
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
@@ -341,6 +341,24 @@ fn orthonormal(vectors: Vec<Vector6<f64>>) -> Vec<Vector6<f64>> {
 
 /// Pivots of the scaled output stiffness below this ask for a look at the mechanism's freedom.
 pub(crate) const SUSPICIOUS_PIVOT: f64 = 1e-9;
+
+/// Inverse of a symmetric matrix scaled to a unit diagonal; `None` where a pivot is not above
+/// `least` (or zero).
+pub(crate) fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
+    let scale = matrix.diagonal().map(f64::sqrt);
+    if !scale.iter().all(|s| *s > 0.0 && s.is_finite()) {
+        return None;
+    }
+    let unit = Matrix6::from_fn(|r, c| matrix[(r, c)] / (scale[r] * scale[c]));
+    let factor = Cholesky::new(unit)?;
+    if factor.l_dirty().diagonal().iter().any(|p| p * p <= least) {
+        return None;
+    }
+    let inverse = factor.inverse();
+    Some(Matrix6::from_fn(|r, c| {
+        inverse[(r, c)] / (scale[r] * scale[c])
+    }))
+}
 
 /// Length scale of a component: the mechanism's size for translations, 1 for rotations.
 pub(crate) fn scale_of(component: usize, size: f64) -> f64 {

@@ -6,7 +6,8 @@ use hyperstat_joints::Dof;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::influence::{Influence, UnitState};
-use crate::answer::measures::compliance_along;
+use crate::answer::forces::Forces;
+use crate::answer::measures::{compliance_along, principal};
 use crate::answer::solution::Solution;
 use hyperstat_model::{BodyId, JointId};
 
@@ -96,6 +97,26 @@ impl Influence<'_> {
             .floor
             .rounding_along(&solution.output.displacement, along);
         self.budget_of(&self.state(solution), total, along, misfits, rounding)
+    }
+
+    /// The budget of a pose's state, which moves the output so, in that way; where it does not move it, that
+    /// of the compliance along the softest force.
+    pub(crate) fn pose_budget(
+        &self,
+        displacement: &Vector6<f64>,
+        forces: &Forces,
+        compliance: &Matrix6<f64>,
+    ) -> Budget {
+        let Some(along) = Budget::direction_of(displacement) else {
+            let softest =
+                principal(&compliance.fixed_view::<3, 3>(0, 0).into_owned()).directions[2];
+            let along = Vector6::new(softest.x, softest.y, softest.z, 0.0, 0.0, 0.0);
+            return self.compliance_budget(compliance, &along);
+        };
+        let rounding = forces.floor.rounding_along(displacement, &along);
+        let loaded = self.state_under(&[], &forces.joint_wrenches, &forces.segments);
+        let total = displacement.dot(&along);
+        self.budget_of(&loaded, total, &along, self.misfit_parts(&along), rounding)
     }
 
     /// The budget of the compliance along a unit wrench: of the displacement along it that it

@@ -8,6 +8,7 @@ use hyperstat_joints::{Dof, DofSet};
 use hyperstat_model::{Directions, Geometry, JointId, LoadSet, Model, NodeId, SegmentId};
 use nalgebra::{DVector, Matrix6, Vector6};
 
+use crate::answer::forces::Forces;
 use crate::answer::solution::{SegmentForces, Solution, State as Displaced};
 use crate::error::SolveError;
 use crate::posture::{PlacedBeam, Posture};
@@ -92,14 +93,35 @@ impl<'m> Influence<'m> {
         Ok(influence)
     }
 
+    /// From what joints and segments carry under those loads, of a mechanism whose joints' wrenches are all
+    /// determined and whose bodies are all of beams or rigid.
+    pub(crate) fn of_forces(
+        model: &'m Model,
+        geometry: &'m Geometry,
+        units: &[Forces; 6],
+    ) -> Result<Self, SolveError> {
+        let mut influence = Self::new(model, geometry, &Posture::new(model, geometry), Vec::new())?;
+        for (k, unit) in units.iter().enumerate() {
+            influence.units[k] = influence.state_of(&[], &unit.joint_wrenches, &unit.segments);
+        }
+        Ok(influence)
+    }
+
     /// The state of a solution of this model, under any loads: what the springs of its joints
     /// themselves take and give, apart from preloads and misfits.
     pub(crate) fn state(&self, solution: &Solution) -> UnitState {
-        let mut state = self.state_of(
-            &solution.displacements,
-            &solution.joint_wrenches,
-            &solution.segments,
-        );
+        let wrenches = &solution.joint_wrenches;
+        self.state_under(&solution.displacements, wrenches, &solution.segments)
+    }
+
+    /// The same from what is known of it; without displacements as [`Influence::of_forces`].
+    pub(crate) fn state_under(
+        &self,
+        displacements: &[Vector6<f64>],
+        wrenches: &[Option<Vector6<f64>>],
+        segments: &[SegmentForces],
+    ) -> UnitState {
+        let mut state = self.state_of(displacements, wrenches, segments);
         for entry in self.model.misfits() {
             let JointId(k) = entry.joint;
             let directions = &self.joints[k].directions;

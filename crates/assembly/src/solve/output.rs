@@ -1,7 +1,7 @@
 //! The output: its stiffness, compliance and displacements, from the condensed columns.
 
 use hyperstat_model::Geometry;
-use nalgebra::{Cholesky, DMatrix, Matrix6, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector6};
 
 use crate::answer::solution::Output;
 use crate::error::SolveError;
@@ -10,7 +10,7 @@ use crate::plan::blocks::{read, shift};
 use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::condense::UNITS;
 use crate::pose::node_displacement;
-use crate::pose::restraint::{Restraint, scale_of, scaled};
+use crate::pose::restraint::{Restraint, inverse, scale_of, scaled};
 use crate::rank::dense::Elimination;
 use crate::rank::echelon::echelon;
 
@@ -240,22 +240,4 @@ impl Plan {
 /// A twist with translations over `size`, in metres again.
 fn unscaled(twist: &Vector6<f64>, size: f64) -> Vector6<f64> {
     Vector6::from_fn(|k, _| twist[k] * scale_of(k, size))
-}
-
-/// Inverse of a symmetric matrix scaled to a unit diagonal; `None` where a pivot is not above
-/// `least` (or zero).
-pub(crate) fn inverse(matrix: &Matrix6<f64>, least: f64) -> Option<Matrix6<f64>> {
-    let scale = matrix.diagonal().map(f64::sqrt);
-    if !scale.iter().all(|s| *s > 0.0 && s.is_finite()) {
-        return None;
-    }
-    let unit = Matrix6::from_fn(|r, c| matrix[(r, c)] / (scale[r] * scale[c]));
-    let factor = Cholesky::new(unit)?;
-    if factor.l_dirty().diagonal().iter().any(|p| p * p <= least) {
-        return None;
-    }
-    let inverse = factor.inverse();
-    Some(Matrix6::from_fn(|r, c| {
-        inverse[(r, c)] / (scale[r] * scale[c])
-    }))
 }

@@ -3,7 +3,6 @@
 use hyperstat_model::{Geometry, Model};
 use nalgebra::Matrix6;
 
-use super::output::inverse;
 use super::{ROUNDING, settled};
 use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
@@ -14,7 +13,7 @@ use crate::plan::fault::Fault;
 use crate::plan::workspace::{LOADS, Workspace};
 use crate::pose::evaluate;
 use crate::pose::recover::recover;
-use crate::pose::restraint::{Restraint, SUSPICIOUS_PIVOT, is_nearly_free};
+use crate::pose::restraint::{Restraint, SUSPICIOUS_PIVOT, inverse, is_nearly_free};
 use crate::posture::Posture;
 use crate::state::acting::Acting;
 use crate::state::floor::Floor;

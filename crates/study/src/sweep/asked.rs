@@ -4,8 +4,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Configuration, Forces, Geometry, JointId, Model, MovingMass, PartSource, Prepared,
-    SegmentForces, Solution, SolveError, worst_stress,
+    Beside, Budget, Configuration, Forces, Geometry, JointId, Model, MovingMass, PartSource,
+    Prepared, SegmentForces, Solution, SolveError, worst_stress,
 };
 use hyperstat_joints::Dof;
 use hyperstat_mechanisms::Job;
@@ -43,12 +43,16 @@ pub(super) struct Found<'f> {
     pub(super) drives: Option<&'f [f64]>,
     /// Natural frequencies.
     pub(super) frequencies: &'f [Cell],
-    /// What joints and segments carry under the loads, then in every case, where it is known.
-    pub(super) forces: Option<&'f [Forces]>,
+    /// What joints and segments carry and the budgets under the loads, then in every case, where they are
+    /// known.
+    pub(super) carried: Option<&'f Carried>,
 }
 
+/// What joints and segments carry in every state, and the budgets where these are asked for.
+pub(super) type Carried = (Vec<Forces>, Vec<Budget>);
+
 /// Wrenches in joints and forces of segments.
-type Carried<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
+type OfState<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
 
 impl Asked {
     /// Those of a job; `None` where it asks for none.
@@ -68,15 +72,14 @@ impl Asked {
         }))
     }
 
-    /// Whether forces are asked for, and nothing that needs more of a solution.
-    pub(super) fn needs_forces(&self) -> bool {
-        self.groups.iter().any(Group::is_solved) && !self.needs_solution()
-    }
-
-    /// Whether a whole solution is asked for.
-    fn needs_solution(&self) -> bool {
-        let asks = |group: &Group| matches!(group, Group::Budget(_));
-        self.groups.iter().any(asks)
+    /// What lanes have to find beside the output.
+    pub(super) fn beside(&self) -> Beside {
+        let of = |group: &Group| match group {
+            Group::Budget(_) => Beside::Budgets,
+            group if group.is_solved() => Beside::Forces,
+            _ => Beside::Nothing,
+        };
+        self.groups.iter().map(of).max().unwrap_or_default()
     }
 
     /// Whether values of drives are asked for.
@@ -92,14 +95,14 @@ impl Asked {
     pub(super) fn add(&self, found: &Found<'_>, cells: &mut Vec<Cell>) -> Result<(), SolveError> {
         let here;
         let solution;
-        let (states, solved): (Vec<Carried<'_>>, _) = match found.forces {
-            Some(forces) => {
+        let (states, solved): (Vec<OfState<'_>>, _) = match found.carried {
+            Some((forces, _)) => {
                 let own = forces
                     .iter()
                     .map(|own| (&*own.joint_wrenches, &*own.segments));
                 (own.collect(), None)
             }
-            None if self.needs_solution() => {
+            None if self.beside() == Beside::Budgets => {
                 here = found.prepared.at(found.geometry)?;
                 solution = here.solve()?;
                 let cases = solution.cases.iter().map(|case| &case.state);
@@ -127,9 +130,12 @@ impl Asked {
                 Group::Frequencies(0) => {}
                 Group::Frequencies(_) => cells.extend_from_slice(found.frequencies),
                 Group::Budget(parts) => {
-                    if let Some((here, solution)) = solved {
-                        self.add_shares(parts, here, solution, cells)?;
-                    }
+                    let budgets = match (found.carried, solved) {
+                        (Some((_, budgets)), _) => Cow::Borrowed(budgets),
+                        (None, Some((here, solution))) => Cow::Owned(budgets(here, solution)?),
+                        (None, None) => continue,
+                    };
+                    self.add_shares(parts, found.prepared.model(), &budgets, cells);
                 }
                 _ => self.add_forces(group, found.prepared.model(), &states, cells),
             }
@@ -147,7 +153,7 @@ impl Asked {
         &self,
         group: &Group,
         model: &Model,
-        states: &[Carried<'_>],
+        states: &[OfState<'_>],
         cells: &mut Vec<Cell>,
     ) {
         for (wrenches, segments) in states {
@@ -201,50 +207,51 @@ impl Asked {
         }
     }
 
-    /// Adds the shares in the deflection under the loads, then in every case.
+    /// Adds the shares in the deflection under the loads, then in every case; empty where the output moves
+    /// freely and there are no `budgets`.
     fn add_shares(
         &self,
         parts: &[String],
-        here: &Configuration<'_>,
-        solution: &Solution,
+        model: &Model,
+        budgets: &[Budget],
         cells: &mut Vec<Cell>,
-    ) -> Result<(), SolveError> {
-        let model = here.model();
-        let free = solution.output.compliance.is_none();
-        if free {
-            let count = (1 + self.cases) * (parts.len() + DEFORMATIONS.len());
-            cells.extend(std::iter::repeat_n(Cell::Empty, count));
-            return Ok(());
-        }
-        let influence = here.influence()?;
+    ) {
         let name = |source: PartSource| match source {
             PartSource::Body(id) => format!("body {}", model.bodies()[id.0].name),
             PartSource::Joint(id) => format!("joint {}", model.joints()[id.0].name),
         };
-        let cases = solution.cases.iter();
-        let cases = cases.map(|case| solution.of_case(&case.name).map(Cow::Owned));
-        for state in std::iter::once(Some(Cow::Borrowed(solution))).chain(cases) {
-            let budget = state.and_then(|state| shares(model, &influence, &state));
-            let total = budget.as_ref().map(|budget| budget.total);
-            let share = |sum: f64| total.filter(|total| *total != 0.0).map(|total| sum / total);
-            let by_part: Vec<(String, f64)> = (budget.iter())
-                .flat_map(|budget| budget.by_source())
-                .map(|(source, sum)| (name(source), sum))
-                .collect();
-            let by_deformation: Vec<_> = (budget.iter())
-                .flat_map(|budget| budget.by_deformation())
-                .collect();
+        for budget in budgets {
+            let total = Some(budget.total).filter(|total| *total != 0.0);
+            let share = |sum: f64| Cell::from(total.map(|total| sum / total));
+            let by_part = budget.by_source().into_iter();
+            let by_part: Vec<_> = by_part.map(|(part, sum)| (name(part), sum)).collect();
+            let by_deformation = budget.by_deformation();
             cells.extend(parts.iter().map(|part| {
                 let own = by_part.iter().find(|(name, _)| name == part);
-                Cell::from(share(own.map_or(0.0, |(_, sum)| *sum)))
+                share(own.map_or(0.0, |(_, sum)| *sum))
             }));
             cells.extend(DEFORMATIONS.iter().map(|(kind, _)| {
                 let own = by_deformation.iter().find(|(own, _)| own == kind);
-                Cell::from(share(own.map_or(0.0, |(_, sum)| *sum)))
+                share(own.map_or(0.0, |(_, sum)| *sum))
             }));
         }
-        Ok(())
+        let missing = (1 + self.cases).saturating_sub(budgets.len());
+        let count = missing * (parts.len() + DEFORMATIONS.len());
+        cells.extend(std::iter::repeat_n(Cell::Empty, count));
     }
+}
+
+/// The budgets of the deflection under the loads, then in every case; none where the output moves freely.
+fn budgets(here: &Configuration<'_>, solution: &Solution) -> Result<Vec<Budget>, SolveError> {
+    if solution.output.compliance.is_none() {
+        return Ok(Vec::new());
+    }
+    let influence = here.influence()?;
+    let cases = solution.cases.iter();
+    let cases = cases.map(|case| solution.of_case(&case.name).map(Cow::Owned));
+    let states = std::iter::once(Some(Cow::Borrowed(solution))).chain(cases);
+    let found = states.map(|state| shares(here.model(), &influence, &*state?));
+    Ok(found.map_while(|budget| budget).collect())
 }
 
 /// Adds every measure, then those of every case.

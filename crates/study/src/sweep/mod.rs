@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Forces, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
+    Beside, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
 };
 use hyperstat_mechanisms::{Design, Job, Placing};
 
@@ -23,7 +23,7 @@ use crate::error::StudyError;
 pub use crate::schema::Columns;
 use crate::schema::{self, Group};
 use crate::source::Written;
-use asked::Asked;
+use asked::{Asked, Carried};
 pub use chunk::{Chunk, Row};
 pub use poser::Poser;
 pub use record::{Cell, Failure, Found, Held, NUMBERS, Record, UPPER};
@@ -206,8 +206,7 @@ impl<'a> Sweep<'a> {
         };
         let ready = planned.and_then(|planned| {
             let lanes = match self.way {
-                Way::Lanes if planned.asks_forces() => planned.prepared.lanes_with_forces()?,
-                Way::Lanes => planned.prepared.lanes()?,
+                Way::Lanes => planned.prepared.lanes_beside(planned.beside())?,
                 Way::OneByOne => planned.prepared.lanes_one_by_one()?,
             };
             Ok((planned, lanes))
@@ -291,28 +290,42 @@ impl Planned {
         }
     }
 
-    /// Whether forces are asked for at a pose of this result.
-    fn needs_forces(&self, result: &Result<PoseResult, SolveError>) -> bool {
-        let held = matches!(result, Ok(found) if found.displacement.is_some());
-        held && self.asks_forces()
+    /// What lanes have to find beside the output.
+    fn beside(&self) -> Beside {
+        self.asked.as_ref().map_or(Beside::Nothing, Asked::beside)
     }
 
-    /// Whether forces are asked for at every pose.
-    fn asks_forces(&self) -> bool {
-        self.asked.as_ref().is_some_and(Asked::needs_forces)
+    /// What joints and segments carry at a pose of this result, with the budgets where these are asked for;
+    /// `None` where nothing of it is asked for, and where a whole solution is needed for it.
+    fn carried(
+        &self,
+        lanes: &mut Lanes,
+        pose: usize,
+        result: &Result<PoseResult, SolveError>,
+    ) -> Option<Result<Carried, SolveError>> {
+        let found = result.as_ref().ok()?;
+        found.displacement?;
+        match self.beside() {
+            Beside::Forces => {
+                let forces = self.prepared.forces(lanes, pose);
+                Some(forces.map(|forces| (forces, Vec::new())))
+            }
+            Beside::Budgets => self.prepared.budgets(lanes, pose, found).transpose(),
+            _ => None,
+        }
     }
 
     /// What is found in a configuration that a solution is known of, with the values of its drives and the
-    /// forces of every state, where they are.
+    /// forces and budgets of every state, where they are.
     fn found(
         &self,
         solved: Result<PoseResult, SolveError>,
         geometry: &Geometry,
         drives: Option<&[f64]>,
-        forces: Option<Result<Vec<Forces>, SolveError>>,
+        carried: Option<Result<Carried, SolveError>>,
     ) -> Result<Found, Failure> {
         let solved = solved?;
-        let forces = forces.transpose();
+        let carried = carried.transpose();
         let displacements = solved.displacement.into_iter();
         let displacements = match self.asked {
             Some(_) => displacements.chain(solved.cases.iter().copied()).collect(),
@@ -326,9 +339,9 @@ impl Planned {
             let Some(asked) = &self.asked else {
                 return Ok(());
             };
-            let forces = forces.as_ref().map_err(Clone::clone)?;
+            let carried = carried.as_ref().map_err(Clone::clone)?;
             let found = asked::Found {
-                forces: forces.as_deref(),
+                carried: carried.as_ref(),
                 prepared: &self.prepared,
                 geometry,
                 stiffness: stiffness.as_ref(),
@@ -412,12 +425,10 @@ impl Solver {
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
-                        let forces = planned
-                            .needs_forces(&result)
-                            .then(|| planned.prepared.forces(lanes, lane));
+                        let carried = planned.carried(lanes, lane, &result);
                         let drives = self.placing.drives(lane);
                         let geometry = lanes.geometry_mut(lane);
-                        let result = planned.found(result, geometry, drives, forces);
+                        let result = planned.found(result, geometry, drives, carried);
                         records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),

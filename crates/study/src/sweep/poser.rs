@@ -58,10 +58,7 @@ impl Study {
         let failed = |prepared: &Prepared, error| self.source().unsolvable(&prepared.here(), error);
         let planned = Planned::of(Prepared::new(model), self.whole_job());
         let planned = planned.map_err(|made| failed(&made.0, made.1))?;
-        let single = match planned.asks_forces() {
-            true => planned.prepared.single_with_forces(),
-            false => planned.prepared.single(),
-        };
+        let single = planned.prepared.single_beside(planned.beside());
         let single = single.map_err(|error| failed(&planned.prepared, error))?;
         let mut placing = placing();
         planned.prepare(&mut placing);
@@ -103,11 +100,9 @@ impl Poser {
         match design.bring(target, single.geometry_mut(), placing) {
             Ok(pose) => {
                 let solved = planned.prepared.sweep_single(single);
-                let forces = planned
-                    .needs_forces(&solved)
-                    .then(|| planned.prepared.forces_single(single));
+                let carried = planned.carried(single.lanes_mut(), 0, &solved);
                 let drives = placing.drives(0);
-                let found = planned.found(solved, single.geometry_mut(), drives, forces);
+                let found = planned.found(solved, single.geometry_mut(), drives, carried);
                 Record::reached(pose, found)
             }
             Err(error) => Record {

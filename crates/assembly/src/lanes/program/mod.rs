@@ -26,6 +26,7 @@ pub(crate) mod series;
 
 use hyperstat_model::{Geometry, JointId, Model, characteristic_length};
 
+use super::Beside;
 use super::program::acts::Acts;
 use super::program::columns::{Brought, Columns};
 use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
@@ -88,9 +89,9 @@ pub(crate) struct Program {
 impl Program {
     /// The program of a plan; `None` where the lanes do not take it: loops of rigid bodies whose
     /// elimination is not clear, or with misfits; motions of the output without energy; too many
-    /// coordinates, or load cases that act within the mechanism. With what is needed for `forces`, where
-    /// they are asked for.
-    pub fn new(plan: &Plan, model: &Model, geometry: &Geometry, forces: bool) -> Option<Self> {
+    /// coordinates, or load cases that act within the mechanism. With what is needed for what is asked
+    /// for beside the output.
+    pub fn new(plan: &Plan, model: &Model, geometry: &Geometry, beside: Beside) -> Option<Self> {
         let topology = Topology::new(model, geometry, plan.output, false);
         let is_misfit = |joint: &JointId| model.misfit(*joint).is_some();
         let closed = topology
@@ -229,7 +230,12 @@ impl Program {
             front.scatter = Scatter::new(front, &elements);
         }
         let seen = (&elements[..], &screws[..], &fronts);
-        let recovery = forces.then(|| Recovery::new(model, geometry, &topology, seen, wrenches));
+        let recovery = || Recovery::new(model, geometry, &topology, seen, wrenches);
+        let recovery = match beside {
+            Beside::Nothing => None,
+            Beside::Forces => recovery(),
+            Beside::Budgets => recovery().and_then(|own| own.with_units(model, geometry)),
+        };
         let blocks = elements.iter().map(Element::blocks);
         let ends = elements.iter().map(Element::ends);
         let links = elements.iter().map(Element::loaded_links);
@@ -239,7 +245,7 @@ impl Program {
             most_ends: ends.max().unwrap_or(0),
             most_links: links.max().unwrap_or(0),
             output: first,
-            recovery: recovery.flatten(),
+            recovery,
             idle: (0..unknowns).map(|c| idle.contains(&c)).collect(),
             inputs,
             screws,

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use hyperstat_model::{Geometry, JointId, Model, NodeId, SegmentId, to_directions};
+use hyperstat_model::{Geometry, JointId, LoadSet, Model, NodeId, SegmentId, to_directions};
 use nalgebra::{Rotation3, Vector6};
 
 use super::acts::Act;
@@ -42,6 +42,8 @@ pub(crate) struct Recovery {
     pub along: bool,
     /// By states: what acts, in the plan's configuration.
     pub floors: Vec<Floor>,
+    /// Of a unit of each component of a wrench on the output, where these states are asked for.
+    pub units: Option<[Floor; 6]>,
     /// By coordinates: whether it is a translation.
     pub slides: Vec<bool>,
 }
@@ -164,6 +166,7 @@ impl Recovery {
             preloads: preloads(model),
             along: acting.iter().any(|a| !a.segments().is_empty()),
             floors: acting.iter().map(|a| at_rest.under(&at, a)).collect(),
+            units: None,
             slides: vec![false; topology.coordinates],
         };
         for component in &topology.components {
@@ -188,6 +191,22 @@ impl Recovery {
         }
         recovery.place(model, topology, elements)?;
         Some(recovery)
+    }
+
+    /// With the states of units of a wrench on the output.
+    pub fn with_units(mut self, model: &Model, geometry: &Geometry) -> Option<Self> {
+        let at = Posture::new(model, geometry);
+        let at_rest = Floor::at_rest(&at);
+        let mut floors = [at_rest; 6];
+        let output = model.output()?;
+        for (floor, unit) in floors
+            .iter_mut()
+            .zip((0..6).map(|k| LoadSet::on(output, Vector6::ith(k, 1.0))))
+        {
+            *floor = at_rest.under(&at, &Acting::new(&at, &unit).ok()?);
+        }
+        self.units = Some(floors);
+        Some(self)
     }
 
     fn add_chain(&mut self, k: usize, element: &Element, chain: &Chain, fronts: &Fronts) {
