@@ -69,6 +69,8 @@ pub enum Figure {
         /// The values, in the SI unit, at which the colours begin and end, ascending; `None`: the
         /// least and the largest.
         limits: Option<[f64; 2]>,
+        /// What the limits measure, where they are given with a unit.
+        measured: Option<Dimension>,
         /// How the colours go from one to the other.
         scale: ColorScale,
         /// What is marked where it stands.
@@ -197,11 +199,13 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
                 .get("scale")
                 .map_or(Ok(ColorScale::Auto), color_scale)?;
             let limits = |at| limits(at, scale);
+            let limits = fields.get("limits").map(limits).transpose()?;
             Figure::Map {
                 value: fields.required("value")?.string()?,
                 planes: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
                 axes: fields.get("axes").map(axes).transpose()?,
-                limits: fields.get("limits").map(limits).transpose()?,
+                limits: limits.map(|(limits, _)| limits),
+                measured: limits.and_then(|(_, measured)| measured),
                 scale,
                 marks: fields.get("mark").map_or(Ok(Vec::new()), look::marks)?,
                 words: words()?,
@@ -313,7 +317,7 @@ fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
     let coordinate = coordinate(kind)?;
     let [value] = arguments.array(PLANE)?;
     let place = csv::COLUMNS.iter().position(|name| *name == coordinate);
-    let dimension = quantities::DISPLACEMENT[place.unwrap_or(0)];
+    let dimension = quantities::displacement()[place.unwrap_or(0)];
     let value = value.quantity(&format!("`{coordinate}`"), dimension)?;
     Ok((coordinate, value))
 }
@@ -347,10 +351,19 @@ fn coordinate(word: Fragment<'_>) -> Result<String, LoadError> {
         .with_help(names::help(name, "coordinates", csv::COLUMNS)))
 }
 
-/// Reads the values at which colours begin and end.
-fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadError> {
+/// Reads the values at which colours begin and end, and what they measure, if they say so.
+fn limits(
+    fragment: Fragment<'_>,
+    scale: ColorScale,
+) -> Result<([f64; 2], Option<Dimension>), LoadError> {
     let [low, high] = fragment.array("two values, such as `(1e-5, 1e-3)`")?;
-    let limits = [low.number()?, high.number()?];
+    let [first, last] = [low.measured(None)?, high.measured(None)?];
+    if let (Some(wanted), Some(other)) = (first.1, last.1)
+        && wanted != other
+    {
+        return Err(high.of_dimension("the lower limit", wanted, other));
+    }
+    let (limits, measured) = ([first.0, last.0], first.1.or(last.1));
     if limits[0] >= limits[1] {
         return Err(fragment
             .error("the colours must begin below where they end")
@@ -361,7 +374,7 @@ fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadErr
             .error("a logarithmic scale begins above zero")
             .with_help("give a lower value above zero, or `scale: Linear`"));
     }
-    Ok(limits)
+    Ok((limits, measured))
 }
 
 /// Reads how colours go with values.
