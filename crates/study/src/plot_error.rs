@@ -198,6 +198,18 @@ pub enum PlotError {
         /// What would be right.
         help: String,
     },
+    /// Limits of colours that measure something else than the quantity.
+    #[error("`limits` of `{name}` are {given}, `{name}` is {wanted}")]
+    LimitsMeasure {
+        /// The quantity.
+        name: String,
+        /// What the limits measure.
+        given: String,
+        /// What the quantity measures.
+        wanted: String,
+        /// Its unit.
+        unit: String,
+    },
     /// A plane normal to one of the axes that lie in it.
     #[error("a plane at one {axis} does not lie along {axis}")]
     AlongNormal {
@@ -315,6 +327,10 @@ impl PlotError {
             | Self::NoCoordinate { help, .. }
             | Self::NoLabel { help, .. }
             | Self::NoQuantity { help, .. } => Some(help.clone()),
+            Self::LimitsMeasure { unit, .. } => Some(match &**unit {
+                "" => "write the numbers alone".into(),
+                unit => format!("give them in {unit}, or without a unit"),
+            }),
             Self::Follows { asked, .. } => {
                 Some(format!("choose a plane of {}, or none", asked.join(", ")))
             }

@@ -2,7 +2,9 @@
 
 use hyperstat_assembly::{ModalOptions, Prepared, Solution};
 use hyperstat_figures::Extreme;
-use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Look, Mark, Noted, Scale};
+use hyperstat_mechanisms::{
+    ColorScale, Commanded, Dimension, Figure, Job, Look, Mark, Noted, Scale,
+};
 
 use super::budget::budget as budget_figure;
 use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
@@ -37,24 +39,11 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
             words(figure).1.axes().map_err(refused)?;
         }
         match figure {
-            Figure::Map { value, .. } => {
-                if Drawn::named(value, columns).is_none() {
-                    return Err(refused(PlotError::NoQuantity {
-                        name: value.clone(),
-                        help: match (&job.modes, is_frequency(value)) {
-                            (None, true) => {
-                                let count = value.trim_start_matches(['f', '0']);
-                                format!("natural frequencies need `modes: {count}` in the job")
-                            }
-                            _ => match asking_for(value) {
-                                Some(asked) => {
-                                    format!("it needs `columns: [{asked}]` in the job")
-                                }
-                                None => instead_of(value, columns),
-                            },
-                        },
-                    }));
-                }
+            Figure::Map {
+                value, measured, ..
+            } => {
+                let drawn = drawn(job, value, columns).map_err(refused)?;
+                check_limits(&drawn, *measured).map_err(refused)?;
                 let commanded = job.commanded();
                 if let Some(map) = map(job, figure, &commanded) {
                     map.check(&commanded).map_err(refused)?;
@@ -73,6 +62,39 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
         }
     }
     Ok(())
+}
+
+/// The quantity of this name, of a job whose table has these columns.
+fn drawn(job: &Job, value: &str, columns: &[String]) -> Result<Drawn, PlotError> {
+    Drawn::named(value, columns).ok_or_else(|| PlotError::NoQuantity {
+        name: value.into(),
+        help: match (&job.modes, is_frequency(value)) {
+            (None, true) => {
+                let count = value.trim_start_matches(['f', '0']);
+                format!("natural frequencies need `modes: {count}` in the job")
+            }
+            _ => match asking_for(value) {
+                Some(asked) => format!("it needs `columns: [{asked}]` in the job"),
+                None => instead_of(value, columns),
+            },
+        },
+    })
+}
+
+/// That limits which measure something measure what is drawn; of a unit that files do not know that is
+/// nothing.
+fn check_limits(drawn: &Drawn, measured: Option<Dimension>) -> Result<(), PlotError> {
+    let unit = &drawn.quantity.unit;
+    let wanted = Dimension::of_unit(unit);
+    match measured {
+        Some(given) if wanted != Some(given) => Err(PlotError::LimitsMeasure {
+            name: drawn.quantity.name.clone(),
+            given: given.to_string(),
+            wanted: wanted.map_or_else(|| format!("in {unit}"), |wanted| wanted.to_string()),
+            unit: unit.clone(),
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// The masses that the job's modes are found with, for so many of them.
