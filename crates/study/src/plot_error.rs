@@ -210,6 +210,14 @@ pub enum PlotError {
         /// Its unit.
         unit: String,
     },
+    /// A design that the job does not have.
+    #[error("there is no design {design}")]
+    NoDesign {
+        /// Its number.
+        design: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A plane normal to one of the axes that lie in it.
     #[error("a plane at one {axis} does not lie along {axis}")]
     AlongNormal {
@@ -327,6 +335,12 @@ impl PlotError {
             | Self::NoCoordinate { help, .. }
             | Self::NoLabel { help, .. }
             | Self::NoQuantity { help, .. } => Some(help.clone()),
+            Self::NoDesign { count: 1, .. } => {
+                Some("the job has one: give it `vary`, or leave `beside` out".into())
+            }
+            Self::NoDesign { count, .. } => {
+                Some(format!("the job's designs are 0 to {}", count - 1))
+            }
             Self::LimitsMeasure { unit, .. } => Some(match &**unit {
                 "" => "write the numbers alone".into(),
                 unit => format!("give them in {unit}, or without a unit"),

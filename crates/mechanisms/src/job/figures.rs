@@ -22,8 +22,8 @@ pub enum Figure {
     },
     /// The deformed mechanism over the undeformed one (Fig. 9).
     Deformed {
-        /// The pose to draw, from 0.
-        pose: usize,
+        /// The pose to draw.
+        pose: FigurePose,
         /// The case under whose loads; the loads of the base state where there is none.
         case: Option<String>,
         /// Magnification of the deflection.
@@ -37,8 +37,8 @@ pub enum Figure {
     Mode {
         /// Which mode, from 1, lowest first.
         number: usize,
-        /// The pose to draw, from 0.
-        pose: usize,
+        /// The pose to draw.
+        pose: FigurePose,
         /// Magnification of the shape of unit modal mass.
         scale: Scale,
         /// How it looks.
@@ -50,8 +50,8 @@ pub enum Figure {
     Budget {
         /// The displacement along which.
         along: Along,
-        /// The pose, from 0.
-        pose: usize,
+        /// The pose.
+        pose: FigurePose,
         /// The case under whose loads; the loads of the base state where there is none.
         case: Option<String>,
         /// Its title.
@@ -75,9 +75,28 @@ pub enum Figure {
         scale: ColorScale,
         /// What is marked where it stands.
         marks: Vec<Mark>,
+        /// Another design of the job, drawn beside the first in the same colours.
+        beside: Option<usize>,
+        /// Whether in place of both the ratio of that design to the first is drawn.
+        ratio: bool,
         /// Title and names.
         words: Words,
     },
+}
+
+/// Which pose of the job a figure is of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FigurePose {
+    /// By its number, from 0.
+    Number(usize),
+    /// By coordinates that the poses give, of `x y z rx ry rz`, or drives such as `A1.v`, each with its value.
+    At(Vec<(String, f64)>),
+}
+
+impl From<usize> for FigurePose {
+    fn from(number: usize) -> Self {
+        Self::Number(number)
+    }
 }
 
 /// How the colours of a map go with its values.
@@ -175,7 +194,7 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
     };
     let pose = || {
         let given = fields.get("pose");
-        given.map_or(Ok(0), |at| pose(at, known.poses))
+        given.map_or(Ok(FigurePose::Number(0)), |at| pose(at, known.poses))
     };
     let case = || fields.get("case").map(|at| case(at, known)).transpose();
     let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
@@ -208,6 +227,8 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
                 measured: limits.and_then(|(_, measured)| measured),
                 scale,
                 marks: fields.get("mark").map_or(Ok(Vec::new()), look::marks)?,
+                beside: beside(&fields)?,
+                ratio: ratio(&fields)?,
                 words: words()?,
             }
         }
@@ -242,6 +263,33 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
         },
     };
     Ok((figure, place))
+}
+
+/// Reads the number of the design that is drawn beside the first.
+fn beside(fields: &Fields<'_>) -> Result<Option<usize>, LoadError> {
+    let given = fields.get("beside");
+    given
+        .map(|at| at.count("the number of a design, from 0"))
+        .transpose()
+}
+
+/// Reads whether a ratio is drawn.
+fn ratio(fields: &Fields<'_>) -> Result<bool, LoadError> {
+    let Some(at) = fields.get("ratio") else {
+        return Ok(false);
+    };
+    let ratio = at.parse("`true` or `false`")?;
+    if ratio && fields.get("beside").is_none() {
+        return Err(at
+            .error("a ratio is of two designs")
+            .with_help("name the other one, such as `beside: 1`"));
+    }
+    if let Some(scale) = fields.get("scale").filter(|_| ratio) {
+        return Err(scale
+            .error("the colours of a ratio part at 1")
+            .with_help("leave `scale` out, or `ratio`"));
+    }
+    Ok(ratio)
 }
 
 /// Reads the name of a case.
@@ -408,12 +456,41 @@ fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
     }
 }
 
-fn pose(fragment: Fragment<'_>, poses: usize) -> Result<usize, LoadError> {
-    let pose = fragment.count("the number of a pose, from 0")?;
-    if pose >= poses {
-        return Err(fragment
-            .error(format!("there is no pose {pose}"))
-            .with_help(format!("the job's poses are 0 to {}", poses - 1)));
+/// Reads the number of a pose, or its coordinates, `(x: 0.1, z: 0.5)`, or drives, `{ "A1.v": 0.2 }`.
+fn pose(fragment: Fragment<'_>, poses: usize) -> Result<FigurePose, LoadError> {
+    let at = |name: &str, value: Fragment<'_>| {
+        let place = csv::COLUMNS.iter().position(|own| *own == name);
+        let value = match place {
+            Some(place) => csv::quantity(place, value)?,
+            None => value.number()?,
+        };
+        Ok::<_, LoadError>((name.to_owned(), value))
+    };
+    // In JSON both are objects.
+    let given: Vec<_> = if fragment.text().starts_with('{') {
+        let entries = fragment.map()?.into_iter();
+        let given = entries.map(|entry| at(&entry.name, entry.value));
+        given.collect::<Result<_, _>>()?
+    } else if fragment.has_fields() {
+        let fields = Fields::read(fragment, "the pose", &csv::COLUMNS)?;
+        let given = csv::COLUMNS.iter();
+        let given = given.filter_map(|name| Some(at(name, fields.get(name)?)));
+        given.collect::<Result<_, _>>()?
+    } else {
+        let pose = fragment.count(POSE)?;
+        if pose >= poses {
+            return Err(fragment
+                .error(format!("there is no pose {pose}"))
+                .with_help(format!("the job's poses are 0 to {}", poses - 1)));
+        }
+        return Ok(FigurePose::Number(pose));
+    };
+    match given.is_empty() {
+        true => Err(fragment.expected(POSE)),
+        false => Ok(FigurePose::At(given)),
     }
-    Ok(pose)
 }
+
+/// What a pose is.
+const POSE: &str =
+    "the number of a pose, from 0, or coordinates of one, such as `(x: 0.1, z: 0.5)`";

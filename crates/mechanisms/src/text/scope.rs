@@ -3,6 +3,7 @@
 //! The tree of a file keeps expressions as they are written, so that another value of a parameter
 //! reaches whatever depends on it. What is read is a tree in which their values stand in their places.
 
+mod reach;
 mod settling;
 
 use std::cell::{OnceCell, RefCell};
@@ -101,7 +102,8 @@ impl<'t> Scope<'t> {
                     slopes.find(|slope| *slope != 0.0).unwrap_or(0.0)
                 }
                 // Of what only a copy of a group knows.
-                Err(_) => f64::NAN,
+                Err(_) if self.can_reach(expression) => f64::NAN,
+                Err(_) => 0.0,
             };
             if slope != 0.0 {
                 found.push((path.into(), slope));
