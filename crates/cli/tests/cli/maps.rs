@@ -45,7 +45,7 @@ fn a_map_that_a_job_cannot_have_is_told_before_the_first_job() {
             ],
         ),
         (
-            r#"Map(value: "k33", limits: (1.0, "2 mm"))"#,
+            r#"Map(value: "k33", limits: (1e-4, "2 mm"))"#,
             ["`limits` of `k33` are a length", "give them in N/m"],
         ),
         (
