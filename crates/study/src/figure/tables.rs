@@ -110,7 +110,13 @@ fn parts(tables: [NamedTable<'_>; 2], map: &Map) -> Result<[Part; 2], PlotError>
     let read = |NamedTable { table, design, .. }: NamedTable<'_>, map: &Map| {
         let mut map = map.clone();
         map.choice.design = design.or(map.choice.design);
-        Part::read(table, &map)
+        let mut part = Part::read(table, &map)?;
+        // Its name says which design it is of.
+        if let Some(design) = design {
+            part.over
+                .retain(|words| *words != format!("design {design}"));
+        }
+        Ok::<_, PlotError>(part)
     };
     let first = read(tables[0], map)?;
     let map = Map {
