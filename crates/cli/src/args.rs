@@ -233,7 +233,7 @@ pub(crate) struct Solve {
     #[arg(long)]
     pub(crate) all_nodes: bool,
     /// Find the N lowest natural frequencies and their modes [default: a job's `modes`]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
     modes: Option<u16>,
     /// Write the deformed mechanism as a VTU file too, for ParaView: displacements, section forces,
     /// stresses, and modes where there are some
@@ -310,7 +310,12 @@ pub(crate) struct Run {
     pub(crate) format: TableFormat,
     /// Number of threads that solve, at most 8 a core; 0 is one a core. The results are the same with
     /// any number
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     pub(crate) threads: usize,
     /// Write DIR/<job>-summary.json too, and print it: least, mean, percentiles, most of deflection
     /// and stiffness measures over all poses, and where

@@ -24,7 +24,7 @@ mod span;
 mod target;
 mod twist;
 
-pub use adjust::{Adjusted, Rounded, Unadjusted};
+pub use adjust::{Adjusted, Adjusting, Rounded, Unadjusted};
 pub use closure::LoopClosure;
 pub use error::ClosureError;
 pub use hyperstat_model::LANES;

@@ -18,6 +18,9 @@ const GAP: f64 = 6.0;
 /// Free space at the left edge of the page, which long names keep \[pixels\].
 const MARGIN: f64 = 8.0;
 
+/// How far the ends of an axis that is upright on the page are apart across it \[pixels\].
+const UPRIGHT: f64 = 1.0;
+
 /// Names of the axes.
 pub(crate) const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -167,14 +170,21 @@ fn draw_axis(
         depth = depth.max(distance + reach);
     }
     let reach = reach(name, style::AXIS_NAME.size, outward);
+    let least = MARGIN + 0.5 * text_width(name, style::AXIS_NAME.size);
+    let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
+    let beside = away(middle, outward, depth + GAP + reach);
+    let is_upright = (ends[1][0] - ends[0][0]).abs() < UPRIGHT;
     // The name of the upright axis is above its labels: beside them there is less room.
-    let at = if axis == 2 {
-        let [x, y] = away(ends[1], outward, GAP + reach);
-        let least = MARGIN + 0.5 * text_width(name, style::AXIS_NAME.size);
+    let at = if axis == 2 || (is_upright && beside[0] < least) {
+        let upper = if ends[0][1] < ends[1][1] {
+            ends[0]
+        } else {
+            ends[1]
+        };
+        let [x, y] = away(upper, outward, GAP + reach);
         [x.max(least), y - 1.4 * style::AXIS_NAME.size]
     } else {
-        let middle = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
-        away(middle, outward, depth + GAP + reach)
+        beside
     };
     canvas.text(name, at, style::AXIS_NAME);
 }

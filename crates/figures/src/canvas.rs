@@ -57,7 +57,8 @@ pub(crate) struct Lettering {
 /// What a page is apart from its drawing.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sheet<'a> {
-    /// Height, where the width is [`WIDTH`] \[pixels\].
+    /// Its size \[pixels\].
+    pub(crate) width: u32,
     pub(crate) height: u32,
     /// For programs that read a figure aloud or list it; not drawn.
     pub(crate) title: &'a str,
@@ -74,7 +75,7 @@ pub(crate) struct Canvas {
 
 /// Draws a page and gives it as an SVG document.
 pub(crate) fn svg(sheet: Sheet<'_>, draw: impl FnOnce(&mut Canvas)) -> String {
-    let (width, height) = (WIDTH, sheet.height);
+    let (width, height) = (sheet.width, sheet.height);
     let (inner_width, inner_height) = (width * UNITS, height * UNITS);
     let mut canvas = Canvas::default();
     draw(&mut canvas);
@@ -257,6 +258,7 @@ mod tests {
         };
         let text = "a\u{1}b<c>&\n\u{ffff}d";
         let sheet = Sheet {
+            width: WIDTH,
             height: HEIGHT,
             title: text,
             description: "",

@@ -43,6 +43,7 @@ impl Words<'_> {
     pub(crate) fn svg(&self, height: u32, draw: impl FnOnce(&mut Canvas)) -> String {
         let description = self.description();
         let sheet = Sheet {
+            width: WIDTH,
             height,
             title: self.title,
             description: &description,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use svg2pdf::usvg::{Options, Tree, fontdb::Database};
+use svg2pdf::usvg::{Group, Node, Options, Tree, fontdb::Database};
 use svg2pdf::{ConversionOptions, PageOptions};
 
 use crate::error::FigureError;
@@ -12,7 +12,9 @@ use crate::png::FONT;
 const DENSITY: f32 = 96.0;
 
 /// The PDF of an SVG document that a figure of this crate gave: a page of its size, 238 mm across, on
-/// which text stays text. The same document gives the same bytes.
+/// which text stays text. Where it has letters that the embedded font has not, readers of PDFs leave them
+/// out: all text is then drawn, with the same empty boxes in their places as in a PNG. The same document gives
+/// the same bytes.
 ///
 /// # Errors
 /// [`FigureError::Pdf`] for what is no SVG document.
@@ -25,9 +27,28 @@ pub fn pdf(svg: &str) -> Result<Vec<u8>, FigureError> {
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| FigureError::Pdf(Box::new(error)))?;
     let page = PageOptions { dpi: DENSITY };
-    svg2pdf::to_pdf(&tree, ConversionOptions::default(), page)
+    let options = ConversionOptions {
+        embed_text: !lacks_letters(tree.root()),
+        ..ConversionOptions::default()
+    };
+    svg2pdf::to_pdf(&tree, options, page)
         .map(|bytes| ordered(&bytes))
         .map_err(|error| FigureError::Pdf(error.to_string().into()))
+}
+
+/// Whether a letter of the text has no glyph.
+fn lacks_letters(group: &Group) -> bool {
+    group.children().iter().any(|node| match node {
+        Node::Group(inner) => lacks_letters(inner),
+        Node::Text(text) => {
+            let mut glyphs = text
+                .layouted()
+                .iter()
+                .flat_map(|span| &span.positioned_glyphs);
+            glyphs.any(|glyph| glyph.id.0 == 0)
+        }
+        _ => false,
+    })
 }
 
 /// The same file with the entries of its dictionaries of resources in order, where svg2pdf leaves them
@@ -71,7 +92,21 @@ fn is_resource(line: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::ordered;
+    use super::{ordered, pdf};
+    use crate::sketch::Sketch;
+
+    #[test]
+    fn letters_that_the_font_has_not_are_drawn() {
+        let of = |text: &str| {
+            let svg = Sketch::svg([200, 100], "", |page| {
+                page.words(text, [100.0, 50.0], 15.0, [0, 0, 0]);
+            });
+            pdf(&svg).unwrap()
+        };
+        let has_font = |file: Vec<u8>| file.windows(9).any(|bytes| bytes == b"/FontFile");
+        assert!(has_font(of("Größe → Ω")));
+        assert!(!has_font(of("k33 中文")));
+    }
 
     #[test]
     fn resources_are_in_order() {

@@ -20,6 +20,8 @@ pub(crate) struct Scaled {
     pub(crate) label: String,
     /// The unit alone, as in `MN/m`.
     pub(crate) unit: String,
+    /// The power of ten that the unit begins with where it takes no prefix.
+    power: Option<i32>,
 }
 
 const PREFIXES: [(i32, &str); 9] = [
@@ -56,6 +58,7 @@ impl Quantity {
                 unit => format!("{} ({unit})", self.name),
             },
             unit: self.unit.clone(),
+            power: None,
         };
         let magnitude = largest.abs();
         if magnitude == 0.0 || !magnitude.is_finite() || (0.1..1e4).contains(&magnitude) {
@@ -73,6 +76,7 @@ impl Quantity {
                 factor: 10_f64.powi(-power),
                 label: format!("{} ({unit})", self.name),
                 unit,
+                power: Some(power),
             };
         };
         let unit = format!("{prefix}{}", self.unit);
@@ -80,6 +84,7 @@ impl Quantity {
             factor: 10_f64.powi(-power),
             label: format!("{} ({unit})", self.name),
             unit,
+            power: None,
         }
     }
 
@@ -88,7 +93,11 @@ impl Quantity {
     pub fn value(&self, value: f64) -> String {
         let scaled = self.scaled(value);
         let number = numbers::short(value * scaled.factor);
-        match &*scaled.unit {
+        let (number, unit) = match scaled.power {
+            None => (number, scaled.unit),
+            Some(power) => (format!("{number}e{power}"), self.unit.clone()),
+        };
+        match &*unit {
             "" => number,
             unit => format!("{number} {unit}"),
         }
@@ -108,9 +117,10 @@ mod tests {
             ("m", 0.25, "0.25 m"),
             ("m", 0.012_34, "12.34 mm"),
             ("N·m/rad", 9.9e5, "990 kN·m/rad"),
-            ("kg", 2e-4, "200 1e-6 kg"),
+            ("kg", 2e-4, "200e-6 kg"),
             ("", 3.0, "3"),
-            ("", 2.0e7, "20 1e6"),
+            ("", 2.0e7, "20e6"),
+            ("", -0.062_31, "−62.31e-3"),
             ("m", 0.0, "0 m"),
         ] {
             assert_eq!(Quantity::new("q", unit).value(value), text);

@@ -36,7 +36,7 @@ pub use job::batch::{Batch, Job};
 pub use job::columns::Column;
 pub use job::commanded::Commanded;
 pub use job::design::Design;
-pub use job::figures::{Along, ColorScale, Figure, Scale};
+pub use job::figures::{Along, ColorScale, Figure, FigurePose, Scale};
 pub use job::look::{Look, Mark, Noted, View, Words};
 pub use job::made::{JobLoad, JobMechanism, JobPoses};
 pub use job::mover::Placing;

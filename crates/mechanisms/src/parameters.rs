@@ -22,9 +22,8 @@ use crate::file::{joints, materials, through};
 use crate::prebuilt::{
     Delta, Elbow, ElbowSide, Link, ParameterError, Prebuilt, RodEnds, SingleFreedom,
 };
-use crate::terms::Type::{Any, Kinds, Number, Numbers, Record as Of, Tuple, Word};
-use crate::terms::parts::{self, LINK, MATERIAL, SECTION, STIFFNESSES};
-use crate::terms::{Field, Type, needed, optional as may};
+use crate::terms::parts::LINK;
+use crate::terms::{Field, prebuilts};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
@@ -38,81 +37,16 @@ struct Kind {
     read: fn(&Fields<'_>) -> Result<Box<dyn Prebuilt>, LoadError>,
 }
 
-const JOINT_STIFFNESS: Field = may(
-    "joint_stiffness",
-    Of(&STIFFNESSES),
-    "of every passive joint, in its frame; left out: rigid",
-);
-/// The stiffness of drives that slide, and of those that turn.
-const DRIVE_FORCE: Field = may("drive_stiffness", Number("N/m"), DRIVES);
-const DRIVE_TORQUE: Field = may("drive_stiffness", Number("N·m/rad"), DRIVES);
-const DRIVES: &str = "of the drives; left out: rigid";
-const ELEMENTS: Field = may(
-    "elements",
-    parts::ELEMENTS,
-    "of every segment; changes no result",
-);
-
-/// A stiffness, or none.
-const SPRING: Type = Any(&[Number("N/m"), Word(&["Rigid"])]);
-
 /// The prebuilt mechanisms.
 const KINDS: &[Kind] = &[
     Kind {
         name: "Delta",
-        fields: &[
-            needed(
-                "base_radius",
-                Number("m"),
-                "from the base's centre to each A_i",
-            ),
-            needed(
-                "platform_radius",
-                Number("m"),
-                "from the platform's centre to each C_i",
-            ),
-            needed("arm_length", Number("m"), "A_i B_i"),
-            needed("rod_length", Number("m"), "of the parallelogram's rods"),
-            needed(
-                "rod_spacing",
-                Number("m"),
-                "distance of the two rods of a limb",
-            ),
-            may(
-                "elbow",
-                Word(&["Out", "In"]),
-                "the elbow farther along the limb's outward direction, or the other",
-            ),
-            may(
-                "rod_ends",
-                Word(&["Revolute", "Spherical"]),
-                "the joints of the rods",
-            ),
-            needed("arm", Of(&LINK), "the arms"),
-            needed("bar", Of(&LINK), "both cross links of a limb"),
-            needed("rod", Of(&LINK), "the rods"),
-            JOINT_STIFFNESS,
-            DRIVE_TORQUE,
-            ELEMENTS,
-        ],
+        fields: prebuilts::DELTA,
         read: |fields| Ok(Box::new(delta(fields)?)),
     },
     Kind {
         name: "SingleFreedom",
-        fields: &[
-            needed("lengths", Numbers(2, "m"), "of AB and CD"),
-            needed(
-                "sections",
-                Tuple(&[Kinds(&SECTION), Kinds(&SECTION)]),
-                "of AB and CD",
-            ),
-            needed("material", Of(&MATERIAL), "of both"),
-            needed(
-                "joint_stiffness",
-                Tuple(&[SPRING, SPRING]),
-                "along x at B and at C; 0 is free",
-            ),
-        ],
+        fields: prebuilts::SINGLE_FREEDOM,
         read: |fields| Ok(Box::new(single_freedom(fields)?)),
     },
     exechon::KIND,

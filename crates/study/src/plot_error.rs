@@ -198,6 +198,26 @@ pub enum PlotError {
         /// What would be right.
         help: String,
     },
+    /// Limits of colours that measure something else than the quantity.
+    #[error("`limits` of `{name}` are {given}, `{name}` is {wanted}")]
+    LimitsMeasure {
+        /// The quantity.
+        name: String,
+        /// What the limits measure.
+        given: String,
+        /// What the quantity measures.
+        wanted: String,
+        /// Its unit.
+        unit: String,
+    },
+    /// A design that the job does not have.
+    #[error("there is no design {design}")]
+    NoDesign {
+        /// Its number.
+        design: usize,
+        /// How many there are.
+        count: usize,
+    },
     /// A plane normal to one of the axes that lie in it.
     #[error("a plane at one {axis} does not lie along {axis}")]
     AlongNormal {
@@ -315,6 +335,16 @@ impl PlotError {
             | Self::NoCoordinate { help, .. }
             | Self::NoLabel { help, .. }
             | Self::NoQuantity { help, .. } => Some(help.clone()),
+            Self::NoDesign { count: 1, .. } => {
+                Some("the job has one: give it `vary`, or leave `beside` out".into())
+            }
+            Self::NoDesign { count, .. } => {
+                Some(format!("the job's designs are 0 to {}", count - 1))
+            }
+            Self::LimitsMeasure { unit, .. } => Some(match &**unit {
+                "" => "write the numbers alone".into(),
+                unit => format!("give them in {unit}, or without a unit"),
+            }),
             Self::Follows { asked, .. } => {
                 Some(format!("choose a plane of {}, or none", asked.join(", ")))
             }

@@ -420,3 +420,54 @@ fn parameters_have_derivatives_through_the_expressions() {
     let rod = rod.filter(|own| own["parameter"] == "sections.rod.diameter");
     assert_eq!(rod.count(), 1);
 }
+
+/// Two posts of a group, and a point that stands between them.
+const BETWEEN_COPIES: &str = r#"(
+    name: "posts",
+    parameters: { "d": 0.02, "h": 0.5 },
+    materials: { "steel": (young: 2.1e11, poisson: 0.3) },
+    sections: { "rod": Circle(diameter: "= d") },
+    groups: { "post": (
+        points: { "F": (0.0, 0.2, 0.0), "H": (0.0, 0.2, "= h") },
+        bodies: { "post": Beam(through: ["F", "H"], section: "rod", material: "steel") },
+        joints: {
+            "wall": (at: "F", between: ("ground", "post"), kind: Fixed),
+            "top": (at: "H", between: ("post", "plate"), kind: Fixed),
+        },
+    ) },
+    copies: { "post": Turned(axis: (0.0, 0.0, 1.0), count: 2) },
+    points: { "M": "= midpoint(H1, H2)" },
+    bodies: { "plate": Rigid(points: ["H1", "H2", "M"]) },
+    joints: {},
+    loads: [(on: ("plate", "M"), force: (10.0, 0.0, 0.0))],
+    output: ("plate", "M"),
+)"#;
+
+/// A point that uses points of copies leans on what these lean on, and on nothing else: the deflection is
+/// ∝ 1/d⁴, by the chain rule, and ∝ h³, by differences.
+#[test]
+fn points_of_copies_lean_on_their_own_parameters_alone() {
+    let mut posts = study("a.ron", BETWEEN_COPIES, &Selection::default()).unwrap();
+    let question = Question {
+        why: Some(Asked {
+            case: None,
+            along: Along::Displacement,
+        }),
+        ..Question::default()
+    };
+    let answer = posts.answer(&question).unwrap();
+    let report = serde_json::to_value(&answer.report).unwrap();
+    let all = report["sensitivities"].as_array().unwrap();
+    for (name, expected, differences) in [("d", -4.0, false), ("h", 3.0, true)] {
+        let own = all.iter();
+        let mut own = own.filter(|own| own["parameter"] == format!("parameters.{name}"));
+        let own = own.next().unwrap_or_else(|| panic!("no {name}"));
+        let relative = own["relative"].as_f64().unwrap();
+        let precision = if differences { 1e-6 } else { 1e-10 };
+        assert!(
+            (relative - expected).abs() < precision,
+            "{name}: {relative}"
+        );
+        assert_eq!(own["by_differences"] == true, differences, "{name}");
+    }
+}

@@ -1,27 +1,55 @@
-//! Sketches in parallel projection as SVG: solids by their outlines, drawn from the back to the front.
+//! Sketches in parallel projection: solids by their outlines, drawn from the back to the front with what the
+//! figures are drawn with.
 
-use std::fmt::Write as _;
+use std::f64::consts::FRAC_PI_2;
 
+use hyperstat_figures::{self as figures, Pen, Rgb};
 use nalgebra::{Point3, Rotation3, Vector3};
 
 /// Colours of Okabe and Ito for axes x, y and z.
-pub const AXES: [&str; 3] = ["#d55e00", "#009e73", "#0072b2"];
+pub const AXES: [Rgb; 3] = [rgb(0xd55e00), rgb(0x009e73), rgb(0x0072b2)];
 /// The first body of a joint, and links.
-pub const FIRST: &str = "#c9ced6";
+pub const FIRST: Rgb = rgb(0xc9ced6);
 /// The second body of a joint.
-pub const SECOND: &str = "#f2d7a6";
+pub const SECOND: Rgb = rgb(0xf2d7a6);
 /// Rigid bodies.
-pub const RIGID: &str = "#8fb4d9";
+pub const RIGID: Rgb = rgb(0x8fb4d9);
+/// What is hollow.
+pub const WHITE: Rgb = rgb(0xffffff);
 /// Outlines and letters.
-pub const INK: &str = "#222222";
+pub const INK: Rgb = rgb(0x222222);
 /// What moves.
-pub const MOTION: &str = "#cc79a7";
+pub const MOTION: Rgb = rgb(0xcc79a7);
+
+/// Outlines.
+pub const OUTLINE: Pen = Pen {
+    color: INK,
+    width: 1.4,
+    dashed: false,
+};
+/// What is not there, or behind.
+pub const DASHED: Pen = Pen {
+    color: INK,
+    width: 1.2,
+    dashed: true,
+};
+
+/// A colour by its number.
+pub const fn rgb(number: u32) -> Rgb {
+    let [_, red, green, blue] = number.to_be_bytes();
+    [red, green, blue]
+}
 
 /// Sides of a circle.
 const SIDES: usize = 40;
+/// How far below the middle of letters they stand, over their size.
+const BASELINE: f64 = 0.26;
+/// Radius of the corners of a panel \[pixels\].
+const ROUND: f64 = 6.0;
 
 /// A sketch that grows.
 pub struct Sketch {
+    title: &'static str,
     size: [f64; 2],
     view: Rotation3<f64>,
     /// Pixels a unit of length.
@@ -29,33 +57,20 @@ pub struct Sketch {
     /// Where the origin lies.
     origin: [f64; 2],
     /// Each with its nearness to the eye.
-    parts: Vec<(f64, String)>,
+    parts: Vec<(f64, Vec<Shape>)>,
 }
 
-/// A colour, or a dash pattern, of a line.
-#[derive(Clone, Copy)]
-pub struct Pen<'a> {
-    pub color: &'a str,
-    pub width: f64,
-    pub dashed: bool,
-}
-
-impl Pen<'_> {
-    pub const INK: Pen<'static> = Pen {
-        color: INK,
-        width: 1.4,
-        dashed: false,
-    };
-    pub const DASHED: Pen<'static> = Pen {
-        color: INK,
-        width: 1.2,
-        dashed: true,
-    };
+/// What stands on the page.
+enum Shape {
+    Line(Vec<[f64; 2]>, Pen),
+    Area(Vec<[f64; 2]>, Rgb),
+    Disc([f64; 2], f64, Rgb),
+    Words(String, [f64; 2], f64, Rgb),
 }
 
 impl Sketch {
-    /// An empty page of this size in pixels, looked at from azimuth and elevation \[°\].
-    pub fn new(size: [f64; 2], azimuth: f64, elevation: f64) -> Self {
+    /// An empty page with this title and size in pixels, looked at from azimuth and elevation \[°\].
+    pub fn new(title: &'static str, size: [f64; 2], azimuth: f64, elevation: f64) -> Self {
         let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
         // Rows: to the right, up, towards the eye.
         let towards = Vector3::new(
@@ -67,6 +82,7 @@ impl Sketch {
         let up = towards.cross(&right);
         let axes = nalgebra::Matrix3::from_columns(&[right, up, towards]);
         Self {
+            title,
             size,
             view: Rotation3::from_matrix_unchecked(axes).inverse(),
             scale: 1.0,
@@ -92,81 +108,67 @@ impl Sketch {
         )
     }
 
-    fn add(&mut self, near: f64, part: String) {
+    fn add(&mut self, near: f64, part: Vec<Shape>) {
         self.parts.push((near, part));
     }
 
     /// A line through points.
-    pub fn line(&mut self, points: &[Point3<f64>], pen: Pen<'_>) {
+    pub fn line(&mut self, points: &[Point3<f64>], pen: Pen) {
         let (path, near) = self.path(points);
-        let part = stroke(&path, pen, "none");
-        self.add(near, part);
+        self.add(near, vec![Shape::Line(path, pen)]);
     }
 
     /// A filled polygon with an outline.
-    pub fn polygon(&mut self, points: &[Point3<f64>], fill: &str) {
+    pub fn polygon(&mut self, points: &[Point3<f64>], fill: Rgb) {
         let (path, near) = self.path(points);
-        let part = stroke(&(path + "Z"), Pen::INK, fill);
-        self.add(near, part);
+        self.add(near, outlined(path, fill));
     }
 
-    fn path(&self, points: &[Point3<f64>]) -> (String, f64) {
-        let mut path = String::new();
-        let mut near = 0.0;
-        for (k, point) in points.iter().enumerate() {
-            let ([x, y], depth) = self.place(point);
-            near += depth / points.len() as f64;
-            let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { "M" } else { "L" });
-        }
-        (path, near)
+    fn path(&self, points: &[Point3<f64>]) -> (Vec<[f64; 2]>, f64) {
+        let places: Vec<_> = points.iter().map(|point| self.place(point)).collect();
+        let depths = places.iter().map(|(_, depth)| depth / points.len() as f64);
+        let near = depths.sum();
+        (places.into_iter().map(|(at, _)| at).collect(), near)
     }
 
     /// A round rod from `a` to `b`.
-    pub fn rod(&mut self, a: &Point3<f64>, b: &Point3<f64>, radius: f64, fill: &str) {
+    pub fn rod(&mut self, a: &Point3<f64>, b: &Point3<f64>, radius: f64, fill: Rgb) {
         let axis = (b - a).normalize();
         let ring = |center: &Point3<f64>| circle(center, &axis, radius);
         let eye = self.view.inverse() * Vector3::z();
         let (far, front) = if axis.dot(&eye) > 0.0 { (a, b) } else { (b, a) };
         let across = axis.cross(&eye);
         let (_, near) = self.path(&[*a, *b]);
-        let mut part = String::new();
         let (path, _) = self.path(&ring(far));
-        part += &stroke(&(path + "Z"), Pen::INK, fill);
+        let mut part = outlined(path, fill);
         if across.norm() > 1e-9 {
             let side = across.normalize() * radius;
             let (path, _) = self.path(&[a + side, b + side, b - side, a - side]);
-            part += &format!("<path d=\"{path}Z\" fill=\"{fill}\"/>\n");
+            part.push(Shape::Area(path, fill));
             for side in [side, -side] {
                 let (path, _) = self.path(&[a + side, b + side]);
-                part += &stroke(&path, Pen::INK, "none");
+                part.push(Shape::Line(path, OUTLINE));
             }
         }
         let (path, _) = self.path(&ring(front));
-        part += &stroke(&(path + "Z"), Pen::INK, fill);
+        part.extend(outlined(path, fill));
         self.add(near, part);
     }
 
     /// A ball.
-    pub fn ball(&mut self, center: &Point3<f64>, radius: f64, fill: &str) {
+    pub fn ball(&mut self, center: &Point3<f64>, radius: f64, fill: Rgb) {
         let (_, near) = self.place(center);
         self.disc(near + radius * self.scale, center, radius, fill);
     }
 
     /// A ball in front of all solids.
-    pub fn knob(&mut self, center: &Point3<f64>, radius: f64, fill: &str) {
+    pub fn knob(&mut self, center: &Point3<f64>, radius: f64, fill: Rgb) {
         self.disc(f64::MAX / 2.0, center, radius, fill);
     }
 
-    fn disc(&mut self, near: f64, center: &Point3<f64>, radius: f64, fill: &str) {
-        let ([x, y], _) = self.place(center);
-        let r = radius * self.scale;
-        self.add(
-            near,
-            format!(
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\" fill=\"{fill}\" stroke=\"{INK}\" \
-                 stroke-width=\"1.4\"/>\n"
-            ),
-        );
+    fn disc(&mut self, near: f64, center: &Point3<f64>, radius: f64, fill: Rgb) {
+        let (at, _) = self.place(center);
+        self.add(near, vec![Shape::Disc(at, radius * self.scale, fill)]);
     }
 
     /// A box about `center` with these half sides along the axes of `frame`.
@@ -175,11 +177,11 @@ impl Sketch {
         center: &Point3<f64>,
         frame: &Rotation3<f64>,
         half: [f64; 3],
-        fill: &str,
+        fill: Rgb,
     ) {
         let eye = self.view.inverse() * Vector3::z();
         let (_, near) = self.place(center);
-        let mut part = String::new();
+        let mut part = Vec::new();
         for axis in 0..3 {
             let column = |k: usize| frame.matrix().column(k).into_owned() * half[k];
             let normal = column(axis);
@@ -187,13 +189,13 @@ impl Sketch {
             let (u, v) = (column((axis + 1) % 3), column((axis + 2) % 3));
             let face = [u + v, v - u, -u - v, u - v].map(|corner| center + normal + corner);
             let (path, _) = self.path(&face);
-            part += &stroke(&(path + "Z"), Pen::INK, fill);
+            part.extend(outlined(path, fill));
         }
         self.add(near, part);
     }
 
     /// An arrow, on top of everything.
-    pub fn arrow(&mut self, from: &Point3<f64>, to: &Point3<f64>, color: &str) {
+    pub fn arrow(&mut self, from: &Point3<f64>, to: &Point3<f64>, color: Rgb) {
         let (a, _) = self.place(from);
         let (b, _) = self.place(to);
         let part = arrow(&[a, b], color);
@@ -201,7 +203,7 @@ impl Sketch {
     }
 
     /// A turn about `axis` at `center`, on top of everything.
-    pub fn turn(&mut self, center: &Point3<f64>, axis: &Vector3<f64>, radius: f64, color: &str) {
+    pub fn turn(&mut self, center: &Point3<f64>, axis: &Vector3<f64>, radius: f64, color: Rgb) {
         let ring = circle(center, axis, radius);
         let points: Vec<_> = ring[..SIDES * 3 / 4]
             .iter()
@@ -222,7 +224,7 @@ impl Sketch {
     }
 
     /// Words at a point, moved by so many pixels, centred.
-    pub fn letters(&mut self, point: &Point3<f64>, by: [f64; 2], words: &str, color: &str) {
+    pub fn letters(&mut self, point: &Point3<f64>, by: [f64; 2], words: &str, color: Rgb) {
         let ([x, y], _) = self.place(point);
         self.words([x + by[0], y + by[1]], words, 15.0, color);
     }
@@ -233,14 +235,12 @@ impl Sketch {
     }
 
     /// Words on the page, centred at `x`.
-    pub fn words(&mut self, [x, y]: [f64; 2], words: &str, size: f64, color: &str) {
+    pub fn words(&mut self, [x, y]: [f64; 2], words: &str, size: f64, color: Rgb) {
+        // Letters stand on their places; those of figures are centred in height.
+        let middle = [x, y - BASELINE * size];
         self.add(
             f64::MAX,
-            format!(
-                "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"{color}\" \
-                 text-anchor=\"middle\">{}</text>\n",
-                words.replace('&', "&amp;").replace('<', "&lt;")
-            ),
+            vec![Shape::Words(words.into(), middle, size, color)],
         );
     }
 
@@ -249,16 +249,23 @@ impl Sketch {
         &mut self,
         [x, y]: [f64; 2],
         [width, height]: [f64; 2],
-        fill: &str,
+        fill: Rgb,
         lines: &[&str],
     ) {
-        self.add(
-            f64::MIN,
-            format!(
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" rx=\"6\" \
-                 fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1.2\"/>\n"
-            ),
-        );
+        let corners = [
+            [x + width - ROUND, y + ROUND],
+            [x + ROUND, y + ROUND],
+            [x + ROUND, y + height - ROUND],
+            [x + width - ROUND, y + height - ROUND],
+        ];
+        let quarter = |(k, [x, y]): (usize, [f64; 2])| {
+            (0..=6).map(move |step| {
+                let angle = FRAC_PI_2 * (k as f64 + f64::from(step) / 6.0);
+                [x + ROUND * angle.cos(), y - ROUND * angle.sin()]
+            })
+        };
+        let path = corners.into_iter().enumerate().flat_map(quarter).collect();
+        self.add(f64::MIN, outlined(path, fill));
         let first = y + height / 2.0 - 9.5 * lines.len() as f64 + 14.0;
         for (k, line) in lines.iter().enumerate() {
             self.words([x + width / 2.0, first + 19.0 * k as f64], line, 14.0, INK);
@@ -275,22 +282,19 @@ impl Sketch {
     pub fn ground(&mut self, point: &Point3<f64>, along: [f64; 2], length: f64) {
         let ([x, y], near) = self.place(point);
         let normal = [along[1], -along[0]];
-        let mut path = String::new();
         let at = |t: f64, n: f64| {
             [
                 x + along[0] * t + normal[0] * n,
                 y + along[1] * t + normal[1] * n,
             ]
         };
-        let (a, b) = (at(-length / 2.0, 0.0), at(length / 2.0, 0.0));
-        let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1}", a[0], a[1], b[0], b[1]);
+        let line = |a, b| Shape::Line(vec![a, b], OUTLINE);
+        let mut part = vec![line(at(-length / 2.0, 0.0), at(length / 2.0, 0.0))];
         let count = (length / 8.0).round() as usize;
-        for k in 0..count {
+        part.extend((0..count).map(|k| {
             let t = -length / 2.0 + 8.0 * (k as f64 + 0.5);
-            let (a, b) = (at(t, 0.0), at(t - 6.0, -8.0));
-            let _ = write!(path, "M{:.1} {:.1}L{:.1} {:.1}", a[0], a[1], b[0], b[1]);
-        }
-        let part = stroke(&path, Pen::INK, "none");
+            line(at(t, 0.0), at(t - 6.0, -8.0))
+        }));
         self.add(near, part);
     }
 
@@ -301,8 +305,7 @@ impl Sketch {
         let along = [end[0] - start[0], end[1] - start[1]];
         let length = along[0].hypot(along[1]);
         let normal = [-along[1] / length * width, along[0] / length * width];
-        let mut path = String::new();
-        for k in 0..=10 {
+        let bend = |k: i32| {
             let t = match k {
                 0 => 0.0,
                 10 => 1.0,
@@ -313,26 +316,26 @@ impl Sketch {
                 k if k % 2 == 0 => 1.0,
                 _ => -1.0,
             };
-            let [x, y] = [
-                start[0] + t * along[0] + side * normal[0],
-                start[1] + t * along[1] + side * normal[1],
-            ];
-            let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { "M" } else { "L" });
-        }
-        let part = stroke(&path, Pen::INK, "none");
-        self.add(near + 1.0, part);
+            [0, 1].map(|c| start[c] + t * along[c] + side * normal[c])
+        };
+        let path = (0..=10).map(bend).collect();
+        self.add(near + 1.0, vec![Shape::Line(path, OUTLINE)]);
     }
 
     /// The document.
     pub fn svg(mut self) -> String {
-        let [width, height] = self.size;
         self.parts.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let parts: String = self.parts.into_iter().map(|(_, part)| part).collect();
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"Liberation Sans, Arimo, Arial, Helvetica, \
-             sans-serif\">\n<rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{parts}</svg>\n"
-        )
+        let size = self.size.map(|side| side.round() as u32);
+        figures::Sketch::svg(size, self.title, |page| {
+            for shape in self.parts.into_iter().flat_map(|(_, part)| part) {
+                match shape {
+                    Shape::Line(points, pen) => page.line(&points, pen),
+                    Shape::Area(corners, fill) => page.area(&corners, fill),
+                    Shape::Disc(at, radius, fill) => page.disc(at, radius, fill, OUTLINE),
+                    Shape::Words(words, at, size, ink) => page.words(&words, at, size, ink),
+                }
+            }
+        })
     }
 }
 
@@ -349,48 +352,32 @@ fn circle(center: &Point3<f64>, axis: &Vector3<f64>, radius: f64) -> Vec<Point3<
         .collect()
 }
 
-fn stroke(path: &str, pen: Pen<'_>, fill: &str) -> String {
-    let dashes = if pen.dashed {
-        " stroke-dasharray=\"6 4\""
-    } else {
-        ""
-    };
-    format!(
-        "<path d=\"{path}\" fill=\"{fill}\" stroke=\"{}\" stroke-width=\"{}\" \
-         stroke-linejoin=\"round\"{dashes}/>\n",
-        pen.color, pen.width
-    )
+/// A filled polygon with an outline.
+fn outlined(corners: Vec<[f64; 2]>, fill: Rgb) -> Vec<Shape> {
+    let closed = corners.iter().chain(corners.first()).copied().collect();
+    vec![Shape::Area(corners, fill), Shape::Line(closed, OUTLINE)]
 }
 
 /// A line through points of the page that ends in a head.
-fn arrow(points: &[[f64; 2]], color: &str) -> String {
-    let mut path = String::new();
-    for (k, [x, y]) in points.iter().enumerate() {
-        let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { "M" } else { "L" });
-    }
+fn arrow(points: &[[f64; 2]], color: Rgb) -> Vec<Shape> {
     let pen = Pen {
         color,
         width: 2.0,
         dashed: false,
     };
-    let mut part = stroke(&path, pen, "none");
+    let mut part = vec![Shape::Line(points.to_vec(), pen)];
     if let [.., a, b] = points {
-        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-        let length = dx.hypot(dy).max(1e-9);
-        let (dx, dy) = (dx / length, dy / length);
+        let along = [b[0] - a[0], b[1] - a[1]];
+        let length = along[0].hypot(along[1]).max(1e-9);
+        let [dx, dy] = along.map(|c| c / length);
         let corner = |side: f64| {
             [
                 b[0] - 9.0 * dx - side * 4.0 * dy,
                 b[1] - 9.0 * dy + side * 4.0 * dx,
             ]
         };
-        let [p, q] = [corner(1.0), corner(-1.0)];
         let tip = [b[0] + 2.0 * dx, b[1] + 2.0 * dy];
-        let _ = writeln!(
-            part,
-            "<path d=\"M{:.1} {:.1}L{:.1} {:.1}L{:.1} {:.1}Z\" fill=\"{color}\"/>",
-            tip[0], tip[1], p[0], p[1], q[0], q[1]
-        );
+        part.push(Shape::Area(vec![tip, corner(1.0), corner(-1.0)], color));
     }
     part
 }

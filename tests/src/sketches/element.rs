@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Rotation3};
 
-use super::canvas::{FIRST, INK, MOTION, Sketch};
+use super::canvas::{FIRST, INK, MOTION, Sketch, WHITE, rgb};
 
 /// What holds an element.
 #[derive(Clone, Copy, PartialEq)]
@@ -14,7 +14,7 @@ enum Held {
 
 /// The element free, held at node 1 and held at node 2.
 pub fn subassembly() -> String {
-    let mut sketch = Sketch::new([900.0, 500.0], -72.0, 22.0);
+    let mut sketch = Sketch::new("The subassembly element", [900.0, 500.0], -72.0, 22.0);
     let rows = [
         (
             "(a) free: u₁ and u₂ follow from W₁ and W₂ (Eq. 1)",
@@ -40,7 +40,7 @@ fn element(sketch: &mut Sketch, held: Held) {
     for (k, side) in [-1.0, 1.0].into_iter().enumerate() {
         let (inner, outer) = (p(1.9 * side), p(2.75 * side));
         sketch.spring(&inner, &outer, 11.0);
-        sketch.ball(&outer, 0.07, "#ffffff");
+        sketch.ball(&outer, 0.07, WHITE);
         let name = ["J₁", "J₂"][k];
         sketch.words_at(&p(2.45 * side), [0.0, -22.0], name);
         let node = ["node 1", "node 2"][k];
@@ -65,14 +65,14 @@ fn element(sketch: &mut Sketch, held: Held) {
 
 /// The way from a mechanism to the stiffness of its output.
 pub fn method() -> String {
-    let mut sketch = Sketch::new([900.0, 330.0], 0.0, 0.0);
-    let links = "#e6ebf2";
-    let joints = "#f7ead2";
-    let whole = "#e4f1ea";
+    let mut sketch = Sketch::new("The way of the method", [900.0, 330.0], 0.0, 0.0);
+    let links = rgb(0xe6ebf2);
+    let joints = rgb(0xf7ead2);
+    let whole = rgb(0xe4f1ea);
     sketch.panel(
         [20.0, 125.0],
         [130.0, 80.0],
-        "#ffffff",
+        WHITE,
         &["mechanism", "with closed", "loops"],
     );
     sketch.panel(

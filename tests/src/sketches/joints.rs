@@ -2,9 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use hyperstat_figures::Rgb;
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::canvas::{FIRST, INK, MOTION, Pen, SECOND, Sketch};
+use super::canvas::{FIRST, INK, MOTION, OUTLINE, SECOND, Sketch, WHITE};
 
 /// Of the page for one joint, in pixels.
 const CELL: [f64; 2] = [240.0, 262.0];
@@ -28,7 +29,12 @@ const JOINTS: [Drawn; 8] = [
 /// All kinds on one page.
 pub fn joints() -> String {
     let [width, height] = CELL;
-    let mut sketch = Sketch::new([4.0 * width, 2.0 * height + 40.0], 30.0, 24.0);
+    let mut sketch = Sketch::new(
+        "Kinds of joints",
+        [4.0 * width, 2.0 * height + 40.0],
+        30.0,
+        24.0,
+    );
     for (k, (name, free, draw)) in JOINTS.into_iter().enumerate() {
         let corner = [(k % 4) as f64 * width, (k / 4) as f64 * height];
         let middle = corner[0] + width / 2.0;
@@ -48,7 +54,7 @@ fn p(x: f64, y: f64, z: f64) -> Point3<f64> {
     Point3::new(x, y, z)
 }
 
-fn block(sketch: &mut Sketch, center: [f64; 3], half: [f64; 3], fill: &str) {
+fn block(sketch: &mut Sketch, center: [f64; 3], half: [f64; 3], fill: Rgb) {
     sketch.cuboid(&center.into(), &Rotation3::identity(), half, fill);
 }
 
@@ -123,7 +129,7 @@ fn screw(sketch: &mut Sketch) {
                 p(0.16 * angle.cos(), first + 0.08 * part, 0.16 * angle.sin())
             })
             .collect();
-        sketch.line(&points, Pen::INK);
+        sketch.line(&points, OUTLINE);
     }
     block(sketch, [0.0, 0.0, 0.0], [0.28, 0.34, 0.28], SECOND);
     arm(sketch, 0.28);
@@ -136,7 +142,7 @@ fn universal(sketch: &mut Sketch) {
     sketch.rod(&p(0.1, 0.0, 0.0), &p(0.62, 0.0, 0.0), 0.1, FIRST);
     sketch.rod(&p(0.0, -0.62, 0.0), &p(0.0, -0.1, 0.0), 0.1, SECOND);
     sketch.rod(&p(0.0, 0.1, 0.0), &p(0.0, 0.62, 0.0), 0.1, SECOND);
-    block(sketch, [0.0; 3], [0.13, 0.13, 0.13], "#ffffff");
+    block(sketch, [0.0; 3], [0.13, 0.13, 0.13], WHITE);
     for side in [-0.6, 0.6] {
         block(sketch, [side, 0.0, 0.3], [0.06, 0.14, 0.42], FIRST);
         block(sketch, [0.0, side, -0.3], [0.14, 0.06, 0.42], SECOND);

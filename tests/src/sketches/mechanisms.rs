@@ -2,16 +2,22 @@
 //! (Fig. 6) and one of its limbs cut open (Fig. 7).
 
 use hyperstat_assembly::{BodyKind, Model};
+use hyperstat_figures::Rgb;
 use hyperstat_mechanisms::prebuilt::{Delta, Prebuilt};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-use super::canvas::{FIRST, INK, Pen, RIGID, SECOND, Sketch};
+use super::canvas::{DASHED, FIRST, INK, RIGID, SECOND, Sketch, WHITE, rgb};
 
-const JOINT: &str = "#ffffff";
+const JOINT: Rgb = WHITE;
 
 /// A mechanism of many limbs, and the same with its loops cut at the joints.
 pub fn general() -> String {
-    let mut sketch = Sketch::new([900.0, 400.0], -70.0, 26.0);
+    let mut sketch = Sketch::new(
+        "A mechanism of bodies and joints",
+        [900.0, 400.0],
+        -70.0,
+        26.0,
+    );
     for (k, gap) in [0.0, 0.16].into_iter().enumerate() {
         let middle = 225.0 + 450.0 * k as f64;
         sketch.at([middle, 274.0], 150.0);
@@ -59,7 +65,7 @@ fn limbs(sketch: &mut Sketch, gap: f64) {
 
 /// Two beams, a rigid body between them, and the elastic joints B and C.
 pub fn single_freedom() -> String {
-    let mut sketch = Sketch::new([900.0, 190.0], -90.0, 0.0);
+    let mut sketch = Sketch::new("The single-freedom structure", [900.0, 190.0], -90.0, 0.0);
     sketch.at([450.0, 90.0], 100.0);
     let p = |x: f64| Point3::new(x, 0.0, 0.0);
     for (side, [outer, inner]) in [(-1.0, ["A", "B"]), (1.0, ["D", "C"])] {
@@ -79,7 +85,7 @@ pub fn single_freedom() -> String {
         [0.0, 62.0],
         "rigid body BC, output O at its middle",
     );
-    sketch.arrow(&p(0.0), &p(0.65), "#d55e00");
+    sketch.arrow(&p(0.0), &p(0.65), rgb(0xd55e00));
     sketch.words_at(&p(0.35), [0.0, -8.0], "f, Δ_ox");
     sketch.svg()
 }
@@ -91,11 +97,11 @@ const VIEW: [f64; 2] = [48.0, 20.0];
 pub fn delta() -> String {
     let model = Delta::paper().model(&[0.0, 0.0, 0.5]);
     let model = model.expect("a pose within reach");
-    let mut sketch = Sketch::new([760.0, 620.0], VIEW[0], VIEW[1]);
+    let mut sketch = Sketch::new("The delta", [760.0, 620.0], VIEW[0], VIEW[1]);
     sketch.at([380.0, 440.0], 620.0);
     let at = |name: &str| position(&model, name);
     let base = ["A1", "A2", "A3"].map(at);
-    sketch.line(&[base[0], base[1], base[2], base[0]], Pen::DASHED);
+    sketch.line(&[base[0], base[1], base[2], base[0]], DASHED);
     sketch.polygon(&["C1", "C2", "C3"].map(at), RIGID);
     links(&mut sketch, &model, |_| Vector3::zeros());
     let radius = 0.009;
@@ -128,7 +134,7 @@ pub fn delta() -> String {
 pub fn delta_open() -> String {
     let model = Delta::paper().model(&[0.0, 0.0, 0.5]);
     let model = model.expect("a pose within reach");
-    let mut sketch = Sketch::new([900.0, 620.0], 20.0, 16.0);
+    let mut sketch = Sketch::new("The delta, its loops cut open", [900.0, 620.0], 20.0, 16.0);
     sketch.at([380.0, 500.0], 700.0);
     let at = |name: &str| position(&model, name);
     let (b, c) = (at("B1"), at("C1"));
@@ -162,7 +168,7 @@ pub fn delta_open() -> String {
         sketch.knob(&joint, 0.011, JOINT);
         if let Some(other) = other {
             let node = at(point) + apart(other);
-            sketch.line(&[joint, node], Pen::DASHED);
+            sketch.line(&[joint, node], DASHED);
             sketch.knob(&node, 0.005, INK);
         }
     }

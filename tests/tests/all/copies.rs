@@ -274,6 +274,11 @@ fn mistakes_in_copies_are_told_where_they_are() {
             "b.ron:5:75: group `bar` has no copy `3`; the copies are `1`, `2`",
         ),
         (
+            r#""bar": (places: Mirrored(normal: (1.0, 0.0, 0.0)), overrides: { "2": { "pionts.A.0": 2.0 } })"#,
+            "",
+            "group `bar` has no `pionts`; did you mean `points`?",
+        ),
+        (
             r#""bar": (places: Mirrored(normal: (1.0, 0.0, 0.0)), overrides: { "2": { "points.C.0": 2.0 } })"#,
             "",
             "`points` has no `C`",

@@ -139,6 +139,49 @@ fn a_sweep_finds_what_single_poses_have() {
     }
 }
 
+/// An Exechon whose drives are soft beside all else: small changes of a mode have much energy in what is stiff.
+fn exechon(at: [f64; 3], drive: f64) -> Model {
+    let link = |name: &str| {
+        format!(
+            "{name}: (section: Rectangle(width: 0.08, height: 0.06), \
+             material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),"
+        )
+    };
+    let [x, y, z] = at;
+    let text = format!(
+        "(jobs: [(name: \"exechon\", poses: List([({x:?}, {y:?}, {z:?})]), mechanism: Exechon(
+            base_width: 0.9, base_depth: 0.5, platform_width: 0.3, platform_depth: 0.18, {} {}
+            joint_stiffness: (x: 2e8, y: 2e8, z: 2e8, u: 2e5, w: 2e5), drive_stiffness: {drive:?},
+        ))])",
+        link("housing"),
+        link("ram"),
+    );
+    let batch = batch_from_str(&text, Path::new("exechon.ron"), &Disk, &Registry::builtin());
+    batch.unwrap().jobs[0].model().unwrap()
+}
+
+#[test]
+fn a_sweep_beside_soft_drives_finds_what_single_poses_have() {
+    let mut largest = 0.0_f64;
+    for drive in [60.0, 600.0, 6e4] {
+        for count in [1, 3, 4] {
+            let model = exechon([0.0, 0.0, 0.9], drive);
+            let plan = ModalPlan::new(&model, &ModalOptions::lowest(count)).unwrap();
+            for k in 0..12 {
+                let [x, y, z] =
+                    [0, 1, 2].map(|axis| f64::from((7 * k + 3 * axis + k * axis) % 9) / 4.0 - 1.0);
+                let there = exechon([0.2 * x, 0.2 * y, 0.9 + 0.1 * z], drive);
+                let found = plan.frequencies(there.geometry()).unwrap();
+                let modes = plan.modes(there.geometry()).unwrap();
+                for (found, mode) in found.iter().zip(&modes.modes) {
+                    largest = largest.max((found / mode.frequency - 1.0).abs());
+                }
+            }
+        }
+    }
+    assert!(largest < 1e-10, "{largest:e}");
+}
+
 /// Each of the six rods turns about itself, and so does each pair's bars with it: twelve idle motions,
 /// known from the kinematics.
 #[test]

@@ -26,6 +26,8 @@ const ROUNDING: f64 = 1e-14;
 /// Vectors of unit mass that a step of refinement changes by no more than this have eigenvalues to its
 /// square over the distance of the next, relative: to rounding where those are a thousandth apart.
 const SETTLED: f64 = 3e-8;
+/// The energy of these changes over that of the vectors, at the most: it is what the eigenvalues are off by.
+const STRAINED: f64 = 1e-11;
 /// A motion has no mass whose kinetic energy is below this part of what it were with all mass at
 /// its largest displacement.
 const MASSLESS: f64 = 1e-20;
@@ -352,7 +354,10 @@ impl<'a> System<'a> {
         let Ok(moved) = self.solve(&rest, false) else {
             return false;
         };
-        moved.iter().all(|moved| self.length(moved) < SETTLED)
+        let settled = |(moved, mode): (&Vec<f64>, &Mode)| {
+            self.length(moved) < SETTLED && self.energy(moved) <= STRAINED * mode.eigenvalue
+        };
+        moved.iter().zip(modes).all(settled)
     }
 
     /// The mode of a vector, whose image under K⁻¹ M is given.

@@ -42,10 +42,10 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "NAME")]
     with_job: Option<String>,
     /// Design of OTHER [default: that of --design]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     with_design: Option<usize>,
     /// Pose of OTHER [default: that of --pose]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     with_pose: Option<usize>,
     #[command(flatten)]
     pub(crate) dwelling: Dwelling,

@@ -16,10 +16,10 @@ pub(crate) struct Input {
     #[arg(long, value_name = "NAME")]
     pub(crate) job: Option<String>,
     /// Design of a job that varies, counted from 0 [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) design: Option<usize>,
     /// Pose of the job, counted from 0 [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) pose: Option<usize>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct Dwelling {
     #[arg(long, value_name = "NAME")]
     pub(crate) case: Option<String>,
     /// Tell the N lowest natural frequencies [default: a job's `modes`, or 3 where all that moves has mass]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) modes: Option<u16>,
 }
 

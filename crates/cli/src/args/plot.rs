@@ -60,17 +60,17 @@ pub(crate) struct Plot {
     pub(crate) along: Option<Along>,
     /// Trajectory, deformed, mode: magnification [default: a round number that shows it]. Map:
     /// `log` or `linear` colours [default: log where most values would share a colour]
-    #[arg(long, value_name = "SCALE", value_parser = scale, conflicts_with_all = ["lines", "budget"])]
+    #[arg(long, value_name = "SCALE", value_parser = scale, allow_negative_numbers = true, conflicts_with_all = ["lines", "budget"])]
     pub(crate) scale: Option<Scale>,
     /// Job of a batch file; may be left out where there is only one
     #[arg(long, value_name = "NAME")]
     pub(crate) job: Option<String>,
     /// Design of a job that varies [default: 0; all where lines are over what varies]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) design: Option<usize>,
     /// Pose, by its number or its coordinates, such as x=0.1,y=0,z=0.5 [default: all of a table; 0 of a batch
     /// file, or where lines are over what varies]
-    #[arg(long, value_name = "N|AXIS=VALUE,…", value_parser = pose)]
+    #[arg(long, value_name = "N|AXIS=VALUE,…", value_parser = pose, allow_negative_numbers = true)]
     pub(crate) pose: Option<Pose>,
     /// Deformed, mode: a picture that moves (SVG, GIF): the mode swings; a job's poses run, or with `--pose`
     /// the load comes and goes
@@ -135,7 +135,7 @@ pub(crate) struct PlotKind {
     #[arg(long)]
     pub(crate) deformed: bool,
     /// Natural mode N (from 1, lowest first) and the mechanism at rest, in space
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub(crate) mode: Option<u16>,
     /// What the deflection comes from: shares of bodies, joints and deformations as bars
     #[arg(long)]

@@ -32,6 +32,11 @@ pub(crate) struct Report {
     #[command(flatten)]
     pub(crate) dwelling: Dwelling,
     /// Number of threads for the jobs of a batch, at most 8 a core; 0 is one a core
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     pub(crate) threads: usize,
 }

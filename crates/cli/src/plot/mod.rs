@@ -29,6 +29,8 @@ enum FileKind {
     Table,
     /// What `solve` printed.
     Solved,
+    /// JSON with a mistake in its grammar: whoever reads it says where.
+    Broken,
     /// Everything else: a mechanism or batch file.
     Mechanism,
 }
@@ -38,21 +40,23 @@ impl FileKind {
         let extension = path.extension().and_then(|extension| extension.to_str());
         match extension.map(str::to_ascii_lowercase).as_deref() {
             Some("csv" | "parquet") => Self::Table,
-            Some("json") if !is_mechanism(path) => Self::Solved,
+            Some("json") => Self::of_json(path),
             _ => Self::Mechanism,
         }
     }
-}
 
-/// Whether a JSON file has the fields of a mechanism or a batch file, as what `solve` prints has not.
-fn is_mechanism(path: &Path) -> bool {
-    let bytes = read::read(path).unwrap_or_default();
-    let fields: Option<HashMap<String, IgnoredAny>> = serde_json::from_slice(&bytes).ok();
-    fields.is_some_and(|fields| {
-        ["jobs", "points"]
-            .iter()
-            .any(|own| fields.contains_key(*own))
-    })
+    /// What `solve` prints has not the fields of a mechanism or a batch file.
+    fn of_json(path: &Path) -> Self {
+        let bytes = read::read(path).unwrap_or_default();
+        let fields: Result<HashMap<String, IgnoredAny>, _> = serde_json::from_slice(&bytes);
+        match fields {
+            Ok(fields) if fields.contains_key("jobs") || fields.contains_key("points") => {
+                Self::Mechanism
+            }
+            Err(error) if error.is_syntax() || error.is_eof() => Self::Broken,
+            _ => Self::Solved,
+        }
+    }
 }
 
 /// Draws what the command line asks for. `tell` gets the files and the caption.
@@ -193,8 +197,11 @@ fn plotted(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> 
             refuse(args, "a table", [("--job", args.job.is_some())])?;
             table::figure(args)
         }
+        (Some(option), FileKind::Broken) if option != "--budget" => {
+            mechanism::figure(args, registry)
+        }
         (Some(_), FileKind::Mechanism) => mechanism::figure(args, registry),
-        (Some("--budget"), FileKind::Solved) => {
+        (Some("--budget"), FileKind::Solved | FileKind::Broken) => {
             let chosen = [
                 ("--job", args.job.is_some()),
                 ("--design", args.design.is_some()),

@@ -108,6 +108,7 @@ fn of_two(args: &args::Plot, table: &TableReader, map: &Map) -> Result<MapFigure
     let named = |k: usize, table| NamedTable {
         name: &names[k],
         table,
+        design: None,
     };
     let tables = [named(0, table), named(1, other)];
     Ok(match args.ratio {

@@ -10,6 +10,9 @@ use super::table::{left, number};
 /// Parameters that the text tells; JSON has all.
 const TOLD: usize = 15;
 
+/// Paths that are longer are left to JSON.
+const LONGEST: usize = 100;
+
 /// Changes below this are 0.000 %: they are left out of the text.
 const LEAST: f64 = 0.0005;
 
@@ -17,6 +20,7 @@ const LEAST: f64 = 0.0005;
 pub(super) fn write_sensitivities(found: &[SensitivityReport], what: &str, text: &mut String) {
     let changes = found.iter().map(|s| Change {
         parameter: &s.parameter,
+        path: s.path.as_deref(),
         by_differences: s.by_differences,
         value: s.value,
         relative: s.relative.iter().copied().collect(),
@@ -38,6 +42,7 @@ pub(crate) fn write_frequencies(found: &FrequencyReport, text: &mut String) {
     };
     let changes = found.sensitivities.iter().map(|s| Change {
         parameter: &s.parameter,
+        path: s.path.as_deref(),
         by_differences: s.by_differences,
         value: s.value,
         relative: s.relative.clone().unwrap_or_default(),
@@ -52,6 +57,8 @@ pub(crate) fn write_frequencies(found: &FrequencyReport, text: &mut String) {
 /// A row of the text.
 struct Change<'a> {
     parameter: &'a str,
+    /// Of what is told in words.
+    path: Option<&'a str>,
     by_differences: bool,
     value: f64,
     /// More than one of equal frequencies; none where there is no derivative.
@@ -85,6 +92,9 @@ fn table<'a>(changes: impl Iterator<Item = Change<'a>>, what: &str) -> String {
                 ""
             }
         );
+        if let Some(path) = change.path.filter(|path| path.len() <= LONGEST) {
+            let _ = writeln!(body, "    {path}");
+        }
     }
     if told.is_empty() {
         body += "  None of them changes it.\n";

@@ -38,6 +38,37 @@ fn a_map_that_a_job_cannot_have_is_told_before_the_first_job() {
             ],
         ),
         (
+            r#"Map(value: "k33", limits: ("1 mm", "2 mm"))"#,
+            [
+                "`limits` of `k33` are a length, `k33` is a force per length",
+                "give them in N/m, or without a unit",
+            ],
+        ),
+        (
+            r#"Map(value: "k33", limits: (1e-4, "2 mm"))"#,
+            ["`limits` of `k33` are a length", "give them in N/m"],
+        ),
+        (
+            r#"Map(value: "k33", limits: ("1 N/mm", "2 m"))"#,
+            ["\"2 m\" is a length", "give it in N/m"],
+        ),
+        (
+            r#"Map(value: "k33", beside: 1)"#,
+            ["there is no design 1", "give it `vary`"],
+        ),
+        (
+            r#"Map(value: "k33", ratio: true)"#,
+            ["a ratio is of two designs", "such as `beside: 1`"],
+        ),
+        (
+            r#"Deformed(pose: (z: 0.5))"#,
+            ["no pose has z = 0.5", "poses have z = 0.45, 0.55, 0.65"],
+        ),
+        (
+            r#"Budget(pose: (z: "0.5 kg"))"#,
+            ["`z` is a length, \"0.5 kg\" is a mass", "give it in m"],
+        ),
+        (
             r#"Map(value: "k33", plane: z(0.5))"#,
             [
                 "there is no plane z = 0.5",

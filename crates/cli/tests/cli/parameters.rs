@@ -145,6 +145,49 @@ fn every_path_is_one_that_vary_takes() {
     }
 }
 
+/// Several joints that are one parameter have one path, which varies all of them.
+#[test]
+fn joints_that_are_one_parameter_have_the_path_that_varies_them() {
+    let bench = Bench::new("parameters-groups");
+    bench.file("m.ron", MECHANISM);
+    let path = "joints.{j1|j2}.stiffness.w";
+    let told = bench.hyperstat(&["solve", "m.ron", "--why"]).ends_with(0);
+    assert!(
+        told.out().contains(&format!("\n    {path}\n")),
+        "{}",
+        told.out()
+    );
+    let json = why(&bench, &["m.ron"]);
+    let one = |list: &Value| {
+        let mut all = list.as_array().unwrap().iter();
+        let own = all.find(|own| own["parameter"] == "stiffness w of j1, j2");
+        own.unwrap().clone()
+    };
+    let own = one(&json["sensitivities"]);
+    assert_eq!(own["path"], path);
+    let modes = json["frequency_sensitivities"].as_array().unwrap();
+    assert_eq!(one(&modes[0]["sensitivities"])["path"], path);
+    let value = own["value"].as_f64().unwrap();
+    let values = [value * (1.0 - 1e-4), value * (1.0 + 1e-4)];
+    bench.file(
+        "batch.ron",
+        &format!(
+            "(jobs: [(name: \"j\", mechanism: File(\"m.ron\"), vary: {{\"{path}\": {values:?}}})])"
+        ),
+    );
+    bench
+        .hyperstat(&["run", "batch.ron", "--out", "out"])
+        .ends_with(0);
+    let table = bench.read("out/j.csv");
+    let rows = table.lines().map(|line| line.split(',').collect());
+    let rows: Vec<Vec<&str>> = rows.collect();
+    let place = rows[0].iter().position(|name| *name == "dx").unwrap();
+    let [low, high] = [1, 2].map(|row| rows[row][place].parse::<f64>().unwrap());
+    let slope = (high - low) / (values[1] - values[0]);
+    let exact = own["displacement"][0].as_f64().unwrap();
+    assert!((slope / exact - 1.0).abs() < 1e-6, "{slope} {exact}");
+}
+
 /// What a job replaces, and what varies as a whole, has no path: it is told in words, once.
 #[test]
 fn what_vary_does_not_take_is_told_in_words() {

@@ -458,3 +458,66 @@ fn a_pose_out_of_reach_is_left_out_of_what_runs() {
         .ends_with(2)
         .says(&["pose 0"]);
 }
+
+/// A job's figures have what `plot` draws: two designs in the same colours, their ratio, a pose by its
+/// coordinates.
+#[test]
+fn figures_of_jobs_are_of_two_designs_and_of_poses_by_their_coordinates() {
+    let bench = Bench::new("pictures-designs");
+    let rest = r#"vary: { "rod.section.diameter": [0.014, 0.020] }, figures: [
+        Map(value: "k33", plane: z(0.45), beside: 1),
+        Map(value: "k33", plane: z(0.45), beside: 1, ratio: true, limits: (0.5, 3)),
+        Budget(pose: (x: 0.1, y: 0.15, z: "450 mm")),
+    ],"#;
+    bench.file("two.ron", &delta_batch("two", GRID, rest));
+    let outcome = bench.hyperstat(&["run", "two.ron", "--out", "out"]);
+    assert!(outcome.status() < 2, "{}", outcome.err());
+    let both = bench.read("out/two-map-1.svg");
+    for name in ["design 0", "design 1"] {
+        assert!(both.contains(name), "no {name}");
+    }
+    // The columns' ratio is between the two marks of the bar.
+    let ratio = bench.read("out/two-map-2.svg");
+    assert!(ratio.contains("design 1 over design 0"), "{ratio}");
+    let budget = bench.read("out/two-budget.svg");
+    let number = |name: &str| column(&bench, "out/two.csv", name);
+    let poses = [number("x"), number("y"), number("z")];
+    let is_there = |row: &usize| {
+        [0.1, 0.15, 0.45]
+            .iter()
+            .zip(&poses)
+            .all(|(value, column)| column[*row].is_some_and(|own| (own - value).abs() < 1e-9))
+    };
+    let row = (0..poses[0].len()).find(is_there).expect("a pose");
+    assert!(budget.contains(&format!("pose {row}")), "{row}: {budget}");
+}
+
+/// A JSON file that is no JSON is told with the place, whatever is to be drawn of it.
+#[test]
+fn a_mistake_in_json_has_a_place() {
+    let bench = Bench::new("pictures-json");
+    bench.file("m.json", "{\n  \"name\": \"m\",\n  \"points\": {,}\n}\n");
+    for what in [&["--deformed"][..], &["--mode", "1"], &["--budget"]] {
+        let outcome = plot(&bench, &[&["m.json"], what].concat()).ends_with(2);
+        outcome.says(&["m.json:3:14"]);
+    }
+}
+
+/// What is no number of anything is told as a value, not as an option that there is not.
+#[test]
+fn negative_values_of_options_are_told_what_is_right() {
+    let bench = with_two("pictures-negative");
+    for (words, told) in [
+        (
+            &["thin.ron", "--deformed", "--scale", "-5"][..],
+            "expected a factor above zero, such as 200",
+        ),
+        (&["thin.ron", "--mode", "-1"], "-1 is not in 1..=1000"),
+        (
+            &["thin.ron", "--deformed", "--pose", "-3"],
+            "expected the number of a pose, from 0",
+        ),
+    ] {
+        plot(&bench, words).ends_with(2).says(&[told]);
+    }
+}

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::effect::Effects;
 use super::freedoms::{CLOSED, Freedoms};
-use super::rails::Bends;
+use super::rails::{Bends, Rails};
 use super::sample::{self, Basis, Sample};
 use super::{Adjusted, Rounded};
 use crate::closure::LoopClosure;
@@ -36,7 +36,8 @@ pub(super) struct Fit<'a> {
     closure: &'a LoopClosure,
     rounded: &'a Rounded<'a>,
     effects: &'a Effects,
-    rails: &'a Bends,
+    rails: &'a Rails,
+    bends: &'a Bends,
 }
 
 /// Linear conditions on the moves of all numbers, in roundings.
@@ -50,13 +51,14 @@ impl<'a> Fit<'a> {
         closure: &'a LoopClosure,
         rounded: &'a Rounded<'a>,
         effects: &'a Effects,
-        rails: &'a Bends,
+        (rails, bends): (&'a Rails, &'a Bends),
     ) -> Self {
         Self {
             closure,
             rounded,
             effects,
             rails,
+            bends,
         }
     }
 
@@ -78,7 +80,7 @@ impl<'a> Fit<'a> {
                     wanted: count,
                     missed: freedoms.values[..count].to_vec(),
                     open: sample::opening(&self.closure.system, &basis, 0..TRIED)?,
-                    bent: self.rails.largest(&self.effects.bent),
+                    bent: self.bends.largest(&self.effects.bent),
                     misfit,
                 });
             }
@@ -109,16 +111,18 @@ impl<'a> Fit<'a> {
                     }
                 }
             }
-            let system = self.system_at(&moves)?;
+            let model = self.model_at(&moves)?;
+            let system = self.system_of(&model)?;
             let splits = samples.iter().map(|sample| {
                 let effect = self.effects.on_loops(&system, &sample.configuration);
                 sample.split(&system, basis, &scaled(effect, &scales))
             });
             let splits: Vec<_> = splits.collect::<Option<_>>()?;
-            let straight = self.straight(&moves, &scales)?;
+            let by_moves = self.bends_by_moves(&scales);
+            let bends = self.bends_of(&model);
             let parts: Vec<_> = (splits.iter())
                 .map(|split| (&split.effect, &split.misfit))
-                .chain([(&straight.0, &straight.1)])
+                .chain([(&by_moves, &bends)])
                 .collect();
             let left = parts.iter().filter(|part| !part.1.is_empty());
             let left = left.map(|part| part.1.amax()).fold(0.0, f64::max);
@@ -151,24 +155,22 @@ impl<'a> Fit<'a> {
     /// The numbers after these moves, and by how much the loops stay open at configurations that took
     /// no part.
     fn tried(&self, basis: &Basis, first: usize, moves: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
-        let values = self.values(moves);
-        let system = self.system_of(&(self.rounded.model)(&values)?)?;
+        let model = self.model_at(moves)?;
+        let system = self.system_of(&model)?;
         let misfit = sample::opening(&system, basis, first..first + TRIED)?;
-        let (_, bends) = self.straight(moves, &self.scales())?;
+        let bends = self.bends_of(&model);
         let misfit = bends.iter().fold(misfit, |most, bend| most.max(bend.abs()));
-        Some((values, misfit))
+        Some((self.values(moves), misfit))
     }
 
-    /// The bends of the rails after these moves, and their derivatives by moves.
-    fn straight(
-        &self,
-        moves: &DVector<f64>,
-        scales: &[f64],
-    ) -> Option<(DMatrix<f64>, DVector<f64>)> {
-        let rails = super::rails::Rails::of(self.closure);
-        let model = (self.rounded.model)(&self.values(moves))?;
-        let effect = scaled(self.rails.rows_of(&self.effects.bends), scales);
-        Some((effect, self.rails.of(&rails.bends(model.geometry()))))
+    /// The bends of the rails of a model.
+    fn bends_of(&self, model: &Model) -> DVector<f64> {
+        self.bends.of(&self.rails.bends(model.geometry()))
+    }
+
+    /// Their derivatives by moves.
+    fn bends_by_moves(&self, scales: &[f64]) -> DMatrix<f64> {
+        scaled(self.bends.rows_of(&self.effects.bends), scales)
     }
 
     /// What a move of one rounding is of each number.
@@ -183,8 +185,9 @@ impl<'a> Fit<'a> {
             .collect()
     }
 
-    fn system_at(&self, moves: &DVector<f64>) -> Option<System> {
-        self.system_of(&(self.rounded.model)(&self.values(moves))?)
+    /// The model after these moves.
+    fn model_at(&self, moves: &DVector<f64>) -> Option<Model> {
+        (self.rounded.model)(&self.values(moves))
     }
 
     /// The mechanism in another geometry, with the lengths of this one.

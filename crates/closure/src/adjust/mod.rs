@@ -19,6 +19,7 @@ use crate::closure::LoopClosure;
 use effect::Effects;
 use fit::Fit;
 use freedoms::Freedoms;
+use rails::Rails;
 
 /// Numbers that the geometry of a model is made of, with how far each was rounded.
 #[derive(Clone, Copy)]
@@ -84,38 +85,65 @@ pub enum Unadjusted {
     Nothing,
 }
 
+/// A mechanism whose geometry may be moved: what does not depend on how its numbers were rounded, found once.
+#[derive(Debug)]
+pub struct Adjusting<'c> {
+    closure: &'c LoopClosure,
+    freedoms: Freedoms,
+    rails: Rails,
+}
+
 impl LoopClosure {
-    /// The geometry nearest to the one of this mechanism, which `rounded` says the numbers of, that has by
+    /// What moves of the geometry can give this mechanism.
+    pub fn adjusting(&self) -> Adjusting<'_> {
+        Adjusting {
+            closure: self,
+            freedoms: Freedoms::of(&self.system),
+            rails: Rails::of(self),
+        }
+    }
+
+    /// The largest of the roundings, lengths over the size.
+    fn relative(&self, rounded: &Rounded<'_>) -> f64 {
+        let largest = rounded.roundings.iter().copied().fold(0.0, f64::max);
+        largest / self.system.size.min(1.0)
+    }
+}
+
+impl Adjusting<'_> {
+    /// The geometry nearest to the one of the mechanism, which `rounded` says the numbers of, that has by
     /// finite amounts the freedoms which it nearly has, and in which the beams are straight that joints
     /// slide along; no number moves by more than `most` roundings.
     ///
     /// # Errors
     /// It has them already, or there is no such geometry.
     pub fn adjusted(&self, rounded: &Rounded<'_>, most: f64) -> Result<Adjusted, Unadjusted> {
-        let freedoms = Freedoms::of(&self.system);
-        let rounding = self.relative(rounded);
-        let wanted = freedoms.candidates(&self.system, rounding);
-        let rails = rails::Rails::of(self);
+        let Self {
+            closure,
+            freedoms,
+            rails,
+        } = self;
+        let wanted = self.candidates(rounded);
         if wanted.is_empty() && rails.is_empty() {
             return Err(Unadjusted::Exact);
         }
-        let effects = Effects::of(self, rounded, &rails).ok_or(Unadjusted::Nothing)?;
-        let rails = effects.rails(&rails, rounded);
-        let wanted = match (wanted.is_empty(), rails.none(&effects.bent)) {
+        let effects = Effects::of(closure, rounded, rails).ok_or(Unadjusted::Nothing)?;
+        let bends = effects.rails(rails, rounded);
+        let wanted = match (wanted.is_empty(), bends.none(&effects.bent)) {
             (true, true) => return Err(Unadjusted::Exact),
             (true, false) => vec![freedoms.exact()],
             _ => wanted,
         };
-        let fit = Fit::new(self, rounded, &effects, &rails);
+        let fit = Fit::new(closure, rounded, &effects, (rails, &bends));
         let largest = wanted.first().copied().unwrap_or(0);
         let found = wanted.into_iter().find_map(|count| {
-            let mut found = fit.adjusted(&freedoms, count)?;
+            let mut found = fit.adjusted(freedoms, count)?;
             found.wanted = largest;
             (found.most(rounded) <= most).then_some(found)
         });
         let exact = freedoms.exact();
         let meant = largest <= exact || !freedoms.is_clear(largest);
-        let finite = || rails.none(&effects.bent) && freedoms.are_finite(&self.system, exact);
+        let finite = || bends.none(&effects.bent) && freedoms.are_finite(&closure.system, exact);
         found.ok_or_else(|| match meant && finite() {
             true => Unadjusted::Exact,
             false => Unadjusted::Nothing,
@@ -123,16 +151,14 @@ impl LoopClosure {
     }
 
     /// Whether roundings like these may have taken a freedom, or left it at home alone: if not,
-    /// [`LoopClosure::adjusted`] has beams alone to make straight.
+    /// [`Adjusting::adjusted`] has beams alone to make straight.
     pub fn may_be_rounded(&self, rounded: &Rounded<'_>) -> bool {
-        let freedoms = Freedoms::of(&self.system);
-        let wanted = freedoms.candidates(&self.system, self.relative(rounded));
-        !wanted.is_empty()
+        !self.candidates(rounded).is_empty()
     }
 
-    /// The largest of the roundings, lengths over the size.
-    fn relative(&self, rounded: &Rounded<'_>) -> f64 {
-        let largest = rounded.roundings.iter().copied().fold(0.0, f64::max);
-        largest / self.system.size.min(1.0)
+    /// Numbers of freedoms that it may have been meant to have.
+    fn candidates(&self, rounded: &Rounded<'_>) -> Vec<usize> {
+        let system = &self.closure.system;
+        (self.freedoms).candidates(system, self.closure.relative(rounded))
     }
 }

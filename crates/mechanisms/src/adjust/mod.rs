@@ -2,7 +2,7 @@
 
 mod coordinates;
 
-use hyperstat_closure::{Adjusted, LoopClosure, Rounded, Unadjusted};
+use hyperstat_closure::{Adjusted, Adjusting, LoopClosure, Rounded, Unadjusted};
 use hyperstat_model::Model;
 
 use crate::error::Location;
@@ -94,7 +94,7 @@ impl Mechanism {
     /// Why there is none.
     pub fn adjusted(&self) -> Result<Adjustment, NotAdjusted> {
         let closure = LoopClosure::new(&self.model).map_err(|_| NotAdjusted::Unknown)?;
-        self.adjust(&closure, Asked::All)
+        self.adjust(&closure.adjusting(), Asked::All)
     }
 
     /// The same where rounding alone explains that freedoms are missed: nothing is said of a mechanism
@@ -107,7 +107,7 @@ impl Mechanism {
             return None;
         }
         let closure = LoopClosure::new(&self.model).ok()?;
-        let found = self.adjust(&closure, Asked::Freedoms).ok()?;
+        let found = self.adjust(&closure.adjusting(), Asked::Freedoms).ok()?;
         (found.open > CLOSED).then_some(found)
     }
 
@@ -116,7 +116,7 @@ impl Mechanism {
         coordinates::held(self.root())
     }
 
-    fn adjust(&self, closure: &LoopClosure, asked: Asked) -> Result<Adjustment, NotAdjusted> {
+    fn adjust(&self, adjusting: &Adjusting<'_>, asked: Asked) -> Result<Adjustment, NotAdjusted> {
         let mut why = NotAdjusted::NoNumbers;
         let mut sure = asked == Asked::All;
         let mut best: Option<(Coordinates, Adjusted)> = None;
@@ -129,10 +129,10 @@ impl Mechanism {
                 roundings: &roundings,
                 model: &model,
             };
-            if asked == Asked::Freedoms && !closure.may_be_rounded(&rounded) {
+            if asked == Asked::Freedoms && !adjusting.may_be_rounded(&rounded) {
                 continue;
             }
-            match closure.adjusted(&rounded, MOST) {
+            match adjusting.adjusted(&rounded, MOST) {
                 // Who did not ask, or has a mechanism that may be meant as it is, is told what rounding
                 // explains, and nothing else.
                 Ok(found) if sure || found.mean(&rounded) <= MEAN => {
@@ -151,7 +151,7 @@ impl Mechanism {
                 _ => {}
             }
         }
-        if why == NotAdjusted::NoNumbers && !Self::misses_freedoms(closure) {
+        if why == NotAdjusted::NoNumbers && !Self::misses_freedoms(adjusting) {
             why = NotAdjusted::Exact;
         }
         best.map(|(coordinates, found)| self.adjustment(&coordinates, &found))
@@ -159,8 +159,8 @@ impl Mechanism {
     }
 
     /// Whether freedoms are missed as if by the coarsest rounding, whatever numbers there are.
-    fn misses_freedoms(closure: &LoopClosure) -> bool {
-        closure.may_be_rounded(&Rounded {
+    fn misses_freedoms(adjusting: &Adjusting<'_>) -> bool {
+        adjusting.may_be_rounded(&Rounded {
             values: &[0.0],
             roundings: &[COARSE],
             model: &|_| None,

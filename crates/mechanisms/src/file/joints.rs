@@ -22,10 +22,10 @@ use crate::text::{names, quantities};
 const SYMMETRY: f64 = 1e-9;
 
 /// Numbers by direction: what they are, in words, and what each measures.
-pub(crate) type Directed = (&'static str, [Dimension; 6]);
+pub(crate) type Directed = (&'static str, fn() -> [Dimension; 6]);
 
-pub(crate) const MISFIT: Directed = ("the misfit", quantities::DISPLACEMENT);
-pub(crate) const PRELOAD: Directed = ("the preload", quantities::WRENCH);
+pub(crate) const MISFIT: Directed = ("the misfit", quantities::displacement);
+pub(crate) const PRELOAD: Directed = ("the preload", quantities::wrench);
 
 /// Adds the joint of `entry` to the model; `at` finds a point's name in the file.
 pub(crate) fn read(
@@ -121,7 +121,7 @@ fn set(
     let mut values = Vector6::zeros();
     for dof in Dof::ALL {
         if let Some(value) = fields.get(dof.name()) {
-            values[dof.index()] = value.acting(&format!("`{dof}`"), of[dof.index()])?;
+            values[dof.index()] = value.acting(&format!("`{dof}`"), of()[dof.index()])?;
         }
     }
     set(&values).map_err(|error| {
@@ -238,7 +238,7 @@ pub(crate) fn directions(fragment: Fragment<'_>) -> Result<[Option<f64>; 6], Loa
     let known = Dof::ALL.map(Dof::name);
     let fields = Fields::read(fragment, "the stiffness", &known)?;
     let mut values = [None; 6];
-    for ((value, name), dimension) in values.iter_mut().zip(known).zip(quantities::STIFFNESS) {
+    for ((value, name), dimension) in values.iter_mut().zip(known).zip(quantities::stiffness()) {
         let read = |given| spring(given, &format!("`{name}`"), &[dimension]);
         *value = fields.get(name).map(read).transpose()?;
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use hyperstat_closure::{LoopClosure, Reached, Target};
+use hyperstat_joints::Dof;
 use hyperstat_model::{BodyId, JointId, Model, NodeId};
 use nalgebra::{Point3, Rotation3};
 
@@ -56,7 +57,18 @@ pub struct Mechanism {
 impl Mechanism {
     /// Reads the value of a mechanism file.
     pub(crate) fn read(root: Node, registry: &Registry) -> Result<Self, LoadError> {
-        let written = groups::write_out(&root)?;
+        let settled = root.clone();
+        Self::read_settled(root, &settled, registry)
+    }
+
+    /// The same, where values of expressions are known: `settled` is the file's value with them in their
+    /// places.
+    pub(crate) fn read_settled(
+        root: Node,
+        settled: &Node,
+        registry: &Registry,
+    ) -> Result<Self, LoadError> {
+        let written = groups::write_out(settled)?;
         let root = Arc::new(root);
         let fragment = Fragment::of_node(&written.root);
         let fields = Fields::read(fragment, "the mechanism", &MECHANISM.names())?;
@@ -90,11 +102,7 @@ impl Mechanism {
         model.set_output(own);
         let field = |k: usize| fields.get(loads::FIELDS[k]);
         let loads = loads::read(field, &mut model, &Home::Here)?.unwrap_or_default();
-        let mut used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
-        root.expressions(&mut |expression| used.extend(expression.names()));
-        let points = tables.points.names();
-        let unused = points.filter(|name| !used.contains(name));
-        let unused_points = unused.map(Into::into).collect();
+        let unused_points = unused(tables.points.names(), &model, &root);
         Ok(Self {
             model,
             bodies,
@@ -114,7 +122,16 @@ impl Mechanism {
     /// Puts what a job says of loads, cases, gravity, masses, misfits, preloads and the output in place of
     /// the mechanism's own.
     pub(crate) fn replace(&mut self, acting: &Acting) -> Result<(), LoadError> {
-        let values = acting.in_scope(&self.root)?;
+        self.replace_settled(acting, acting)
+    }
+
+    /// The same, where values of expressions are known: `settled` has them in their places.
+    pub(crate) fn replace_settled(
+        &mut self,
+        acting: &Acting,
+        settled: &Acting,
+    ) -> Result<(), LoadError> {
+        let values = settled.in_scope(&self.root)?;
         let output = (self.end).read(&values, &mut self.model, &Rotation3::identity())?;
         if let Some(loads) = values.read(&mut self.model, &Home::Here)? {
             self.loads = loads;
@@ -151,6 +168,19 @@ impl Mechanism {
         let masses = !self.acting.as_ref().is_some_and(Acting::has_masses);
         let given = (&*self.given, &self.copies);
         value_names::of_file(&self.root, varied, given, masses, model);
+    }
+
+    /// The path by which `vary` and [`Mechanism::with_values`] take the stiffnesses of these joints in one
+    /// direction as one, such as `joints.{A1|A2|A3}.stiffness.u`; `None` where one of them has no path.
+    ///
+    /// # Panics
+    /// If a joint is not one of this mechanism's model.
+    pub fn stiffness_path(&self, joints: &[JointId], direction: Dof) -> Option<String> {
+        let path = |joint: &JointId| self.copies.joint(&self.model.joints()[joint.0].name);
+        let path = value_names::together(joints.iter().map(path), direction)?;
+        let name = Source::argument("path", format!("{path:?}"), None);
+        let found = paths::find_all(&self.root, Fragment::at(&Place::whole(&name)));
+        found.is_ok().then_some(path)
     }
 
     /// The parameters of the mechanism, and what depends on each.
@@ -294,6 +324,18 @@ impl Mechanism {
     pub fn locate_load(&self, load: usize) -> Location {
         self.loads[load].location()
     }
+}
+
+/// The points that no body runs through and no expression names.
+fn unused<'n>(points: impl Iterator<Item = &'n str>, model: &Model, root: &Node) -> Vec<String> {
+    let used: HashSet<_> = model.nodes().iter().map(|node| &*node.point).collect();
+    let mut unused: Vec<&str> = points.filter(|name| !used.contains(name)).collect();
+    if !unused.is_empty() {
+        let mut named = HashSet::new();
+        root.expressions(&mut |expression| named.extend(expression.names()));
+        unused.retain(|name| !named.contains(name));
+    }
+    unused.into_iter().map(Into::into).collect()
 }
 
 /// Largest coordinate of a point (m): with those beyond it, sums of squares and the stiffness of

@@ -86,6 +86,30 @@ pub(crate) fn of_file(
     }
 }
 
+/// The path of one stiffness of joints with these paths, which copies of a joint share; `None` where they are
+/// not several, and of a name that no group of a path can hold.
+pub(crate) fn together(joints: impl Iterator<Item = String>, direction: Dof) -> Option<String> {
+    let mut paths: Vec<String> = Vec::new();
+    for path in joints {
+        if path.contains(['{', '|', '}']) || path.trim() != path {
+            return None;
+        }
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    if paths.len() < 2 {
+        return None;
+    }
+    let own = |prefix: &str| paths.iter().all(|path| path.starts_with(prefix));
+    // Names may hold dots: what is before them is the same for all, or is named with them.
+    let before = if own("joints.") { "joints." } else { "" };
+    let names: Vec<&str> = paths.iter().map(|path| &path[before.len()..]).collect();
+    let letter = letter(direction);
+    let names = names.join("|");
+    Some(format!("{before}{{{names}}}.stiffness.{letter}"))
+}
+
 /// The letter of a direction in files.
 fn letter(direction: Dof) -> &'static str {
     ["x", "y", "z", "u", "v", "w"][direction.index()]

@@ -117,7 +117,7 @@ fn frequencies(fields: &Fields<'_>, known: &Known<'_>) -> Result<ModalOptions, L
                 .error("the job's `modes` say how many natural frequencies there are")
                 .with_help("leave the number out here, or leave out `modes`"));
         }
-        Some(count) => modes::count(count)?,
+        Some(count) => modes::count(count, modes::COUNT)?,
     };
     Ok(ModalOptions::lowest(count))
 }

@@ -187,8 +187,12 @@ impl Designs {
     }
 
     fn changed(&self, number: usize) -> Changed<'_> {
+        self.changed_of(self.variation.whole(), number)
+    }
+
+    fn changed_of<'v>(&'v self, root: &'v Node, number: usize) -> Changed<'v> {
         Changed {
-            root: self.variation.whole(),
+            root,
             values: self.variation.design(number),
             whole: self.variation.place.clone(),
         }
@@ -208,7 +212,9 @@ impl Designs {
     }
 
     fn read(&self, number: usize, recipe: &Recipe) -> Result<Checked, LoadError> {
-        let checked = recipe.read_whole(&self.changed(number).tree());
+        let trees = [self.variation.whole(), self.variation.settled()];
+        let [whole, settled] = trees.map(|tree| self.changed_of(tree, number).tree());
+        let checked = recipe.read_whole(&whole, &settled);
         checked.map_err(|error| self.refused(number, recipe, error))
     }
 
@@ -218,7 +224,7 @@ impl Designs {
             error,
             &format!("design {number}"),
             |location| self.variation.holds(location),
-            |whole| recipe.read_whole(whole).is_ok(),
+            |whole| recipe.read_whole(whole, whole).is_ok(),
         )
     }
 }

@@ -22,8 +22,8 @@ pub enum Figure {
     },
     /// The deformed mechanism over the undeformed one (Fig. 9).
     Deformed {
-        /// The pose to draw, from 0.
-        pose: usize,
+        /// The pose to draw.
+        pose: FigurePose,
         /// The case under whose loads; the loads of the base state where there is none.
         case: Option<String>,
         /// Magnification of the deflection.
@@ -37,8 +37,8 @@ pub enum Figure {
     Mode {
         /// Which mode, from 1, lowest first.
         number: usize,
-        /// The pose to draw, from 0.
-        pose: usize,
+        /// The pose to draw.
+        pose: FigurePose,
         /// Magnification of the shape of unit modal mass.
         scale: Scale,
         /// How it looks.
@@ -50,8 +50,8 @@ pub enum Figure {
     Budget {
         /// The displacement along which.
         along: Along,
-        /// The pose, from 0.
-        pose: usize,
+        /// The pose.
+        pose: FigurePose,
         /// The case under whose loads; the loads of the base state where there is none.
         case: Option<String>,
         /// Its title.
@@ -69,13 +69,34 @@ pub enum Figure {
         /// The values, in the SI unit, at which the colours begin and end, ascending; `None`: the
         /// least and the largest.
         limits: Option<[f64; 2]>,
+        /// What the limits measure, where they are given with a unit.
+        measured: Option<Dimension>,
         /// How the colours go from one to the other.
         scale: ColorScale,
         /// What is marked where it stands.
         marks: Vec<Mark>,
+        /// Another design of the job, drawn beside the first in the same colours.
+        beside: Option<usize>,
+        /// Whether in place of both the ratio of that design to the first is drawn.
+        ratio: bool,
         /// Title and names.
         words: Words,
     },
+}
+
+/// Which pose of the job a figure is of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FigurePose {
+    /// By its number, from 0.
+    Number(usize),
+    /// By coordinates that the poses give, of `x y z rx ry rz`, or drives such as `A1.v`, each with its value.
+    At(Vec<(String, f64)>),
+}
+
+impl From<usize> for FigurePose {
+    fn from(number: usize) -> Self {
+        Self::Number(number)
+    }
 }
 
 /// How the colours of a map go with its values.
@@ -173,7 +194,7 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
     };
     let pose = || {
         let given = fields.get("pose");
-        given.map_or(Ok(0), |at| pose(at, known.poses))
+        given.map_or(Ok(FigurePose::Number(0)), |at| pose(at, known.poses))
     };
     let case = || fields.get("case").map(|at| case(at, known)).transpose();
     let scale = || fields.get("scale").map_or(Ok(Scale::Auto), scale);
@@ -197,13 +218,17 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
                 .get("scale")
                 .map_or(Ok(ColorScale::Auto), color_scale)?;
             let limits = |at| limits(at, scale);
+            let limits = fields.get("limits").map(limits).transpose()?;
             Figure::Map {
                 value: fields.required("value")?.string()?,
                 planes: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
                 axes: fields.get("axes").map(axes).transpose()?,
-                limits: fields.get("limits").map(limits).transpose()?,
+                limits: limits.map(|(limits, _)| limits),
+                measured: limits.and_then(|(_, measured)| measured),
                 scale,
                 marks: fields.get("mark").map_or(Ok(Vec::new()), look::marks)?,
+                beside: beside(&fields)?,
+                ratio: ratio(&fields)?,
                 words: words()?,
             }
         }
@@ -238,6 +263,33 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
         },
     };
     Ok((figure, place))
+}
+
+/// Reads the number of the design that is drawn beside the first.
+fn beside(fields: &Fields<'_>) -> Result<Option<usize>, LoadError> {
+    let given = fields.get("beside");
+    given
+        .map(|at| at.count("the number of a design, from 0"))
+        .transpose()
+}
+
+/// Reads whether a ratio is drawn.
+fn ratio(fields: &Fields<'_>) -> Result<bool, LoadError> {
+    let Some(at) = fields.get("ratio") else {
+        return Ok(false);
+    };
+    let ratio = at.parse("`true` or `false`")?;
+    if ratio && fields.get("beside").is_none() {
+        return Err(at
+            .error("a ratio is of two designs")
+            .with_help("name the other one, such as `beside: 1`"));
+    }
+    if let Some(scale) = fields.get("scale").filter(|_| ratio) {
+        return Err(scale
+            .error("the colours of a ratio part at 1")
+            .with_help("leave `scale` out, or `ratio`"));
+    }
+    Ok(ratio)
 }
 
 /// Reads the name of a case.
@@ -313,7 +365,7 @@ fn plane(fragment: Fragment<'_>) -> Result<(String, f64), LoadError> {
     let coordinate = coordinate(kind)?;
     let [value] = arguments.array(PLANE)?;
     let place = csv::COLUMNS.iter().position(|name| *name == coordinate);
-    let dimension = quantities::DISPLACEMENT[place.unwrap_or(0)];
+    let dimension = quantities::displacement()[place.unwrap_or(0)];
     let value = value.quantity(&format!("`{coordinate}`"), dimension)?;
     Ok((coordinate, value))
 }
@@ -347,10 +399,19 @@ fn coordinate(word: Fragment<'_>) -> Result<String, LoadError> {
         .with_help(names::help(name, "coordinates", csv::COLUMNS)))
 }
 
-/// Reads the values at which colours begin and end.
-fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadError> {
+/// Reads the values at which colours begin and end, and what they measure, if they say so.
+fn limits(
+    fragment: Fragment<'_>,
+    scale: ColorScale,
+) -> Result<([f64; 2], Option<Dimension>), LoadError> {
     let [low, high] = fragment.array("two values, such as `(1e-5, 1e-3)`")?;
-    let limits = [low.number()?, high.number()?];
+    let [first, last] = [low.measured(None)?, high.measured(None)?];
+    if let (Some(wanted), Some(other)) = (first.1, last.1)
+        && wanted != other
+    {
+        return Err(high.of_dimension("the lower limit", wanted, other));
+    }
+    let (limits, measured) = ([first.0, last.0], first.1.or(last.1));
     if limits[0] >= limits[1] {
         return Err(fragment
             .error("the colours must begin below where they end")
@@ -361,7 +422,7 @@ fn limits(fragment: Fragment<'_>, scale: ColorScale) -> Result<[f64; 2], LoadErr
             .error("a logarithmic scale begins above zero")
             .with_help("give a lower value above zero, or `scale: Linear`"));
     }
-    Ok(limits)
+    Ok((limits, measured))
 }
 
 /// Reads how colours go with values.
@@ -395,12 +456,41 @@ fn scale(fragment: Fragment<'_>) -> Result<Scale, LoadError> {
     }
 }
 
-fn pose(fragment: Fragment<'_>, poses: usize) -> Result<usize, LoadError> {
-    let pose = fragment.count("the number of a pose, from 0")?;
-    if pose >= poses {
-        return Err(fragment
-            .error(format!("there is no pose {pose}"))
-            .with_help(format!("the job's poses are 0 to {}", poses - 1)));
+/// Reads the number of a pose, or its coordinates, `(x: 0.1, z: 0.5)`, or drives, `{ "A1.v": 0.2 }`.
+fn pose(fragment: Fragment<'_>, poses: usize) -> Result<FigurePose, LoadError> {
+    let at = |name: &str, value: Fragment<'_>| {
+        let place = csv::COLUMNS.iter().position(|own| *own == name);
+        let value = match place {
+            Some(place) => csv::quantity(place, value)?,
+            None => value.number()?,
+        };
+        Ok::<_, LoadError>((name.to_owned(), value))
+    };
+    // In JSON both are objects.
+    let given: Vec<_> = if fragment.text().starts_with('{') {
+        let entries = fragment.map()?.into_iter();
+        let given = entries.map(|entry| at(&entry.name, entry.value));
+        given.collect::<Result<_, _>>()?
+    } else if fragment.has_fields() {
+        let fields = Fields::read(fragment, "the pose", &csv::COLUMNS)?;
+        let given = csv::COLUMNS.iter();
+        let given = given.filter_map(|name| Some(at(name, fields.get(name)?)));
+        given.collect::<Result<_, _>>()?
+    } else {
+        let pose = fragment.count(POSE)?;
+        if pose >= poses {
+            return Err(fragment
+                .error(format!("there is no pose {pose}"))
+                .with_help(format!("the job's poses are 0 to {}", poses - 1)));
+        }
+        return Ok(FigurePose::Number(pose));
+    };
+    match given.is_empty() {
+        true => Err(fragment.expected(POSE)),
+        false => Ok(FigurePose::At(given)),
     }
-    Ok(pose)
 }
+
+/// What a pose is.
+const POSE: &str =
+    "the number of a pose, from 0, or coordinates of one, such as `(x: 0.1, z: 0.5)`";

@@ -15,10 +15,12 @@ pub(crate) const MOST: usize = 1000;
 /// Reads `6` or `(count: 6, mass: Lumped)`.
 pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
     if !fragment.has_fields() {
-        return count(fragment).map(ModalOptions::lowest);
+        let expected =
+            "a number of natural frequencies from 1 to 1000, or `(count: 6, mass: Lumped)`";
+        return count(fragment, expected).map(ModalOptions::lowest);
     }
     let fields = Fields::read(fragment, "`modes`", &MODES.names())?;
-    let mut options = ModalOptions::lowest(count(fields.required("count")?)?);
+    let mut options = ModalOptions::lowest(count(fields.required("count")?, COUNT)?);
     if let Some(mass) = fields.get("mass") {
         options.mass = match word(mass, "kinds of mass", ["Exact", "Consistent", "Lumped"])? {
             "Lumped" => BeamMass::Lumped,
@@ -52,9 +54,11 @@ pub(crate) fn read(fragment: Fragment<'_>) -> Result<ModalOptions, LoadError> {
     Ok(options)
 }
 
-/// Reads a number of modes.
-pub(super) fn count(fragment: Fragment<'_>) -> Result<usize, LoadError> {
-    let expected = "a number of natural frequencies from 1 to 1000, or `(count: 6, mass: Lumped)`";
+/// What a number of modes is.
+pub(super) const COUNT: &str = "a number of natural frequencies from 1 to 1000";
+
+/// Reads a number of modes, where `expected` is.
+pub(super) fn count(fragment: Fragment<'_>, expected: &str) -> Result<usize, LoadError> {
     match fragment.count::<usize>(expected)? {
         count if (1..=MOST).contains(&count) => Ok(count),
         _ => Err(fragment.expected(expected)),

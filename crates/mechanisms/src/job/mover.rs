@@ -72,7 +72,8 @@ impl Placing {
         });
     }
 
-    /// Keeps what loop closure finds on the way to the poses that are placed.
+    /// Keeps what loop closure finds on the way to the poses that are placed, or what is measured in them
+    /// where it finds none.
     pub(super) fn keep_followed(
         &mut self,
         placed: &Placed,
@@ -91,7 +92,10 @@ impl Placing {
         let same = following.follow(&poses, &geometries, &mut self.lanes, &mut kept.room);
         self.keep(|lanes, lane| {
             let place = reached.iter().position(|own| *own == lane)?;
-            same[place].then(|| lanes.drives(place).to_vec())
+            match same[place] {
+                true => Some(lanes.drives(place).to_vec()),
+                false => following.measured(geometries[place]),
+            }
         });
     }
 

@@ -161,7 +161,7 @@ fn grid(
             None => continue,
         };
         *axis = {
-            let dimension = quantities::DISPLACEMENT[index];
+            let dimension = quantities::displacement()[index];
             Values::read(
                 field,
                 "three values, `(first, last, count)`",

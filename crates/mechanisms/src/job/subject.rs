@@ -137,21 +137,27 @@ impl Recipe {
 
     /// Reads and checks the mechanism: [`Recipe::root`], or that with other values in some places.
     pub(crate) fn read(&self, root: &Node) -> Result<Checked, LoadError> {
-        self.read_under(root, &self.acting)
+        self.read_under([root; 2], [&self.acting; 2])
     }
 
-    /// The same with what acts.
-    pub(super) fn read_under(&self, root: &Node, acting: &Acting) -> Result<Checked, LoadError> {
+    /// The same with what acts. Each as it is written, and with those of its values that are known in the
+    /// places of expressions.
+    pub(super) fn read_under(
+        &self,
+        [root, settled]: [&Node; 2],
+        [acting, settled_acting]: [&Acting; 2],
+    ) -> Result<Checked, LoadError> {
         match &self.kind {
             None => {
-                let mut mechanism = Mechanism::read(root.clone(), &self.registry)?;
-                mechanism.replace(acting)?;
+                let root = root.clone();
+                let mut mechanism = Mechanism::read_settled(root, settled, &self.registry)?;
+                mechanism.replace_settled(acting, settled_acting)?;
                 Ok(Checked::File(Box::new(mechanism)))
             }
             Some(kind) => {
-                let tree = Scope::tree(root)?;
+                let tree = Scope::tree(settled)?;
                 let mechanism = kind.read(Fragment::of_node(&tree))?;
-                let acting = Box::new(acting.in_scope(root)?);
+                let acting = Box::new(settled_acting.in_scope(root)?);
                 Ok(Checked::Prebuilt(mechanism, acting))
             }
         }

@@ -270,7 +270,7 @@ fn grid(arguments: Fragment<'_>, whole: Fragment<'_>) -> Result<[Option<Values>;
     for ((axis, name), dimension) in axes
         .iter_mut()
         .zip(csv::COLUMNS)
-        .zip(quantities::DISPLACEMENT)
+        .zip(quantities::displacement())
     {
         let expected = "three values, `(first, last, count)`";
         let read = |field| Values::read(field, expected, Some(dimension));

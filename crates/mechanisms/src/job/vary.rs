@@ -28,6 +28,8 @@ pub(crate) struct Variation {
     pub(crate) place: Place,
     /// The tree that it varies: [`Recipe::whole`].
     whole: Node,
+    /// The same with the values of expressions that no design changes.
+    settled: Node,
     axes: Vec<Axis>,
     /// Whether all axes run together, so that a design has the same place in each.
     zip: bool,
@@ -108,9 +110,12 @@ impl Variation {
                 .error("more designs and poses than can be counted")
                 .with_help("give fewer values, or `zip: true` to take them side by side"));
         };
+        let whole = recipe.whole();
+        let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
         Ok(Some(Self {
             place: map.place(),
-            whole: recipe.whole(),
+            settled: recipe.settled(&whole, &places.collect::<Vec<_>>()),
+            whole,
             axes,
             zip,
             count,
@@ -125,6 +130,11 @@ impl Variation {
     /// The tree that it varies.
     pub(crate) fn whole(&self) -> &Node {
         &self.whole
+    }
+
+    /// The same tree with the values of expressions that no design changes.
+    pub(crate) fn settled(&self) -> &Node {
+        &self.settled
     }
 
     /// What varies, in the order of the file.

@@ -2,9 +2,11 @@
 
 use super::subject::{Checked, Recipe};
 use crate::error::LoadError;
+use crate::file::groups;
 use crate::file::loads::{Acting, FIELDS};
 use crate::text::fragment::Fragment;
 use crate::text::paths;
+use crate::text::scope::{Open, Scope};
 use crate::text::tree::{Content, Node, Steps};
 
 impl Recipe {
@@ -47,11 +49,49 @@ impl Recipe {
         whole.part(0).unwrap_or(self.root()).clone()
     }
 
-    /// Reads and checks such a tree.
-    pub(crate) fn read_whole(&self, whole: &Node) -> Result<Checked, LoadError> {
+    /// Reads and checks such a tree; `settled` is the same with those of its values that are known in the
+    /// places of expressions.
+    pub(crate) fn read_whole(&self, whole: &Node, settled: &Node) -> Result<Checked, LoadError> {
+        let [root, own] = [whole, settled].map(|tree| tree.part(0).unwrap_or(self.root()));
+        self.read_under(
+            [root, own],
+            [&self.acting_of(whole), &self.acting_of(settled)],
+        )
+    }
+
+    /// What acts, of such a tree.
+    fn acting_of(&self, whole: &Node) -> Acting {
         let parts = (0..FIELDS.len()).map(|k| whole.part(1 + k));
-        let acting = self.acting.with_trees(parts);
-        self.read_under(&self.root_of(whole), &acting)
+        self.acting.with_trees(parts)
+    }
+
+    /// Such a tree with the values of those expressions in their places that lean on nothing which stands
+    /// at these `places`: what is the same in every design is found once.
+    pub(crate) fn settled(&self, whole: &Node, places: &[Steps]) -> Node {
+        if !whole.has_expressions() {
+            return whole.clone();
+        }
+        let (open, marked) = Open::mark(whole, places);
+        let mut tree = self.settled_under(&marked, &open).unwrap_or(marked);
+        for steps in places {
+            if let Some(own) = whole.find(steps) {
+                tree.replace(steps, own.clone());
+            }
+        }
+        tree
+    }
+
+    fn settled_under(&self, marked: &Node, open: &Open) -> Option<Node> {
+        let root = self.root_of(marked);
+        let known = groups::with_copies(&root).ok();
+        let scope = (known.as_ref()).and_then(|known| Scope::settling(known, open).ok());
+        let acting = (0..FIELDS.len()).map(|k| {
+            let field = marked.part(1 + k)?;
+            let settled = scope.as_ref().and_then(|scope| scope.settled(field));
+            Some(settled.unwrap_or_else(|| field.clone()))
+        });
+        let parts = std::iter::once(groups::settled(&root, open)).chain(acting);
+        Some(marked.with(Content::Tuple(parts.collect::<Option<_>>()?)))
     }
 }
 

@@ -1,58 +1,22 @@
 //! The hexapod in a batch file, and the cubic one.
 
-use super::legs::{LEG_FIELD, foot_joint, telescopic_leg};
+use super::legs::{foot_joint, telescopic_leg};
 use crate::error::LoadError;
-use crate::parameters::{
-    DRIVE_FORCE, ELEMENTS, JOINT_STIFFNESS, Kind, drive_stiffness, elements, joint_stiffness,
-    refused,
-};
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::Hexapod;
-use crate::terms::Type::{Number, Word};
-use crate::terms::{needed, optional};
+use crate::terms::prebuilts;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Hexapod",
-    fields: &[
-        needed("base_radius", Number("m"), "from the origin to each B_i"),
-        needed(
-            "base_angle",
-            Number("rad"),
-            "half the angle between the joints of a pair, 0 to π/3",
-        ),
-        needed("platform_radius", Number("m"), "from P to each S_i"),
-        needed(
-            "platform_angle",
-            Number("rad"),
-            "half the angle between the joints of a pair, 0 to π/3",
-        ),
-        optional(
-            "base_joints",
-            Word(&["Universal", "Spherical"]),
-            "with which the legs stand",
-        ),
-        LEG_FIELD,
-        JOINT_STIFFNESS,
-        DRIVE_FORCE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::HEXAPOD,
     read: |fields| Ok(Box::new(read(fields)?)),
 };
 
 pub(super) const CUBIC: Kind = Kind {
     name: "CubicHexapod",
-    fields: &[
-        needed(
-            "edge",
-            Number("m"),
-            "of the cube: length of the legs at home",
-        ),
-        LEG_FIELD,
-        JOINT_STIFFNESS,
-        DRIVE_FORCE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::CUBIC_HEXAPOD,
     read: |fields| Ok(Box::new(read_cubic(fields)?)),
 };
 

@@ -1,39 +1,16 @@
 //! The linear delta in a batch file.
 
-use super::legs::{RAILS_FIELD, foot_joint, rails};
+use super::legs::{foot_joint, rails};
 use crate::error::LoadError;
-use crate::parameters::{
-    DRIVE_FORCE, ELEMENTS, JOINT_STIFFNESS, Kind, drive_stiffness, elements, joint_stiffness, link,
-    refused,
-};
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, link, refused};
 use crate::prebuilt::LinearDelta;
-use crate::terms::Type::{Number, Record as Of, Word};
-use crate::terms::parts::LINK;
-use crate::terms::{needed, optional};
+use crate::terms::prebuilts;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "LinearDelta",
-    fields: &[
-        RAILS_FIELD,
-        needed("platform_radius", Number("m"), "from P to each C_i"),
-        needed("rod_length", Number("m"), "of the rods"),
-        needed(
-            "rod_spacing",
-            Number("m"),
-            "distance of the two rods of a limb",
-        ),
-        optional(
-            "carriage_joints",
-            Word(&["Universal", "Spherical"]),
-            "of the rods, at the carriages",
-        ),
-        needed("rod", Of(&LINK), "what the rods are made of"),
-        JOINT_STIFFNESS,
-        DRIVE_FORCE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::LINEAR_DELTA,
     read: |fields| Ok(Box::new(read(fields)?)),
 };
 

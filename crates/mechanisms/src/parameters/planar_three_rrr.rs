@@ -2,34 +2,16 @@
 
 use crate::error::LoadError;
 use crate::parameters::{
-    DRIVE_TORQUE, ELEMENTS, JOINT_STIFFNESS, Kind, drive_stiffness, elbow_side, elements,
-    joint_stiffness, link, refused,
+    Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, refused,
 };
 use crate::prebuilt::PlanarThreeRrr;
-use crate::terms::Type::{Number, Record as Of, Word};
-use crate::terms::parts::LINK;
-use crate::terms::{needed, optional};
+use crate::terms::prebuilts;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "PlanarThreeRrr",
-    fields: &[
-        needed("base_radius", Number("m"), "from z to each A_i"),
-        needed("platform_radius", Number("m"), "from P to each C_i"),
-        needed("proximal_length", Number("m"), "A_i B_i"),
-        needed("distal_length", Number("m"), "B_i C_i"),
-        optional(
-            "elbow",
-            Word(&["Left", "Right"]),
-            "to which side the elbows are, seen along the limb",
-        ),
-        needed("proximal", Of(&LINK), "the links at the base"),
-        needed("distal", Of(&LINK), "the links at the platform"),
-        JOINT_STIFFNESS,
-        DRIVE_TORQUE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::PLANAR_THREE_RRR,
     read: |fields| Ok(Box::new(read(fields)?)),
 };
 

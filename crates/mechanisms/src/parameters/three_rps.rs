@@ -1,27 +1,16 @@
 //! The 3-RPS in a batch file.
 
-use super::legs::{LEG_FIELD, telescopic_leg};
+use super::legs::telescopic_leg;
 use crate::error::LoadError;
-use crate::parameters::{
-    DRIVE_FORCE, ELEMENTS, JOINT_STIFFNESS, Kind, drive_stiffness, elements, joint_stiffness,
-    refused,
-};
+use crate::parameters::{Kind, drive_stiffness, elements, joint_stiffness, refused};
 use crate::prebuilt::ThreeRps;
-use crate::terms::Type::Number;
-use crate::terms::needed;
+use crate::terms::prebuilts;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "ThreeRps",
-    fields: &[
-        needed("base_radius", Number("m"), "from z to each B_i"),
-        needed("platform_radius", Number("m"), "from P to each S_i"),
-        LEG_FIELD,
-        JOINT_STIFFNESS,
-        DRIVE_FORCE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::THREE_RPS,
     read: |fields| Ok(Box::new(read(fields)?)),
 };
 

@@ -2,42 +2,16 @@
 
 use crate::error::LoadError;
 use crate::parameters::{
-    DRIVE_FORCE, ELEMENTS, JOINT_STIFFNESS, Kind, drive_stiffness, elbow_side, elements,
-    joint_stiffness, link, pair, refused,
+    Kind, drive_stiffness, elbow_side, elements, joint_stiffness, link, pair, refused,
 };
 use crate::prebuilt::Tripteron;
-use crate::terms::Type::{Number, Numbers, Record as Of, Word};
-use crate::terms::parts::LINK;
-use crate::terms::{needed, optional};
+use crate::terms::prebuilts;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 
 pub(super) const KIND: Kind = Kind {
     name: "Tripteron",
-    fields: &[
-        needed(
-            "rail",
-            Numbers(2, "m"),
-            "place of a limb's rail in the plane normal to it",
-        ),
-        needed(
-            "platform_radius",
-            Number("m"),
-            "from P to each C_i, against the limb's axis",
-        ),
-        needed("proximal_length", Number("m"), "A_i B_i"),
-        needed("distal_length", Number("m"), "B_i C_i"),
-        optional(
-            "elbow",
-            Word(&["Left", "Right"]),
-            "to which side the elbows are, seen along the limb",
-        ),
-        needed("proximal", Of(&LINK), "the links at the rail"),
-        needed("distal", Of(&LINK), "the links at the platform"),
-        JOINT_STIFFNESS,
-        DRIVE_FORCE,
-        ELEMENTS,
-    ],
+    fields: prebuilts::TRIPTERON,
     read: |fields| Ok(Box::new(read(fields)?)),
 };
 

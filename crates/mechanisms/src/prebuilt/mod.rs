@@ -70,6 +70,7 @@ mod delta;
 mod error;
 mod exechon;
 mod frames;
+mod gauge;
 mod hexapod;
 mod limbs;
 mod linear_delta;
@@ -187,11 +188,12 @@ pub trait Prebuilt: Debug + Send + Sync {
 
     /// By how much every drive moves (m, rad) from the pose `from` to the pose `to`: the locked or elastic
     /// directions that are free by their joints' kinds, of the second body relative to the first. Ball
-    /// joints' directions have no values and are left out.
+    /// joints' directions have no values and are left out. Whole turns are counted where loop closure finds
+    /// a way from one pose to the other; elsewhere a turn is one of −π to π.
     ///
     /// # Errors
-    /// As [`Prebuilt::model`] of either pose; the way between the two is singular or changes the assembly
-    /// mode; a mechanism that loop closure cannot move.
+    /// As [`Prebuilt::model`] of either pose; a mechanism that loop closure cannot move; one with drives
+    /// other than slides and cranks, where the way between the two is singular or changes the assembly mode.
     fn drives_between(&self, from: &[f64], to: &[f64]) -> Result<Vec<Drive>, PoseError> {
         let model = self.model(from)?;
         let from = self.place(from, &mut model.geometry().clone())?;

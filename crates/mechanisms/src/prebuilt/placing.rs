@@ -4,11 +4,12 @@ use hyperstat_closure::{ClosureError, Drive, LANES, Lanes, LoopClosure, Target};
 use hyperstat_model::{Connection, Geometry, Model, NodeId, characteristic_length};
 use nalgebra::{Rotation3, Vector3};
 
+use super::gauge::Gauge;
 use crate::prebuilt::{Placed, PoseError};
 
 /// How far (sizes of the mechanism) a point may be from where inverse kinematics has it: loop closure ends
 /// where its loops are closed to rounding.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// The values of the drives of `to`, relative to those of `home`, a model of the same mechanism whose
 /// output has the whole pose `from`.
@@ -18,14 +19,25 @@ pub(super) fn drives_between(
     to: &Placed,
 ) -> Result<Vec<Drive>, PoseError> {
     let following = Following::new(home, from)?;
-    let reached = following.closure.place_at(&following.target(&to.pose))?;
-    let off = following.farthest(&reached.geometry, &to.geometry);
-    if off > SAME * characteristic_length(&to.geometry) {
-        return Err(PoseError::Branch {
-            what: format!("a point is {off:.6} m from where inverse kinematics has it"),
-        });
-    }
-    Ok(reached.drives)
+    let missed = match following.closure.place_at(&following.target(&to.pose)) {
+        Ok(reached) => {
+            let off = following.farthest(&reached.geometry, &to.geometry);
+            if off <= SAME * characteristic_length(&to.geometry) {
+                return Ok(reached.drives);
+            }
+            PoseError::Branch {
+                what: format!("a point is {off:.6} m from where inverse kinematics has it"),
+            }
+        }
+        Err(error) => error.into(),
+    };
+    let measured = following.measured(&to.geometry).ok_or(missed)?;
+    let drive = |((joint, direction), value)| Drive {
+        joint,
+        direction,
+        value,
+    };
+    Ok(home.drives().zip(measured).map(drive).collect())
 }
 
 /// Loop closure that follows a prebuilt mechanism from a pose of it.
@@ -38,24 +50,35 @@ pub(crate) struct Following {
     turned: Rotation3<f64>,
     /// The nodes that no joint slides along: where on a leg a slide is, inverse kinematics may choose anew
     /// in every pose.
-    fixed: Vec<usize>,
+    fixed: Vec<NodeId>,
+    /// What shows the drives where no way leads; none where one cannot be seen.
+    gauges: Option<Vec<Gauge>>,
 }
 
 impl Following {
     /// From the configuration of a model, whose output has this whole pose.
     pub(crate) fn new(home: &Model, pose: &[f64; 6]) -> Result<Self, ClosureError> {
+        let fixed = unslid(home);
         Ok(Self {
             closure: LoopClosure::new(home)?,
             home: home.geometry().clone(),
             turned: turned(pose),
-            fixed: unslid(home),
+            gauges: Gauge::all(home, &fixed),
+            fixed,
         })
+    }
+
+    /// Values of the drives by where inverse kinematics has brought the parts; turns of −π to π.
+    pub(crate) fn measured(&self, there: &Geometry) -> Option<Vec<f64>> {
+        let gauges = self.gauges.as_ref()?.iter();
+        gauges.map(|gauge| gauge.value(&self.home, there)).collect()
     }
 
     /// How far a point of one geometry is from where the other has it \[m\].
     fn farthest(&self, one: &Geometry, other: &Geometry) -> f64 {
-        let apart =
-            |node: &usize| Some((one.positions.get(*node)? - other.positions.get(*node)?).norm());
+        let apart = |node: &NodeId| {
+            Some((one.positions.get(node.0)? - other.positions.get(node.0)?).norm())
+        };
         self.fixed.iter().filter_map(apart).fold(0.0, f64::max)
     }
 
@@ -94,17 +117,15 @@ impl Following {
 }
 
 /// The nodes that no joint slides along.
-fn unslid(model: &Model) -> Vec<usize> {
+fn unslid(model: &Model) -> Vec<NodeId> {
     let slides = |joint: &&Connection| {
         let mut free = joint.joint.free().iter();
         free.any(|dof| !dof.is_rotation())
     };
     let joints = model.joints().iter().filter(slides);
     let slid: Vec<NodeId> = joints.flat_map(|joint| joint.between).flatten().collect();
-    let nodes = 0..model.nodes().len();
-    nodes
-        .filter(|node| !slid.contains(&NodeId(*node)))
-        .collect()
+    let nodes = (0..model.nodes().len()).map(NodeId);
+    nodes.filter(|node| !slid.contains(node)).collect()
 }
 
 /// The rotation of a whole pose.

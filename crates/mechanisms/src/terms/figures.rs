@@ -1,14 +1,35 @@
 //! Figures of a job.
 
-use super::Type::{Any, Count, Kinds as OneKind, List, Map, Number, Numbers, Text, Tuple, Word};
-use super::{Field, Kinds, NO_END, Type, kind, needed, of_value, optional};
+use super::Type::{
+    Any, Count, Kinds as OneKind, List, Map, Number, Numbers, Record as Of, Text, Truth, Tuple,
+    Word,
+};
+use super::{Field, Kinds, NO_END, Record, Type, kind, needed, of_value, optional};
 
 const SCALE: Field = optional(
     "scale",
     Any(&[Word(&["Auto"]), Number("-")]),
     "magnification",
 );
-const POSE: Field = optional("pose", Count(0, NO_END), "number of the pose, from 0");
+const POSE: Field = optional(
+    "pose",
+    Any(&[Count(0, NO_END), Of(&AT), Map(&Number("m, rad"))]),
+    "number of the pose, from 0, or coordinates that it alone has; of drives by their names",
+);
+
+/// Coordinates of a pose.
+const AT: Record = Record::new(
+    "pose_at",
+    "Coordinates of a pose",
+    &[
+        optional("x", Number("m"), "x of the output"),
+        optional("y", Number("m"), "y of the output"),
+        optional("z", Number("m"), "z of the output"),
+        optional("rx", Number("rad"), "rotation vector along x"),
+        optional("ry", Number("rad"), "rotation vector along y"),
+        optional("rz", Number("rad"), "rotation vector along z"),
+    ],
+);
 const CASE: Field = optional("case", Text, "name of the case");
 const VIEW: Field = optional(
     "view",
@@ -110,6 +131,16 @@ pub(crate) const FIGURE: Kinds = Kinds {
                     "mark",
                     List(&Text),
                     "what is marked where it stands: `least`, `most`",
+                ),
+                optional(
+                    "beside",
+                    Count(0, NO_END),
+                    "another design of the job, in the same colours",
+                ),
+                optional(
+                    "ratio",
+                    Truth,
+                    "whether in place of both the ratio of that design to the first is drawn",
                 ),
                 TITLE,
                 LABELS,

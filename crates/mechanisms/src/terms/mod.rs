@@ -10,6 +10,7 @@ pub(crate) mod job;
 pub(crate) mod joints;
 pub(crate) mod mechanism;
 pub(crate) mod parts;
+pub(crate) mod prebuilts;
 
 /// What stands at a place.
 #[derive(Debug, Clone, Copy)]

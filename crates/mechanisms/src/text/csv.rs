@@ -14,7 +14,7 @@ pub(crate) const COLUMNS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
 /// A number of a pose, by its place among the columns.
 pub(crate) fn quantity(column: usize, number: Fragment<'_>) -> Result<f64, LoadError> {
-    let dimension = quantities::DISPLACEMENT[column];
+    let dimension = quantities::displacement()[column];
     number.quantity(&format!("`{}`", COLUMNS[column]), dimension)
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::units;
+
 /// What a number measures: powers of the units that it is made of. Angles count, so that a stiffness
 /// against a rotation (N·m/rad) is no moment (N·m).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +59,15 @@ impl Dimension {
 
     const fn of(powers: [i8; 5]) -> Self {
         Self { powers }
+    }
+
+    /// The dimension of what is told in this unit, such as `N·m/rad`; `-` and nothing are those of a pure
+    /// number. `None` of what is no unit of files.
+    pub fn of_unit(unit: &str) -> Option<Self> {
+        match unit {
+            "" | "-" => Some(Self::NUMBER),
+            unit => Some(units::read(&format!("1 {unit}"), None).ok()?.dimension),
+        }
     }
 
     /// The dimension of a product with a power of another one; `None` of powers beyond any use.

@@ -11,9 +11,9 @@ use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
 
-/// The steps to the value of `root` that the path written at `key` leads to.
-pub(crate) fn find(root: &Node, key: Fragment<'_>) -> Result<Steps, LoadError> {
-    find_path(root, key, &key.string()?, 0)
+/// The steps to the value of `root`, in words `whole`, that the path written at `key` leads to.
+pub(crate) fn find(root: &Node, key: Fragment<'_>, whole: &str) -> Result<Steps, LoadError> {
+    find_in(root, (key, whole), &key.string()?, 0)
 }
 
 /// The steps to the values that a path written at `key` leads to, which may name several parts as one:
@@ -60,6 +60,15 @@ pub(crate) fn find_path(
     path: &str,
     start: usize,
 ) -> Result<Steps, LoadError> {
+    find_in(root, (key, "the mechanism"), path, start)
+}
+
+fn find_in(
+    root: &Node,
+    (key, whole): (Fragment<'_>, &str),
+    path: &str,
+    start: usize,
+) -> Result<Steps, LoadError> {
     let parameters = Parameters::of(root);
     if let Some(steps) = parameters.named(path) {
         return Ok(steps);
@@ -70,6 +79,7 @@ pub(crate) fn find_path(
         let walked = path.len() - rest.len();
         let step = Step {
             key,
+            whole,
             path,
             walked,
             parameters: &parameters.names,
@@ -134,6 +144,8 @@ pub(crate) fn overlapping(other: &str, key: Fragment<'_>) -> LoadError {
 struct Step<'k> {
     /// Where the path is written.
     key: Fragment<'k>,
+    /// What all paths begin in, in words.
+    whole: &'k str,
     path: &'k str,
     /// Bytes of the path before this step.
     walked: usize,
@@ -177,7 +189,10 @@ impl Step<'_> {
             self.name()
         ))
         .with_help(match self.walked {
-            0 => "this mechanism has nothing that could vary".into(),
+            0 => {
+                let whole = self.whole.replacen("the ", "this ", 1);
+                format!("{whole} has nothing that could vary")
+            }
             walked => format!("vary the whole of it, `{}`", &self.path[..walked - 1]),
         })
     }
@@ -227,7 +242,7 @@ impl Step<'_> {
     /// In words, what the step goes from.
     fn from(&self) -> String {
         match self.walked {
-            0 => "the mechanism".into(),
+            0 => self.whole.into(),
             walked => format!("`{}`", &self.path[..walked - 1]),
         }
     }

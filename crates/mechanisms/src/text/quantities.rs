@@ -1,98 +1,160 @@
-//! What the numbers of the fields measure: the one table of it, in the order of the book.
+//! What the numbers of fields measure: by the units that the table of terms tells of them.
 //!
 //! A name means the same wherever it stands. Numbers by direction, whose names are those of the
-//! directions, have tables of their own.
+//! directions, are told by the records that they stand in.
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 use super::dimension::Dimension;
+use crate::terms::acting::{LOAD, MASS};
+use crate::terms::bodies::BODY;
+use crate::terms::joints::{JOINT, KINDS, MISFIT, PRELOAD};
+use crate::terms::mechanism::MECHANISM;
+use crate::terms::parts::{MATERIAL, PROFILE, STIFFNESSES};
+use crate::terms::{Arguments, Field, Kinds, Record, Type, prebuilts};
 
-/// Fields that hold numbers, or pairs or vectors of them, with what these measure.
-pub(crate) const FIELDS: [(&str, Dimension); 61] = [
-    // Materials.
-    ("young", Dimension::PRESSURE),
-    ("poisson", Dimension::NUMBER),
-    ("shear", Dimension::PRESSURE),
-    ("density", Dimension::DENSITY),
-    ("expansion", Dimension::EXPANSION),
-    ("yield", Dimension::PRESSURE),
-    // Sections.
-    ("diameter", Dimension::LENGTH),
-    ("outer", Dimension::LENGTH),
-    ("inner", Dimension::LENGTH),
-    ("width", Dimension::LENGTH),
-    ("height", Dimension::LENGTH),
-    ("area", Dimension::AREA),
-    ("iy", Dimension::AREA_MOMENT),
-    ("iz", Dimension::AREA_MOMENT),
-    ("torsion", Dimension::AREA_MOMENT),
-    ("shear_y", Dimension::AREA),
-    ("shear_z", Dimension::AREA),
-    ("y_max", Dimension::LENGTH),
-    ("z_max", Dimension::LENGTH),
-    ("torsion_modulus", Dimension::VOLUME),
-    // Points, axes and bodies.
-    ("points", Dimension::LENGTH),
-    ("y_axis", Dimension::NUMBER),
-    ("x_axis", Dimension::NUMBER),
-    ("axis", Dimension::NUMBER),
-    ("axes", Dimension::NUMBER),
-    ("normal", Dimension::NUMBER),
-    ("elements", Dimension::NUMBER),
-    ("temperature", Dimension::TEMPERATURE),
-    // Joints.
-    ("pitch", Dimension::PITCH),
-    // What acts.
-    ("force", Dimension::FORCE),
-    ("moment", Dimension::MOMENT),
-    ("per_length", Dimension::STIFFNESS),
-    ("moment_per_length", Dimension::FORCE),
-    ("from", Dimension::STIFFNESS),
-    ("to", Dimension::STIFFNESS),
-    ("gravity", Dimension::ACCELERATION),
-    ("mass", Dimension::MASS),
-    ("inertia", Dimension::INERTIA),
-    // Prebuilt mechanisms.
-    ("base_radius", Dimension::LENGTH),
-    ("platform_radius", Dimension::LENGTH),
-    ("radius", Dimension::LENGTH),
-    ("arm_length", Dimension::LENGTH),
-    ("rod_length", Dimension::LENGTH),
-    ("rod_spacing", Dimension::LENGTH),
-    ("lengths", Dimension::LENGTH),
-    ("cylinder_length", Dimension::LENGTH),
-    ("tube_length", Dimension::LENGTH),
-    ("proximal_length", Dimension::LENGTH),
-    ("distal_length", Dimension::LENGTH),
-    ("rail", Dimension::LENGTH),
-    ("travel", Dimension::LENGTH),
-    ("edge", Dimension::LENGTH),
-    ("base_width", Dimension::LENGTH),
-    ("base_depth", Dimension::LENGTH),
-    ("platform_width", Dimension::LENGTH),
-    ("platform_depth", Dimension::LENGTH),
-    ("base_angle", Dimension::ANGLE),
-    ("platform_angle", Dimension::ANGLE),
-    ("proximal_angle", Dimension::ANGLE),
-    ("distal_angle", Dimension::ANGLE),
-    ("tilt", Dimension::ANGLE),
-];
+/// The dimensions of fields of parts, joints, loads and prebuilt mechanisms.
+static FIELDS: LazyLock<HashMap<&str, Dimension>> = LazyLock::new(|| {
+    let mut found = Found::default();
+    found.own(MECHANISM.fields);
+    for record in [&MATERIAL, &JOINT, &LOAD, &MASS] {
+        found.fields(record.fields);
+    }
+    for kinds in [&PROFILE, &BODY] {
+        found.kinds(kinds);
+    }
+    let joints = KINDS.map(|kind| kind.fields).into_iter();
+    joints
+        .chain(prebuilts::ALL)
+        .for_each(|fields| found.fields(fields));
+    let known = found.0.into_iter();
+    known.filter_map(|(name, of)| Some((name, of?))).collect()
+});
 
-/// What a number of a field measures; `None` of a name that is not in the table.
+/// What a number of a field measures; `None` of a name of which that is not known, or not one thing.
 pub(crate) fn of(field: &str) -> Option<Dimension> {
-    let found = FIELDS.iter().find(|(name, _)| *name == field);
-    found.map(|(_, dimension)| *dimension)
+    FIELDS.get(field).copied()
 }
 
 /// Stiffnesses along x y z and about u v w.
-pub(crate) const STIFFNESS: [Dimension; 6] =
-    by_direction(Dimension::STIFFNESS, Dimension::ROTATIONAL_STIFFNESS);
+pub(crate) fn stiffness() -> [Dimension; 6] {
+    static OWN: LazyLock<[Dimension; 6]> = LazyLock::new(|| by_direction(&STIFFNESSES));
+    *OWN
+}
 
 /// Misfits, and poses x y z rx ry rz.
-pub(crate) const DISPLACEMENT: [Dimension; 6] = by_direction(Dimension::LENGTH, Dimension::ANGLE);
+pub(crate) fn displacement() -> [Dimension; 6] {
+    static OWN: LazyLock<[Dimension; 6]> = LazyLock::new(|| by_direction(&MISFIT));
+    *OWN
+}
 
 /// Preloads.
-pub(crate) const WRENCH: [Dimension; 6] = by_direction(Dimension::FORCE, Dimension::MOMENT);
+pub(crate) fn wrench() -> [Dimension; 6] {
+    static OWN: LazyLock<[Dimension; 6]> = LazyLock::new(|| by_direction(&PRELOAD));
+    *OWN
+}
 
-/// What three translations and three rotations have.
-const fn by_direction(along: Dimension, about: Dimension) -> [Dimension; 6] {
-    [along, along, along, about, about, about]
+/// What the fields of a record of six directions measure.
+fn by_direction(record: &Record) -> [Dimension; 6] {
+    std::array::from_fn(|k| {
+        let own = record.fields.get(k).and_then(|field| dimension(field.of));
+        own.unwrap_or(Dimension::NUMBER)
+    })
+}
+
+/// What is found so far; `None` of a name that measures several things.
+#[derive(Default)]
+struct Found(HashMap<&'static str, Option<Dimension>>);
+
+impl Found {
+    /// The fields themselves.
+    fn own(&mut self, fields: &[Field]) {
+        for field in fields {
+            let Some(own) = dimension(field.of) else {
+                continue;
+            };
+            let known = self.0.entry(field.name).or_insert(Some(own));
+            *known = known.filter(|known| *known == own);
+        }
+    }
+
+    /// These and all that stands in them.
+    fn fields(&mut self, fields: &[Field]) {
+        self.own(fields);
+        fields.iter().for_each(|field| self.inside(field.of));
+    }
+
+    fn kinds(&mut self, kinds: &Kinds) {
+        for kind in kinds.kinds {
+            match kind.arguments {
+                Arguments::Fields(fields) => self.fields(fields),
+                Arguments::Value(value) => self.inside(value),
+            }
+        }
+    }
+
+    fn inside(&mut self, of: Type) {
+        match of {
+            Type::Record(record) => self.fields(record.fields),
+            Type::Kinds(kinds) => self.kinds(kinds),
+            Type::List(inner) | Type::Map(inner) => self.inside(*inner),
+            Type::Tuple(items) | Type::Any(items) => {
+                items.iter().for_each(|item| self.inside(*item));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What the numbers of a value measure, whichever of its forms it has.
+fn dimension(of: Type) -> Option<Dimension> {
+    match of {
+        Type::Number(unit) | Type::Numbers(_, unit) => Dimension::of_unit(unit),
+        Type::Count(..) => Some(Dimension::NUMBER),
+        Type::List(inner) | Type::Map(inner) => dimension(*inner),
+        Type::Tuple(items) | Type::Any(items) => {
+            let mut all = items.iter().map(|item| dimension(*item));
+            let first = all.next()??;
+            all.all(|own| own == Some(first)).then_some(first)
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_measure_what_the_terms_say() {
+        for (name, wanted) in [
+            ("young", Some(Dimension::PRESSURE)),
+            ("torsion_modulus", Some(Dimension::VOLUME)),
+            ("points", Some(Dimension::LENGTH)),
+            ("axes", Some(Dimension::NUMBER)),
+            ("elements", Some(Dimension::NUMBER)),
+            ("temperature", Some(Dimension::TEMPERATURE)),
+            ("pitch", Some(Dimension::PITCH)),
+            ("moment_per_length", Some(Dimension::FORCE)),
+            ("from", Some(Dimension::STIFFNESS)),
+            ("gravity", Some(Dimension::ACCELERATION)),
+            ("inertia", Some(Dimension::INERTIA)),
+            ("cylinder_length", Some(Dimension::LENGTH)),
+            ("tilt", Some(Dimension::ANGLE)),
+            // Of a slide and of a crank; by direction; numbers or words; other things.
+            ("drive_stiffness", None),
+            ("x", None),
+            ("joint_stiffness", None),
+            ("through", None),
+            ("parameters", None),
+        ] {
+            assert_eq!(of(name), wanted, "{name}");
+        }
+        let [along, .., about] = stiffness();
+        let expected = (Dimension::STIFFNESS, Dimension::ROTATIONAL_STIFFNESS);
+        assert_eq!((along, about), expected);
+        assert_eq!(displacement()[2..4], [Dimension::LENGTH, Dimension::ANGLE]);
+        assert_eq!(wrench()[2..4], [Dimension::FORCE, Dimension::MOMENT]);
+    }
 }

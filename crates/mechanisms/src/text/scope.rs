@@ -3,6 +3,9 @@
 //! The tree of a file keeps expressions as they are written, so that another value of a parameter
 //! reaches whatever depends on it. What is read is a tree in which their values stand in their places.
 
+mod reach;
+mod settling;
+
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -15,6 +18,8 @@ use super::source::Place;
 use super::tree::{Content, Named, Node};
 use crate::error::LoadError;
 use crate::text::names;
+pub(crate) use settling::Open;
+use settling::Settling;
 
 /// Name of the field that holds the parameters.
 pub(crate) const PARAMETERS: &str = "parameters";
@@ -32,6 +37,8 @@ pub(crate) struct Scope<'t> {
     points: OnceCell<HashMap<&'t str, &'t Node>>,
     /// The parameter whose derivatives are found.
     varied: Option<String>,
+    /// What of it stays as it is written.
+    settling: Option<Settling>,
     known: RefCell<HashMap<Key<'t>, Result<Operand, Arc<LoadError>>>>,
     /// What is being found, from the outside in.
     asked: RefCell<Vec<Key<'t>>>,
@@ -95,7 +102,8 @@ impl<'t> Scope<'t> {
                     slopes.find(|slope| *slope != 0.0).unwrap_or(0.0)
                 }
                 // Of what only a copy of a group knows.
-                Err(_) => f64::NAN,
+                Err(_) if self.can_reach(expression) => f64::NAN,
+                Err(_) => 0.0,
             };
             if slope != 0.0 {
                 found.push((path.into(), slope));
@@ -131,6 +139,7 @@ impl<'t> Scope<'t> {
             root,
             points: OnceCell::new(),
             varied: varied.map(Into::into),
+            settling: None,
             known: RefCell::default(),
             asked: RefCell::default(),
         };
@@ -172,7 +181,7 @@ impl<'t> Scope<'t> {
     /// `None`: nothing in it is an expression.
     fn changed(&self, node: &Node) -> Option<Node> {
         let content = match &node.content {
-            Content::Expression(expression) => self.content(expression, node),
+            Content::Expression(expression) => self.content(expression, node)?,
             Content::Tuple(items) => Content::Tuple(self.all(items)?),
             Content::List(items) => Content::List(self.all(items)?),
             Content::Map(named) => Content::Map(self.all_named(named, false)?),
@@ -197,9 +206,10 @@ impl<'t> Scope<'t> {
         Some(before.chain([changed]).chain(rest).collect())
     }
 
-    /// The parameters themselves, among the outermost fields, stay as they are.
+    /// The parameters themselves, among the outermost fields, stay as they are; and while it is settled
+    /// what has names of its own.
     fn all_named(&self, named: &[Named], outermost: bool) -> Option<Arc<[Named]>> {
-        let kept = |own: &Named| outermost && &*own.name == PARAMETERS;
+        let kept = |own: &Named| outermost && self.keeps(&own.name);
         let with = |own: &Named, value: Node| Named {
             value,
             ..own.clone()
@@ -220,16 +230,20 @@ impl<'t> Scope<'t> {
         Some(before.chain([changed]).chain(rest).collect())
     }
 
-    /// What stands in the place of an expression.
-    fn content(&self, expression: &Expression, node: &Node) -> Content {
-        match self.evaluated(expression, node) {
+    /// What stands in the place of an expression; `None`: itself.
+    fn content(&self, expression: &Expression, node: &Node) -> Option<Content> {
+        let found = self.evaluated(expression, node);
+        if self.stays(&found) {
+            return None;
+        }
+        Some(match found {
             Ok(Operand::Number(number)) => Content::Number(number.value),
             Ok(Operand::Point(point)) => {
                 let part = |c: Dual| node.with(Content::Number(c.value));
                 Content::Tuple(point.map(part).into())
             }
             Err(error) => Content::Failed(error),
-        }
+        })
     }
 
     fn evaluated(&self, expression: &Expression, node: &Node) -> Result<Operand, Arc<LoadError>> {
@@ -323,6 +337,7 @@ impl<'t> Scope<'t> {
                         Operand::Point(point) => Ok(Operand::Number(point[k])),
                         Operand::Number(_) => Err(no_point(point)),
                     },
+                    Content::Failed(error) => Err(Arc::clone(error)),
                     _ => Err(no_point(point)),
                 }
             }
@@ -341,8 +356,10 @@ impl<'t> Scope<'t> {
 
     /// The value of a part of the file.
     fn operand(&self, node: &Node) -> Result<Operand, Arc<LoadError>> {
-        if let Content::Expression(expression) = &node.content {
-            return self.evaluated(expression, node);
+        match &node.content {
+            Content::Expression(expression) => return self.evaluated(expression, node),
+            Content::Failed(error) => return Err(Arc::clone(error)),
+            _ => {}
         }
         let number = Fragment::of_node(node).number();
         number

@@ -517,7 +517,7 @@ mod tests {
 
     fn steps(tree: &Node, path: &str) -> Steps {
         let source = Source::argument("path", format!("{path:?}"), None);
-        paths::find(tree, Fragment::at(&Place::whole(&source))).unwrap()
+        paths::find(tree, Fragment::at(&Place::whole(&source)), "the tree").unwrap()
     }
 
     const TEXT: &str = r#"(

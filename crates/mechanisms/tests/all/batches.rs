@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{
-    Along, Batch, Disk, Figure, Input, Look, Registry, Scale, Words, batch_from_str, load,
-    load_batch, load_mechanism,
+    Along, Batch, Disk, Figure, FigurePose, Input, Look, Registry, Scale, Words, batch_from_str,
+    load, load_batch, load_mechanism,
 };
 use nalgebra::Vector6;
 
@@ -60,7 +60,7 @@ fn the_paper_s_batch_holds_both_case_studies() {
             words: Words::default(),
         },
         Figure::Deformed {
-            pose: 0,
+            pose: 0.into(),
             case: None,
             scale: Scale::Auto,
             look: Look::default(),
@@ -228,7 +228,7 @@ fn figures_have_defaults() {
             words: Words::default(),
         },
         Figure::Deformed {
-            pose: 1,
+            pose: 1.into(),
             case: None,
             scale: Scale::Factor(50.0),
             look: Look::default(),
@@ -247,22 +247,22 @@ fn figures_of_cases_modes_and_budgets() {
             Budget(along: rx, pose: 1), Budget(along: (0, 3, -4)), Budget(case: \"push\"),
         ]"
     ));
-    let mode = |number, pose, scale| Figure::Mode {
+    let mode = |number, pose: usize, scale| Figure::Mode {
         number,
-        pose,
+        pose: pose.into(),
         scale,
         look: Look::default(),
         words: Words::default(),
     };
-    let budget = |along, pose| Figure::Budget {
+    let budget = |along, pose: usize| Figure::Budget {
         along,
-        pose,
+        pose: pose.into(),
         case: None,
         title: None,
     };
     let wanted = [
         Figure::Deformed {
-            pose: 0,
+            pose: 0.into(),
             case: Some("push".into()),
             scale: Scale::Auto,
             look: Look::default(),
@@ -275,12 +275,52 @@ fn figures_of_cases_modes_and_budgets() {
         budget(Along::Wrench([0.0, 0.6, -0.8, 0.0, 0.0, 0.0]), 0),
         Figure::Budget {
             along: Along::Displacement,
-            pose: 0,
+            pose: 0.into(),
             case: Some("push".into()),
             title: None,
         },
     ];
     assert_eq!(batch.jobs[0].figures, wanted);
+}
+
+#[test]
+fn figures_of_poses_by_their_coordinates() {
+    let figures = |pose: &str| {
+        delta(&format!(
+            "poses: List([(0, 0, 0.5), (0, 0, 0.6)]), figures: [Budget(pose: {pose})]"
+        ))
+    };
+    let wanted = |at: &[(&str, f64)]| {
+        let at = at.iter().map(|(name, value)| ((*name).into(), *value));
+        vec![Figure::Budget {
+            along: Along::Displacement,
+            pose: FigurePose::At(at.collect()),
+            case: None,
+            title: None,
+        }]
+    };
+    let found = figures("(x: 0, z: \"600 mm\")");
+    assert_eq!(found.jobs[0].figures, wanted(&[("x", 0.0), ("z", 0.6)]));
+    let found = figures("{ \"A1.v\": 0.25 }");
+    assert_eq!(found.jobs[0].figures, wanted(&[("A1.v", 0.25)]));
+}
+
+/// What is said of a number of frequencies is what may stand there.
+#[test]
+fn counts_of_frequencies_are_told_what_they_may_be() {
+    let refused = |rest: &str| {
+        let text = format!(
+            "(jobs: [(name: \"d\", mechanism: {DELTA}, poses: List([(0, 0, 0.5)]), {rest})])"
+        );
+        let path = Path::new("batch.ron");
+        let error = batch_from_str(&text, path, &Disk, &Registry::builtin()).unwrap_err();
+        format!("{error} {}", error.help().unwrap_or_default())
+    };
+    let column = refused("columns: [Frequencies(count: 0)]");
+    assert!(column.contains("from 1 to 1000"), "{column}");
+    assert!(!column.contains("mass: Lumped"), "{column}");
+    let modes = refused("modes: 0");
+    assert!(modes.contains("or `(count: 6, mass: Lumped)`"), "{modes}");
 }
 
 /// Zero on a direction that is free anyway is the same as nothing.

@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use hyperstat_assembly::{BodyId, JointId, Model, Parameter};
 use hyperstat_joints::Dof;
 
+use crate::study::Study;
+
 /// Names that are listed one by one.
 const FEW: usize = 3;
 
@@ -38,6 +40,20 @@ pub(super) fn names<'a>(
         }
     }
     names
+}
+
+/// The path that `vary` takes for a stiffness that is told in words; none of anything else.
+pub(super) fn path(study: &Study, name: Option<&str>, parameter: &Parameter) -> Option<String> {
+    match (name, parameter) {
+        (
+            None,
+            Parameter::Joint {
+                direction: Some(direction),
+                joints,
+            },
+        ) => study.file()?.stiffness_path(joints, *direction),
+        _ => None,
+    }
 }
 
 fn counted(names: &[String]) -> HashMap<String, usize> {

@@ -14,6 +14,10 @@ use crate::study::Study;
 pub struct SensitivityReport {
     /// Its path, as `vary` takes it, or words.
     pub parameter: String,
+    /// Of a stiffness that several joints have alike, told in words, the path that `vary` takes for all of
+    /// them; not there where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
     /// Whether its derivatives are differences of the whole answer, not exact.
     #[serde(skip_serializing_if = "is_false")]
     pub by_differences: bool,
@@ -45,6 +49,10 @@ pub struct FrequencyReport {
 pub struct FrequencySensitivityReport {
     /// Its path, as `vary` takes it, or words.
     pub parameter: String,
+    /// Of a stiffness that several joints have alike, told in words, the path that `vary` takes for all of
+    /// them; not there where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
     /// Whether its derivatives are differences of the whole answer, not exact.
     #[serde(skip_serializing_if = "is_false")]
     pub by_differences: bool,
@@ -76,6 +84,7 @@ impl SensitivityReport {
         let mut all: Vec<Self> = (found.iter().zip(names).zip(by_differences))
             .map(|((s, parameter), by_differences)| Self {
                 parameter,
+                path: parameters::path(study, s.name.as_deref(), &s.parameter),
                 by_differences,
                 value: s.value,
                 relative: relative(s),
@@ -116,6 +125,7 @@ impl FrequencyReport {
             let report = |(place, (s, name)): (usize, (&FrequencySensitivity, &String))| {
                 FrequencySensitivityReport {
                     parameter: name.clone(),
+                    path: parameters::path(study, s.name.as_deref(), &s.parameter),
                     by_differences: by_differences[place],
                     value: s.value,
                     relative: (group.clone())

@@ -2,7 +2,9 @@
 
 use hyperstat_assembly::{ModalOptions, Prepared, Solution};
 use hyperstat_figures::Extreme;
-use hyperstat_mechanisms::{ColorScale, Commanded, Figure, Job, Look, Mark, Noted, Scale};
+use hyperstat_mechanisms::{
+    ColorScale, Commanded, Dimension, Figure, FigurePose, Job, Look, Mark, Noted, Scale,
+};
 
 use super::budget::budget as budget_figure;
 use super::deformed::{compare, deformed as deformed_figure, mode as mode_figure};
@@ -10,9 +12,10 @@ use super::drawing::Drawing;
 use super::labels::Labels;
 use super::map::{Map, figure as map_figure};
 use super::notes;
-use super::pose::in_words;
+use super::pose::{in_words, of_job};
 use super::quantity::{Drawn, instead_of};
 use super::rows::Choice;
+use super::tables::{NamedTable, beside, ratio};
 use super::trajectory::Trajectory;
 use crate::answer::Asked;
 use crate::error::StudyError;
@@ -36,23 +39,26 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
         if !matches!(figure, Figure::Map { .. }) {
             words(figure).1.axes().map_err(refused)?;
         }
+        if let Some(pose) = pose(figure) {
+            place_of(job, pose).map_err(refused)?;
+        }
         match figure {
-            Figure::Map { value, .. } => {
-                if Drawn::named(value, columns).is_none() {
-                    return Err(refused(PlotError::NoQuantity {
-                        name: value.clone(),
-                        help: match (&job.modes, is_frequency(value)) {
-                            (None, true) => {
-                                let count = value.trim_start_matches(['f', '0']);
-                                format!("natural frequencies need `modes: {count}` in the job")
-                            }
-                            _ => match asking_for(value) {
-                                Some(asked) => {
-                                    format!("it needs `columns: [{asked}]` in the job")
-                                }
-                                None => instead_of(value, columns),
-                            },
-                        },
+            Figure::Map {
+                value,
+                measured,
+                beside,
+                ratio,
+                ..
+            } => {
+                let mut drawn = drawn(job, value, columns).map_err(refused)?;
+                if *ratio {
+                    drawn.quantity.unit.clear();
+                }
+                check_limits(&drawn, *measured).map_err(refused)?;
+                if let Some(design) = beside.filter(|design| *design >= job.designs()) {
+                    return Err(refused(PlotError::NoDesign {
+                        design,
+                        count: job.designs(),
                     }));
                 }
                 let commanded = job.commanded();
@@ -73,6 +79,69 @@ pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
         }
     }
     Ok(())
+}
+
+/// The pose that a figure is of, where it is of one.
+fn pose(figure: &Figure) -> Option<&FigurePose> {
+    match figure {
+        Figure::Deformed { pose, .. } | Figure::Mode { pose, .. } | Figure::Budget { pose, .. } => {
+            Some(pose)
+        }
+        Figure::Trajectory { .. } | Figure::Map { .. } => None,
+    }
+}
+
+/// The number of a pose.
+fn place_of(job: &Job, pose: &FigurePose) -> Result<usize, PlotError> {
+    match pose {
+        FigurePose::Number(number) => Ok(*number),
+        FigurePose::At(at) => of_job(job, at),
+    }
+}
+
+/// The same, or why there is none, in words.
+fn number(job: &Job, pose: &FigurePose) -> Result<usize, String> {
+    place_of(job, pose).map_err(|error| told(&error))
+}
+
+/// An error with what would be right, in words.
+fn told(error: &PlotError) -> String {
+    let help = error.help();
+    let help = help.map_or_else(String::new, |help| format!("; {help}"));
+    format!("{error}{help}")
+}
+
+/// The quantity of this name, of a job whose table has these columns.
+fn drawn(job: &Job, value: &str, columns: &[String]) -> Result<Drawn, PlotError> {
+    Drawn::named(value, columns).ok_or_else(|| PlotError::NoQuantity {
+        name: value.into(),
+        help: match (&job.modes, is_frequency(value)) {
+            (None, true) => {
+                let count = value.trim_start_matches(['f', '0']);
+                format!("natural frequencies need `modes: {count}` in the job")
+            }
+            _ => match asking_for(value) {
+                Some(asked) => format!("it needs `columns: [{asked}]` in the job"),
+                None => instead_of(value, columns),
+            },
+        },
+    })
+}
+
+/// That limits which measure something measure what is drawn; of a unit that files do not know that is
+/// nothing.
+fn check_limits(drawn: &Drawn, measured: Option<Dimension>) -> Result<(), PlotError> {
+    let unit = &drawn.quantity.unit;
+    let wanted = Dimension::of_unit(unit);
+    match measured {
+        Some(given) if wanted != Some(given) => Err(PlotError::LimitsMeasure {
+            name: drawn.quantity.name.clone(),
+            given: given.to_string(),
+            wanted: wanted.map_or_else(|| format!("in {unit}"), |wanted| wanted.to_string()),
+            unit: unit.clone(),
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// The masses that the job's modes are found with, for so many of them.
@@ -114,29 +183,34 @@ pub fn draw(
             scale,
             look,
             ..
-        } => deformed(job, *pose, case.as_deref(), (figure_scale(*scale), look))
-            .ok_or_else(|| NO_RESULT.to_string()),
+        } => deformed(
+            job,
+            number(job, pose)?,
+            case.as_deref(),
+            (figure_scale(*scale), look),
+        )
+        .ok_or_else(|| NO_RESULT.to_string()),
         Figure::Mode {
-            number,
+            number: mode_number,
             pose,
             scale,
             look,
             ..
-        } => mode(job, *number, *pose, (figure_scale(*scale), look)),
+        } => mode(
+            job,
+            *mode_number,
+            number(job, pose)?,
+            (figure_scale(*scale), look),
+        ),
         Figure::Budget {
             along, pose, case, ..
         } => {
             let (case, along) = (case.clone(), *along);
-            budget(job, &Asked { case, along }, *pose)
+            budget(job, &Asked { case, along }, number(job, pose)?)
         }
         Figure::Map { .. } => {
             let drawn = table().and_then(|table| drawn_map(job, figure, &table));
-            drawn.map_err(|error| {
-                let help = error
-                    .help()
-                    .map_or_else(String::new, |help| format!("; {help}"));
-                format!("{error}{help}")
-            })
+            drawn.map_err(|error| told(&error))
         }
     }?;
     name(&mut drawing, figure);
@@ -266,7 +340,26 @@ fn drawn_map(job: &Job, figure: &Figure, table: &TableReader) -> Result<Drawing,
     let map = map(job, figure, &job.commanded()).ok_or_else(|| PlotError::Nothing {
         path: table.path().into(),
     })?;
-    map_figure(table, &map).map(Drawing::Map)
+    let Figure::Map {
+        beside: Some(other),
+        ratio: of_both,
+        ..
+    } = figure
+    else {
+        return map_figure(table, &map).map(Drawing::Map);
+    };
+    let designs = [job.first_design(), *other];
+    let names = designs.map(|design| format!("design {design}"));
+    let tables = [0, 1].map(|k| NamedTable {
+        name: &names[k],
+        table,
+        design: Some(designs[k]),
+    });
+    let drawn = match of_both {
+        true => ratio(tables, &map),
+        false => beside(tables, &map),
+    };
+    drawn.map(Drawing::Map)
 }
 
 /// A figure that is a map, of a job whose poses give these coordinates.

@@ -54,7 +54,7 @@ pub(super) struct Part {
     /// What is drawn, in words.
     words: String,
     /// Over what, in words.
-    over: Vec<String>,
+    pub(super) over: Vec<String>,
     /// The coordinates that are held, and at what, in words.
     pub(super) held: Vec<String>,
     pub(super) axes: [Quantity; 2],

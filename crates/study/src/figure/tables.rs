@@ -16,6 +16,8 @@ pub struct NamedTable<'t> {
     pub name: &'t str,
     /// The table.
     pub table: &'t TableReader,
+    /// The design of it, in place of the map's.
+    pub design: Option<usize>,
 }
 
 /// The same map of two tables: plane by plane beside each other, to one scale and in one set of
@@ -105,12 +107,23 @@ pub fn ratio(tables: [NamedTable<'_>; 2], map: &Map) -> Result<MapFigure, PlotEr
 
 /// What the map shows of both, of the same planes and along the same axes.
 fn parts(tables: [NamedTable<'_>; 2], map: &Map) -> Result<[Part; 2], PlotError> {
-    let first = Part::read(tables[0].table, map)?;
+    let read = |NamedTable { table, design, .. }: NamedTable<'_>, map: &Map| {
+        let mut map = map.clone();
+        map.choice.design = design.or(map.choice.design);
+        let mut part = Part::read(table, &map)?;
+        // Its name says which design it is of.
+        if let Some(design) = design {
+            part.over
+                .retain(|words| *words != format!("design {design}"));
+        }
+        Ok::<_, PlotError>(part)
+    };
+    let first = read(tables[0], map)?;
     let map = Map {
         axes: Some(first.along.clone()),
         ..map.clone()
     };
-    let second = Part::read(tables[1].table, &map)?;
+    let second = read(tables[1], &map)?;
     // Those that are drawn, and the one that is held, be it chosen or the only one.
     let planes = |part: &Part| -> Vec<String> {
         let drawn = part.panels.iter().map(|panel| panel.name.clone());

@@ -423,6 +423,45 @@ fn every_prebuilt_has_its_drives() {
     }
 }
 
+/// Grids that begin in a corner from which no way leads to some of their poses.
+const FAR: [(&str, &str); 3] = [
+    (
+        "exechon",
+        "Grid(x: (-0.6, 0.6, 5), y: (-0.6, 0.6, 5), z: (0.7, 1.1, 3))",
+    ),
+    (
+        "linear-delta",
+        "Grid(x: (-0.2, 0.2, 3), y: (-0.2, 0.2, 3), z: (0.7, 0.7, 1))",
+    ),
+    (
+        "three-rps",
+        "Grid(z: (0.7, 0.7, 1), rx: (-0.9, 0.9, 7), ry: (0.0, 0.0, 1))",
+    ),
+];
+
+#[test]
+fn every_reached_pose_has_its_drives() {
+    for (kind, grid) in FAR {
+        let text = begin(kind).expect("a kind");
+        let at = text.find("poses: ").expect("poses");
+        let end = at + text[at..].find('\n').expect("a line");
+        let text = format!("{}poses: {grid},{}", &text[..at], &text[end..]);
+        let mut job = job(&text);
+        job.set("columns", "[Drives]").expect("drives");
+        let (names, records) = found(&job);
+        let reached: Vec<_> = (records.iter())
+            .filter(|record| record.result.is_ok())
+            .collect();
+        assert!(reached.len() > 4, "{kind}: {}", reached.len());
+        for record in reached {
+            for name in &names {
+                let value = cells(&names, record)[name].number();
+                assert!(value.is_some(), "{kind} {:?}: no {name}", record.pose);
+            }
+        }
+    }
+}
+
 /// All kinds, one job: what a program that asks for one pose gets is the row, to the bit.
 #[test]
 fn a_single_pose_is_the_row() {

@@ -6,7 +6,7 @@ use hyperstat_joints::Dof;
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::mechanisms::{Case, cases};
-use super::prebuilt::{asked, file};
+use super::prebuilt::{asked, asked_from, file};
 
 /// The pose of `case` this part of the way to the end of its range.
 fn pose(case: &Case, part: f64) -> Vec<f64> {
@@ -141,4 +141,72 @@ fn typed_coordinates_do_not_hold_a_mechanism() {
             assert!(off < 2e-6, "{what}: {found:?}, not {asked:?}");
         }
     }
+}
+
+/// The poses of a grid of `steps` values a coordinate, as wide as the mechanism's range times `wide`, that it
+/// reaches; the last coordinate runs fastest, there and back, so that neighbours are near.
+fn grid(case: &Case, steps: usize, wide: f64) -> Vec<Vec<f64>> {
+    let mut poses = vec![Vec::new()];
+    for (home, span) in case.home.iter().zip(&case.spans) {
+        let values = (0..steps).map(|k| {
+            let part = 2.0 * k as f64 / (steps - 1) as f64 - 1.0;
+            home + wide * span * part
+        });
+        let values: Vec<f64> = values.collect();
+        let longer = poses.iter().enumerate().flat_map(|(row, pose)| {
+            let mut along = values.clone();
+            if row % 2 == 1 {
+                along.reverse();
+            }
+            along
+                .into_iter()
+                .map(|value| [&pose[..], &[value]].concat())
+        });
+        poses = longer.collect();
+    }
+    poses.retain(|pose| case.mechanism.place_at(pose).is_ok());
+    poses
+}
+
+/// The difference of two values of a drive; of a turn within half of one.
+fn apart(drive: &Drive, one: f64, other: f64) -> f64 {
+    let turns = match drive.direction.is_rotation() {
+        true => ((one - other) / std::f64::consts::TAU).round(),
+        false => 0.0,
+    };
+    (one - other - turns * std::f64::consts::TAU).abs()
+}
+
+/// In a grid that begins in a far corner, the way to some poses is singular, or leads out of reach.
+#[test]
+fn every_pose_of_a_grid_has_its_drives_from_any_corner() {
+    let (mut ways, mut neighbours) = (0, 0);
+    for case in cases() {
+        let what = case.mechanism.kind();
+        let poses = grid(&case, if case.home.len() > 3 { 2 } else { 4 }, 1.6);
+        assert!(poses.len() > 10, "{what}: {}", poses.len());
+        for corner in [&poses[0], &poses[poses.len() - 1]] {
+            let drives = |pose: &Vec<f64>| {
+                let drives = case.mechanism.drives_between(corner, pose);
+                drives.unwrap_or_else(|error| panic!("{what} {corner:?} {pose:?}: {error}"))
+            };
+            let found: Vec<Vec<Drive>> = poses.iter().map(drives).collect();
+            for k in 1..poses.len() {
+                ways += 1;
+                let model = case.mechanism.model(&poses[k - 1]).expect("in reach");
+                let closure = LoopClosure::new(&model).expect("a linkage");
+                let asked = asked_from(&case, &poses[k - 1], &poses[k]);
+                let Ok(reached) = closure.place_at(&Target::Output(asked)) else {
+                    continue;
+                };
+                neighbours += 1;
+                let [before, now] = [&found[k - 1], &found[k]];
+                for ((before, now), step) in before.iter().zip(now).zip(&reached.drives) {
+                    let off = apart(step, now.value - before.value, step.value);
+                    assert!(off < 1e-8, "{what} {:?} {step:?}: {off:e}", poses[k]);
+                }
+            }
+        }
+    }
+    assert!(neighbours * 10 > ways * 9, "{neighbours} of {ways}");
 }

@@ -32,6 +32,11 @@ pub fn file(case: &Case) -> Model {
 /// What the file is asked for at a pose of the prebuilt: the coordinates it takes, rotations from
 /// the file's configuration.
 pub fn asked(case: &Case, pose: &[f64]) -> [Option<f64>; 6] {
+    asked_from(case, &case.home, pose)
+}
+
+/// The same of a file that stands in the pose `from`.
+pub fn asked_from(case: &Case, from: &[f64], pose: &[f64]) -> [Option<f64>; 6] {
     let whole = |pose: &[f64]| {
         let mut whole = [0.0; 6];
         for (coordinate, value) in case.mechanism.coordinates().iter().zip(pose) {
@@ -41,7 +46,7 @@ pub fn asked(case: &Case, pose: &[f64]) -> [Option<f64>; 6] {
     };
     let turn =
         |pose: [f64; 6]| UnitQuaternion::from_scaled_axis(Vector3::from_column_slice(&pose[3..]));
-    let relative = (turn(whole(pose)) / turn(whole(&case.home))).scaled_axis();
+    let relative = (turn(whole(pose)) / turn(whole(from))).scaled_axis();
     let mut asked = [None; 6];
     for coordinate in case.mechanism.coordinates() {
         let k = coordinate.index();

@@ -25,6 +25,9 @@ pub(super) const MOST_BLOCKS: usize = 10;
 /// Vectors of unit mass whose residuals another step would turn into changes no larger than this have
 /// ω² to its square over the distance of the next, relative.
 const SETTLED: f64 = 3e-8;
+/// The energy of these changes over that of the vectors, at the most: it is what ω² is off by. Beside soft
+/// drives small changes have much of it, in the directions of all that is stiff.
+const STRAINED: f64 = 1e-11;
 /// So much of the vectors that a search began with is kept beside those that it found.
 const BEGUN: f64 = 0.05;
 /// The wanted ω² are looked for no nearer to the shift than this part of it.
@@ -294,6 +297,8 @@ impl Search<'_> {
         };
         let found = rayleigh.energies(simd, &squares, &buffers.ritz, &mut buffers.rest);
         let (values, inverses) = (&buffers.values, &buffers.inverses);
+        // The vectors have been looked at: room for what they lack.
+        buffers.ritz.copy_from_slice(&buffers.rest);
         solve(
             simd,
             &self.table.blocks,
@@ -302,11 +307,15 @@ impl Search<'_> {
             &mut buffers.rest,
         );
         let changes = rayleigh.kinetic(simd, &buffers.rest);
+        let works = works(&buffers.ritz, &buffers.rest);
         for k in 0..self.count {
             squares[k] = found.strain[k] / found.kinetic[k];
             let change = changes[k] / found.kinetic[k];
+            // Twice their energy: of what lies below the shift the work is negative.
+            let strained = works[k].abs() + self.shift.square * changes[k];
             // What is not a number has not settled.
-            if !(change <= SETTLED * SETTLED && squares[k].is_finite()) {
+            let settled = change <= SETTLED * SETTLED && strained <= STRAINED * found.strain[k];
+            if !(settled && squares[k].is_finite()) {
                 return None;
             }
         }
@@ -316,4 +325,16 @@ impl Search<'_> {
             vectors: pairs.vectors,
         })
     }
+}
+
+/// Works of eight forces on eight vectors.
+#[inline(always)]
+fn works(forces: &[f64], vectors: &[f64]) -> [f64; ROW] {
+    let mut works = [0.0; ROW];
+    for (force, vector) in forces.chunks_exact(ROW).zip(vectors.chunks_exact(ROW)) {
+        for k in 0..ROW {
+            works[k] += force[k] * vector[k];
+        }
+    }
+    works
 }

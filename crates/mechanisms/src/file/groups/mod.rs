@@ -21,7 +21,7 @@ use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment, first_at};
 use crate::text::names;
 use crate::text::paths;
-use crate::text::scope::Scope;
+use crate::text::scope::{Open, Scope};
 use crate::text::tree::{Named, Node, Steps};
 
 /// The fields of a group, which are fields of a mechanism too.
@@ -76,17 +76,26 @@ fn unvalued(root: &Node) -> Result<Written, LoadError> {
         copies: Copies::default(),
     };
     if root.get("groups").is_some() || root.get("copies").is_some() {
-        of_copies(&valued(root)?, &mut written)?;
+        let value = |root: &Node, node: &Node| Ok(Scope::lazy(root)?.valued(node));
+        of_copies(&valued(root, value)?, &mut written)?;
     }
     Ok(written)
 }
 
+/// The mechanism with the values of those expressions that lean on nothing open in their places, groups
+/// still groups; `None` where one has no value for another reason, which is told where it is read.
+pub(crate) fn settled(root: &Node, open: &Open) -> Option<Node> {
+    let settle = |root: &Node, node: &Node| Scope::settling(root, open).ok()?.settled(node);
+    let inside = valued(root, |root, node| settle(root, node).ok_or(())).ok()?;
+    settle(&inside, &inside)
+}
+
 /// The mechanism with the values of the expressions of its groups, and of what is said of their copies, in
-/// their places.
-fn valued(root: &Node) -> Result<Node, LoadError> {
+/// their places, which `value` finds under the names of a mechanism.
+fn valued<E>(root: &Node, value: impl Fn(&Node, &Node) -> Result<Node, E>) -> Result<Node, E> {
     let mut tree = root.clone();
     if let Some(copies) = root.get("copies") {
-        let copies = Scope::lazy(root)?.valued(copies);
+        let copies = value(root, copies)?;
         tree = tree.with_field("copies", copies);
     }
     if let Some(groups) = root.get("groups") {
@@ -100,7 +109,7 @@ fn valued(root: &Node) -> Result<Node, LoadError> {
             points.extend_from_slice(root.get("points").map_or(&[][..], Node::entries));
             let place = own.value().get("points").unwrap_or(groups);
             let root = root.with_field("points", place.map_in_place(points));
-            made.push(own.with(own.name(), Scope::lazy(&root)?.valued(own.value())));
+            made.push(own.with(own.name(), value(&root, own.value())?));
         }
         // What is no map is told where it is read.
         if !made.is_empty() {
@@ -157,7 +166,7 @@ fn of_group(
     written: &mut Written,
 ) -> Result<(), LoadError> {
     let owner = format!("group `{}`", group.name);
-    Fields::read(group.value, owner, &GROUP.names())?;
+    Fields::read(group.value, &owner, &GROUP.names())?;
     check_names(group, node, root)?;
     let (places, names, overrides) = read(entry)?;
     let overrides = match overrides {
@@ -176,7 +185,7 @@ fn of_group(
     }
     for (placement, name) in places.iter().zip(&names) {
         let own = overrides.iter().find(|own| own.name == *name);
-        let (node, changed) = changed(node, own.zip(of_copy(name)))?;
+        let (node, changed) = changed((node, &owner), own.zip(of_copy(name)))?;
         let copy = Copy::new(&node, root, placement, name);
         let joints = copy.joints(|joint, made| {
             let path = format!("groups.{}.joints.{joint}", group.name);
@@ -262,7 +271,7 @@ fn endings(list: Fragment<'_>, count: usize) -> Result<Vec<String>, LoadError> {
 
 /// A group with the values that a copy has for itself, and the paths of these.
 fn changed(
-    group: &Node,
+    (group, whole): (&Node, &str),
     own: Option<(&Entry<'_>, &Node)>,
 ) -> Result<(Node, Vec<String>), LoadError> {
     let mut node = group.clone();
@@ -272,7 +281,7 @@ fn changed(
     };
     let mut taken: Vec<Steps> = Vec::new();
     for (value, own) in own.value.map()?.into_iter().zip(values.entries()) {
-        let steps = paths::find(group, value.key)?;
+        let steps = paths::find(group, value.key, whole)?;
         let overlaps = |other: &Steps| paths::overlap(other, &steps);
         if let Some(other) = taken.iter().position(overlaps) {
             return Err(paths::overlapping(&changed[other], value.key));
