@@ -37,7 +37,7 @@ pub(crate) fn of(
     for first in (0..job.len()).step_by(POSES) {
         Python::attach(|py| py.check_signals())?;
         let poses = first..job.len().min(first + POSES);
-        for found in threads.each(poses, one) {
+        for found in threads.each(poses, &one) {
             let (value, gradient) = found?;
             values.push(value);
             slopes.extend(gradient);

@@ -2,10 +2,10 @@
 //! `python/hyperstat`; everything that is computed is in `hyperstat-study`.
 
 mod arrays;
-mod core;
 mod error;
 mod given;
 mod gradient;
+mod mechanism;
 mod pool;
 mod pose;
 mod sweep;
@@ -38,7 +38,7 @@ mod _hyperstat {
     #[pymodule_export]
     use super::column;
     #[pymodule_export]
-    use super::core::{Core, load, parse, prebuilt};
+    use super::mechanism::{Core, load, parse, prebuilt};
     #[pymodule_export]
     use super::measures;
     #[pymodule_export]

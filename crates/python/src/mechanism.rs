@@ -232,7 +232,9 @@ impl Core {
                     let mut job = self.job_with(&fields)?;
                     match poses {
                         Some(poses) => job.set_poses(poses)?,
-                        None => drop(self.posed()?),
+                        None => {
+                            self.posed()?;
+                        }
                     }
                     if let Some(designs) = designs {
                         let designs: Vec<_> = (designs.iter())
