@@ -52,6 +52,10 @@ RECORDS = {
 KINDS = ["section", "profile", "joint_kind", "body", "placing"]
 PREBUILT = "job_mechanism"
 
+# What a body or a member may hold itself, where a file has a name.
+BEAMS = ("Beam", "Frame", "Member")
+HELD = {"section": "profile", "material": "material"}
+
 
 def kinds_of(definition: dict[str, Any]) -> dict[str, Any]:
     """Objects by the name of their kind."""
@@ -100,6 +104,8 @@ class Writer:
             lines.append("        *,")
         for name, value in fields:
             hint = self.hint(value)
+            if title in BEAMS and name in HELD:
+                hint = self.held(self.reference(HELD[name]), many="Sequence" in hint)
             if name in required:
                 lines.append(f"        {python(name)}: {hint},")
             else:
@@ -145,6 +151,12 @@ class Writer:
         if "Any" in hints:
             return "Any"
         return hints[0] if len(hints) == 1 else f"Union[{', '.join(hints)}]"
+
+    def held(self, hint: str, many: bool) -> str:
+        """The type of a name, or of what it stands for; of many where there may be a list."""
+        inner = hint.removeprefix("Union[").removesuffix("]")
+        one = f"Union[str, {inner}]"
+        return f"Union[str, {inner}, Sequence[{one}]]" if many else one
 
     def reference(self, name: str) -> str:
         if name in RECORDS:

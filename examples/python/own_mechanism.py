@@ -36,7 +36,9 @@ portal = hs.Mechanism(
 
 solution = portal.solve(why=True)
 print(solution)
-print("wrench at the shoulder [N, N·m]:", np.round(solution.joints["shoulder"].wrench, 6))
+wrench = solution.joints["shoulder"].wrench
+assert wrench is not None
+print("wrench at the shoulder [N, N·m]:", wrench.round(6))
 for part in solution["budget"]["parts"][:3]:
     name = part.get("body") or part.get("joint")
     print(f"{part['share']:6.1%}  {name}, {part['deformation']}")

@@ -19,7 +19,10 @@ pub(crate) fn of(
 ) -> Result<(Vec<f64>, Vec<f64>), Ended> {
     let quantity = Quantity::named(quantity).ok_or_else(|| {
         let known: Vec<&str> = Measure::all().iter().map(|own| own.name).collect();
-        let help = format!("give `k11` to `k66`, `dx` to `drz`, or {}", known.join(", "));
+        let help = format!(
+            "give `k11` to `k66`, `dx` to `drz`, or {}",
+            known.join(", ")
+        );
         Ended::argument(format!("unknown measure `{quantity}`"), &help)
     })?;
     let threads = pool::threads(threads)?;
@@ -37,7 +40,7 @@ pub(crate) fn of(
     for first in (0..job.len()).step_by(POSES) {
         Python::attach(|py| py.check_signals())?;
         let poses = first..job.len().min(first + POSES);
-        for found in threads.each(poses, &one) {
+        for found in threads.each(poses, one) {
             let (value, gradient) = found?;
             values.push(value);
             slopes.extend(gradient);

@@ -38,9 +38,9 @@ mod _hyperstat {
     #[pymodule_export]
     use super::column;
     #[pymodule_export]
-    use super::mechanism::{Core, load, parse, prebuilt};
-    #[pymodule_export]
     use super::measures;
+    #[pymodule_export]
+    use super::mechanism::{Core, load, parse, prebuilt};
     #[pymodule_export]
     use super::pose::Pose;
     #[pymodule_export]

@@ -151,9 +151,10 @@ impl Core {
         let values = given::values(values);
         apart(py, || {
             Ok(match &self.subject {
-                Subject::File(mechanism) => {
-                    Self::new(Subject::File(Box::new(mechanism.with_values(&values)?)), self)
-                }
+                Subject::File(mechanism) => Self::new(
+                    Subject::File(Box::new(mechanism.with_values(&values)?)),
+                    self,
+                ),
                 Subject::Job { job, design, pose } => {
                     let job = job.with_values(*design, &values)?;
                     Self::of_job(job, 0, *pose, self.path.clone())
@@ -172,10 +173,11 @@ impl Core {
 
     /// The same in another pose.
     fn in_pose(&self, py: Python<'_>, pose: PoseGiven<'_>) -> PyResult<Self> {
-        let poses = pose.poses();
+        let pose = pose.owned();
         apart(py, || {
+            pose.check()?;
             let mut job = self.job()?;
-            job.set_poses(poses)?;
+            job.set_poses(pose.poses())?;
             Ok(Self::of_job(job, 0, Some(0), self.path.clone()))
         })
     }
@@ -184,6 +186,7 @@ impl Core {
     fn at(&self, py: Python<'_>, pose: PoseGiven<'_>) -> PyResult<Pose> {
         let pose = pose.owned();
         apart(py, || {
+            pose.check()?;
             let mut ready = lock(&self.ready);
             // A panic leaves nothing half done behind.
             let mut own = match ready.take() {

@@ -35,15 +35,22 @@ impl PoseGiven<'_> {
             Self::Named(named) => PoseAsked::Named(named),
         }
     }
-
-    pub(crate) fn poses(self) -> JobPoses {
-        self.owned().poses()
-    }
 }
 
 impl PoseAsked {
+    /// Refuses a pose of another length.
+    pub(crate) fn check(&self) -> Result<(), Ended> {
+        match self {
+            Self::Numbers(numbers) if ![3, 6].contains(&numbers.len()) => Err(Ended::argument(
+                format!("a pose of {} numbers", numbers.len()),
+                "give x, y, z [m], or x, y, z, rx, ry, rz [m, rad]",
+            )),
+            _ => Ok(()),
+        }
+    }
+
     /// As the one pose of a job.
-    fn poses(&self) -> JobPoses {
+    pub(crate) fn poses(&self) -> JobPoses {
         match self {
             Self::Numbers(rows) => JobPoses::Table {
                 columns: (0..rows.len())
@@ -110,16 +117,10 @@ impl Ready {
         let mut asked = [self.open; 6];
         let mut drives = Vec::new();
         match pose {
-            PoseAsked::Numbers(numbers) if [3, 6].contains(&numbers.len()) => {
+            PoseAsked::Numbers(numbers) => {
                 for (own, number) in asked.iter_mut().zip(numbers) {
                     *own = Some(*number);
                 }
-            }
-            PoseAsked::Numbers(numbers) => {
-                return Err(Ended::argument(
-                    format!("a pose of {} numbers", numbers.len()),
-                    "give x, y, z [m], or x, y, z, rx, ry, rz [m, rad]",
-                ));
             }
             PoseAsked::Named(named) => {
                 for (name, value) in named {

@@ -61,15 +61,20 @@ impl Asking {
         let total = rows.len();
         let mut seen = Instant::now();
         let mut done = 0;
-        sweep.run(&threads, rows, |_| (), |chunk: &mut Chunk| {
-            found.add(chunk);
-            done += chunk.records.len();
-            if seen.elapsed() >= GLANCE || done == total && self.progress.is_some() {
-                seen = Instant::now();
-                self.glance(done, total)?;
-            }
-            Ok::<(), Ended>(())
-        })?;
+        sweep.run(
+            &threads,
+            rows,
+            |_| (),
+            |chunk: &mut Chunk| {
+                found.add(chunk);
+                done += chunk.records.len();
+                if seen.elapsed() >= GLANCE || done == total && self.progress.is_some() {
+                    seen = Instant::now();
+                    self.glance(done, total)?;
+                }
+                Ok::<(), Ended>(())
+            },
+        )?;
         Ok(found)
     }
 
@@ -229,9 +234,13 @@ pub(crate) fn measure<'py>(
         let rows = stiffness.outer_iter().zip(displacement.outer_iter());
         let value = rows.map(|(stiffness, displacement)| {
             let mut k = [0.0; 36];
-            k.iter_mut().zip(stiffness.iter()).for_each(|(own, k)| *own = *k);
+            k.iter_mut()
+                .zip(stiffness.iter())
+                .for_each(|(own, k)| *own = *k);
             let mut u = [0.0; 6];
-            u.iter_mut().zip(displacement.iter()).for_each(|(own, u)| *own = *u);
+            u.iter_mut()
+                .zip(displacement.iter())
+                .for_each(|(own, u)| *own = *u);
             known(measure.at(&k, &u))
         });
         Ok(value.collect())

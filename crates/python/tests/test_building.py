@@ -73,7 +73,7 @@ def test_sections_and_materials_of_beams_get_names() -> None:
             "bodies": {
                 "a": hs.Beam(through=["A", "B"], section=rod, material="steel"),
                 "b": hs.Frame(
-                    members={"m": hs.Member(through=["B", "C"], section=hs.Tube(outer=0.03, inner=0.02))},
+                    members=[hs.Member(through=["B", "C"], section=hs.Tube(outer=0.03, inner=0.02))],
                     material=hs.Material(young=7e10, shear=2.6e10),
                 ),
             },

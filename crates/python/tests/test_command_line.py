@@ -42,7 +42,7 @@ def equal(found: Table, expected: dict[str, list[str]]) -> None:
 SOLVED = [
     ("portal.ron", []),
     ("gripper.ron", []),
-    ("delta_states.ron", ["--pose", "3"]),
+    ("delta_states.ron", []),
     ("paper.ron", ["--job", "delta-elastic-trajectory", "--pose", "7"]),
 ]
 

@@ -29,13 +29,13 @@ def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
 
 def test_the_package_and_the_examples_are_typed(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
-    package = Path(hs.__file__).parent
     (tmp_path / "mypy.ini").write_text(
         "[mypy]\nstrict = true\n"
         "[mypy-matplotlib.*,pandas.*,pyarrow.*,xarray.*,pyvista.*,tqdm.*,scipy.*]\n"
         "ignore_missing_imports = true\nfollow_imports = skip\n"
     )
-    checked("mypy", str(package), *map(str, EXAMPLES), cwd=tmp_path)
+    checked("mypy", "-p", "hyperstat", cwd=tmp_path)
+    checked("mypy", *map(str, EXAMPLES), cwd=tmp_path)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=[path.stem for path in EXAMPLES])

@@ -48,7 +48,7 @@ class Part:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return bool(self.to_data() == other.to_data())  # type: ignore[attr-defined]
+        return bool(self.to_data() == other.to_data())
 
     def __hash__(self) -> int:
         return hash(dumps(self.to_data()))
@@ -97,15 +97,11 @@ def with_names(fields: Mapping[str, Any]) -> dict[str, Any]:
     if not isinstance(bodies, dict):
         return written
     for name, body in bodies.items():
-        if not isinstance(body, dict):
-            continue
-        for own in body.values():
-            if isinstance(own, dict):
-                for holder in (own, *own.get("members", {}).values()) if isinstance(
-                    own.get("members", {}), dict
-                ) else (own,):
-                    _name(written, holder, "section", "sections", name)
-                    _name(written, holder, "material", "materials", name)
+        for own in body.values() if isinstance(body, dict) else ():
+            members = own.get("members") if isinstance(own, dict) else None
+            for holder in (own, *(members if isinstance(members, list) else ())):
+                _name(written, holder, "section", "sections", name)
+                _name(written, holder, "material", "materials", name)
     return written
 
 

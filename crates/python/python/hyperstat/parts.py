@@ -422,8 +422,8 @@ class Beam(Part):
     def __init__(
         self,
         *,
-        material: str,
-        section: Union[str, Sequence[str]],
+        material: Union[str, Material],
+        section: Union[str, Circle, General, Rectangle, Tapered, Tube, Sequence[Union[str, Circle, General, Rectangle, Tapered, Tube]]],
         through: Sequence[str],
         elements: Optional[Count] = None,
         temperature: Optional[Number] = None,
@@ -492,8 +492,8 @@ class Frame(Part):
         *,
         members: Sequence[Union[Sequence[str], Member]],
         elements: Optional[Count] = None,
-        material: Optional[str] = None,
-        section: Optional[Union[str, Sequence[str]]] = None,
+        material: Optional[Union[str, Material]] = None,
+        section: Optional[Union[str, Circle, General, Rectangle, Tapered, Tube, Sequence[Union[str, Circle, General, Rectangle, Tapered, Tube]]]] = None,
         temperature: Optional[Number] = None,
         y_axis: Optional[Union[Numbers, Sequence[Numbers]]] = None,
     ) -> None:
@@ -1001,8 +1001,8 @@ class Member(Part):
         *,
         through: Sequence[str],
         elements: Optional[Count] = None,
-        material: Optional[str] = None,
-        section: Optional[Union[str, Sequence[str]]] = None,
+        material: Optional[Union[str, Material]] = None,
+        section: Optional[Union[str, Circle, General, Rectangle, Tapered, Tube, Sequence[Union[str, Circle, General, Rectangle, Tapered, Tube]]]] = None,
         y_axis: Optional[Union[Numbers, Sequence[Numbers]]] = None,
     ) -> None:
         self._set(
