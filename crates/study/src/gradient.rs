@@ -97,7 +97,8 @@ impl Study {
         for path in paths {
             let own = by_path(&found, path)?;
             let slope = pose.as_ref().and_then(|pose| {
-                let stiffness = Matrix6::from_fn(|r, c| own.stiffness.map_or(f64::NAN, |k| k[r][c]));
+                let stiffness =
+                    Matrix6::from_fn(|r, c| own.stiffness.map_or(f64::NAN, |k| k[r][c]));
                 let moved = own.displacement.map_or([f64::NAN; 6], |u| u);
                 quantity.slope(pose, &displacement, (&stiffness, &Vector6::from(moved)))
             });
@@ -114,7 +115,9 @@ fn by_path<'s>(
     path: &str,
 ) -> Result<&'s SensitivityReport, StudyError> {
     let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
-    let own = found.iter().find(|own| alone(&own.parameter) == alone(path));
+    let own = found
+        .iter()
+        .find(|own| alone(&own.parameter) == alone(path));
     own.ok_or_else(|| {
         let known: Vec<&str> = found.iter().map(|own| own.parameter.as_str()).collect();
         StudyError::NoDerivative {
@@ -140,7 +143,13 @@ mod tests {
     fn slopes_are_those_of_the_measures() {
         let stiffness = |h: f64| {
             let mut k = Matrix6::from_diagonal(&Vector6::new(3e6, 2e6, 1e6, 4e4, 3e4, 2e4));
-            let coupling = [(0, 1, 2e5), (0, 4, 3e4), (1, 3, -2e4), (2, 5, 1e4), (3, 5, 2e3)];
+            let coupling = [
+                (0, 1, 2e5),
+                (0, 4, 3e4),
+                (1, 3, -2e4),
+                (2, 5, 1e4),
+                (3, 5, 2e3),
+            ];
             for (r, c, value) in coupling {
                 k[(r, c)] = value * (1.0 + 0.7 * h);
                 k[(c, r)] = k[(r, c)];
@@ -150,21 +159,32 @@ mod tests {
             }
             k
         };
-        let displacement = |h: f64| Vector6::new(1e-4, -2e-4, 3e-4, 1e-3, 2e-3, -1e-3) * (1.0 + 0.3 * h);
+        let displacement =
+            |h: f64| Vector6::new(1e-4, -2e-4, 3e-4, 1e-3, 2e-3, -1e-3) * (1.0 + 0.3 * h);
         let pose = Pose::new(&stiffness(0.0));
-        let change = (stiffness(1.0) - stiffness(0.0), displacement(1.0) - displacement(0.0));
+        let change = (
+            stiffness(1.0) - stiffness(0.0),
+            displacement(1.0) - displacement(0.0),
+        );
         let mut names: Vec<&str> = MEASURES.iter().map(|own| own.name).collect();
         names.extend(["k15", "k66", "dz", "drx"]);
         for name in names {
             let quantity = Quantity::named(name).unwrap();
-            let slope = quantity.slope(&pose, &displacement(0.0), (&change.0, &change.1)).unwrap();
+            let slope = quantity
+                .slope(&pose, &displacement(0.0), (&change.0, &change.1))
+                .unwrap();
             let expected = difference(|h| {
-                quantity.value(&Pose::new(&stiffness(h)), &displacement(h)).unwrap()
+                quantity
+                    .value(&Pose::new(&stiffness(h)), &displacement(h))
+                    .unwrap()
             });
             // Rounding over the step: some 1e-16 / 1e-3 of the value.
             let value = quantity.value(&pose, &displacement(0.0)).unwrap();
             let scale = expected.abs().max(1e-2 * value.abs());
-            assert!((slope - expected).abs() < 1e-10 * scale, "{name}: {slope} {expected}");
+            assert!(
+                (slope - expected).abs() < 1e-10 * scale,
+                "{name}: {slope} {expected}"
+            );
         }
         assert_eq!(Quantity::named("k77"), None);
     }

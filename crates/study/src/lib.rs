@@ -54,10 +54,10 @@ pub use doubts::Watch;
 pub use drives::MissingDrives;
 pub use entries::Entries;
 pub use error::{Problem, StudyError};
-#[cfg(feature = "fs")]
-pub use hyperstat_mechanisms::Disk;
 pub use gradient::Quantity;
 pub use hyperstat_assembly::BeamMass;
+#[cfg(feature = "fs")]
+pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
     Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
     Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value, load, load_str,

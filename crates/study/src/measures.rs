@@ -107,10 +107,14 @@ impl Pose {
         (stiffness, moved): (&Matrix6<f64>, &Vector6<f64>),
     ) -> Option<f64> {
         let along = |matrix: &Matrix6<f64>, change: &Matrix6<f64>, block: usize, place: usize| {
-            let part = |of: &Matrix6<f64>| -> Matrix3<f64> { of.fixed_view::<3, 3>(block, block).into() };
+            let part =
+                |of: &Matrix6<f64>| -> Matrix3<f64> { of.fixed_view::<3, 3>(block, block).into() };
             let found = principal(&part(matrix));
             let direction = found.directions[place];
-            (found.values[place], direction.dot(&(part(change) * direction)))
+            (
+                found.values[place],
+                direction.dot(&(part(change) * direction)),
+            )
         };
         let compliance = || {
             let compliance = self.compliance()?;
