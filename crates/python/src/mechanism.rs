@@ -199,9 +199,9 @@ impl Core {
                     }
                 }
             };
-            let found = own.at(&pose)?;
+            let found = own.at(&pose);
             *ready = Some(own);
-            Ok(found)
+            found
         })
     }
 

@@ -89,6 +89,12 @@ WRONG: list[tuple[type[hs.Error], str, Callable[[hs.Mechanism], object]]] = [
     (hs.ArgumentError, "argument", lambda m: m.solve(along=(0, 0, 0), why=True)),
     (hs.ArgumentError, "argument", lambda m: m.at((0.0, 0.0))),
     (hs.InputError, "input", lambda m: m.at({"A.v": 1.0, "x": 1.0})),
+    (hs.ArgumentError, "argument", lambda m: m.at("home")),  # type: ignore[arg-type]
+    (hs.ArgumentError, "argument", lambda m: m.in_pose([1.0, "y", 2.0])),  # type: ignore[list-item]
+    (hs.ArgumentError, "argument", lambda m: m.solve(modes=0)),
+    (hs.ArgumentError, "argument", lambda m: m.sweep(threads=-1)),
+    (hs.ArgumentError, "argument", lambda m: m.with_values({"rod.section.diameter": [1, 2]})),  # type: ignore[dict-item]
+    (hs.SelectionError, "unknown-design", lambda m: hs.load(m.path, m.job, -1)),
     (hs.ArgumentError, "argument", lambda m: m.sweep().measure("stiffness")),
     (hs.SelectionError, "unknown-case", lambda m: m.solve(why=True, case="storm")),
     (hs.PoseError, "unreachable", lambda m: m.in_pose((5.0, 0.0, 0.5)).solve()),

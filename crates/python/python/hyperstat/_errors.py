@@ -83,6 +83,16 @@ class InputError(Error, ValueError):
 class ArgumentError(Error, ValueError):
     """An argument of a call that is wrong."""
 
+    def __init__(
+        self,
+        message: str,
+        *,
+        code: str = "argument",
+        help: Optional[str] = None,
+        place: Optional[Place] = None,
+    ) -> None:
+        super().__init__(message, code=code, help=help, place=place)
+
 
 class SelectionError(Error, LookupError):
     """A job, design, pose or case that there is not."""

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from . import _hyperstat
 from ._data import Part, data, dumps, with_names
-from ._errors import ArgumentError
+from ._errors import ArgumentError, SelectionError
 from ._hyperstat import Core, Pose
 from ._solution import Solution
 from ._table import Table
@@ -27,6 +27,8 @@ Along = Union[Literal["displacement", "x", "y", "z", "rx", "ry", "rz"], Sequence
 Progress = Union[bool, Callable[[int, int], object]]
 
 _COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
+# As the command line has it.
+_MOST_MODES = 1000
 
 
 class Mechanism:
@@ -66,7 +68,7 @@ class Mechanism:
         name = "text" if isinstance(source, str) else "data"
         text = source if isinstance(source, str) else dumps(with_names(source))
         at = name if path is None else fspath(path)
-        self._core = _hyperstat.parse(text, at, job, design or None, pose or None)
+        self._core = _hyperstat.parse(text, at, job, *_chosen(design, pose))
 
     @classmethod
     def _of(cls, core: Core) -> Mechanism:
@@ -154,6 +156,8 @@ class Mechanism:
         SelectionError
             There is no such case.
         """
+        if modes is not None and not 1 <= modes <= _MOST_MODES:
+            raise ArgumentError(f"{modes} natural frequencies", help=f"ask for 1 to {_MOST_MODES}")
         word = along if isinstance(along, str) else None
         direction = None if isinstance(along, str) else [float(number) for number in along]
         text = self._core.solve(
@@ -186,7 +190,10 @@ class Mechanism:
         Pose
             With `status`, `stiffness` (6, 6), `displacement` (6,); NaN without a result.
         """
-        return self._core.at(pose)  # type: ignore[arg-type]
+        try:
+            return self._core.at(pose)  # type: ignore[arg-type]
+        except TypeError:
+            raise _no_pose(pose) from None
 
     def sweep(
         self,
@@ -275,7 +282,7 @@ class Mechanism:
     ) -> Table:
         table = None if poses is None else _columns(poses)
         if threads < 0:
-            raise ArgumentError(f"{threads} threads", code="argument", help="0 is one a core")
+            raise ArgumentError(f"{threads} threads", help="0 is one a core")
         call, close = _reporter(progress)
         try:
             found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
@@ -374,7 +381,10 @@ class Mechanism:
         pose
             As of `at`.
         """
-        return self._of(self._core.in_pose(pose))  # type: ignore[arg-type]
+        try:
+            return self._of(self._core.in_pose(pose))  # type: ignore[arg-type]
+        except TypeError:
+            raise _no_pose(pose) from None
 
     def to_ron(self) -> str:
         """It in its configuration as a mechanism file (RON)."""
@@ -455,7 +465,7 @@ def load(
     SelectionError
         There is no such job, design or pose.
     """
-    return Mechanism._of(_hyperstat.load(fspath(path), job, design or None, pose or None))
+    return Mechanism._of(_hyperstat.load(fspath(path), job, *_chosen(design, pose)))
 
 
 def schema() -> str:
@@ -468,6 +478,23 @@ def measures() -> dict[str, tuple[str, str]]:
     return {name: (unit, words) for name, unit, words in _hyperstat.measures()}
 
 
+def _chosen(design: int, pose: int) -> tuple[Optional[int], Optional[int]]:
+    """What is chosen of a batch; nothing for the first, which a mechanism file has too."""
+    for what, number in (("design", design), ("pose", pose)):
+        if number < 0:
+            raise SelectionError(
+                f"there is no {what} {number}", code=f"unknown-{what}", help="they are counted from 0"
+            )
+    return design or None, pose or None
+
+
+def _no_pose(pose: object) -> ArgumentError:
+    return ArgumentError(
+        f"`{pose!r}` is no pose",
+        help="give x, y, z [m], or x, y, z, rx, ry, rz [m, rad], or a mapping of names to numbers",
+    )
+
+
 def _value(value: Any) -> Union[float, str]:
     if isinstance(value, str):
         return value
@@ -477,7 +504,7 @@ def _value(value: Any) -> Union[float, str]:
         return float(value)
     except (TypeError, ValueError):
         raise ArgumentError(
-            f"`{value!r}` is no value", code="argument", help="give a number or a text"
+            f"`{value!r}` is no value", help="give a number or a text"
         ) from None
 
 
@@ -493,7 +520,7 @@ def _columns(poses: Poses) -> tuple[list[str], Array]:
             return [str(name) for name in poses], np.stack(np.broadcast_arrays(*each), axis=1)
         rows = np.asarray(poses, dtype=np.float64)
     except (TypeError, ValueError) as error:
-        raise ArgumentError(f"poses that are no numbers: {error}", code="argument") from None
+        raise ArgumentError(f"poses that are no numbers: {error}") from None
     if rows.ndim != 2 or rows.shape[1] not in (3, 6):
         raise ArgumentError(
             f"poses of the shape {rows.shape}",
