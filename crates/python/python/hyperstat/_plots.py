@@ -82,7 +82,7 @@ def _on_grid(
         return None
     z = np.full((len(y), len(x)), np.nan)
     z[np.searchsorted(y, up), np.searchsorted(x, across)] = shown
-    return x, y, np.ma.masked_invalid(z)
+    return x, y, z
 
 
 def _arrays(vtu: str) -> tuple[npt.NDArray[Any], list[npt.NDArray[Any]], npt.NDArray[Any]]:
