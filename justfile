@@ -34,6 +34,12 @@ bench:
 peak:
     cargo run --release -p hyperstat-benches --bin peak
 
+# The Python package with its tests, in a folder of packages of its own (target/python)
+python:
+    python3 -m venv target/python
+    CARGO_TARGET_DIR="$PWD/target" target/python/bin/pip -q install "./crates/python[test]"
+    target/python/bin/python -m pytest crates/python/tests
+
 # The README's main command
 paper:
     cargo run --release -- run examples/paper.ron --out out

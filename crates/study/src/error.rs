@@ -147,6 +147,16 @@ pub enum StudyError {
         /// Why.
         source: WriteError,
     },
+    /// A value by which nothing can be differentiated.
+    #[error("there is no derivative by `{path}`")]
+    NoDerivative {
+        /// Its path.
+        path: String,
+        /// The path that may be meant.
+        nearest: Option<String>,
+        /// Those by which there are some.
+        known: Vec<String>,
+    },
     /// A table that cannot be made in memory.
     #[error("the table cannot be made: {source}")]
     Table {
@@ -226,6 +236,7 @@ impl StudyError {
             Self::Unadjusted { .. } => "not-adjusted",
             Self::Threads { .. } => "threads",
             Self::Table { .. } => "table",
+            Self::NoDerivative { .. } => "no-derivative",
             #[cfg(feature = "figures")]
             Self::Plot(_) | Self::JobMap { .. } => "figure",
         }
@@ -273,6 +284,10 @@ impl StudyError {
             Self::Unsolvable { source, drives, .. } => unsolvable(source, drives),
             Self::FreeOutput { drives, .. } => Some(drives.help()),
             Self::Threads { .. } => Some("give a smaller number of threads".into()),
+            Self::NoDerivative { nearest, known, .. } => Some(match nearest {
+                Some(nearest) => format!("did you mean `{nearest}`?"),
+                None => format!("there are those by {}", known.join(", ")),
+            }),
             Self::Unverified(_) | Self::Export { .. } | Self::Table { .. } => None,
         }
     }

@@ -16,6 +16,7 @@ mod error;
 #[cfg(feature = "figures")]
 pub mod figure;
 pub mod files;
+mod gradient;
 mod measures;
 mod near;
 mod number;
@@ -53,12 +54,15 @@ pub use doubts::Watch;
 pub use drives::MissingDrives;
 pub use entries::Entries;
 pub use error::{Problem, StudyError};
+pub use gradient::Quantity;
+pub use hyperstat_assembly::BeamMass;
 #[cfg(feature = "fs")]
 pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
     Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
-    Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value,
+    Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value, load, load_str,
 };
+pub use measures::Measure;
 pub use number::{ROUNDING, Rounding, number, without_rounding};
 #[cfg(feature = "figures")]
 pub use page::Page;

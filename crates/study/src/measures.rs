@@ -8,16 +8,35 @@ use nalgebra::{Cholesky, Matrix3, Matrix6, Vector6};
 
 /// A measure of one pose.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Measure {
+pub struct Measure {
     /// Its name.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What it is.
-    pub(crate) words: &'static str,
+    pub words: &'static str,
     /// The same in a table.
     pub(crate) short: &'static str,
     /// Its SI unit.
-    pub(crate) unit: &'static str,
+    pub unit: &'static str,
     pub(crate) rule: Rule,
+}
+
+impl Measure {
+    /// All measures there are.
+    pub fn all() -> &'static [Self] {
+        &MEASURES
+    }
+
+    /// The measure of this name, such as `deflection` or `softest_force`.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        named(name)
+    }
+
+    /// Its value of an output with this stiffness \[N/m, N/rad; N, N·m/rad\], by rows, and displacement
+    /// \[m, rad\]; `None` where it has none.
+    pub fn at(&self, stiffness: &[f64; 36], displacement: &[f64; 6]) -> Option<f64> {
+        let pose = Pose::new(&Matrix6::from_row_slice(stiffness));
+        pose.measure(self.rule, &Vector6::from_row_slice(displacement))
+    }
 }
 
 /// How a measure is found. A block is that of translations, 0, or of rotations, 3.
@@ -74,6 +93,58 @@ impl Pose {
             compliance: OnceCell::new(),
             eigenvalues: Default::default(),
         }
+    }
+
+    pub(crate) fn stiffness(&self) -> &Matrix6<f64> {
+        &self.stiffness
+    }
+
+    /// Derivative of a measure along a change of the stiffness and of the displacement.
+    pub(crate) fn slope(
+        &self,
+        rule: Rule,
+        displacement: &Vector6<f64>,
+        (stiffness, moved): (&Matrix6<f64>, &Vector6<f64>),
+    ) -> Option<f64> {
+        let along = |matrix: &Matrix6<f64>, change: &Matrix6<f64>, block: usize, place: usize| {
+            let part =
+                |of: &Matrix6<f64>| -> Matrix3<f64> { of.fixed_view::<3, 3>(block, block).into() };
+            let found = principal(&part(matrix));
+            let direction = found.directions[place];
+            (
+                found.values[place],
+                direction.dot(&(part(change) * direction)),
+            )
+        };
+        let compliance = || {
+            let compliance = self.compliance()?;
+            Some((compliance, -(compliance * stiffness * compliance)))
+        };
+        let found = match rule {
+            Rule::Length(block) => {
+                let own = displacement.fixed_rows::<3>(block);
+                own.dot(&moved.fixed_rows::<3>(block)) / own.norm()
+            }
+            Rule::Compliance(place) => compliance()?.1[(place, place)],
+            Rule::InverseCompliance(place) => {
+                let (own, change) = compliance()?;
+                -change[(place, place)] / own[(place, place)].powi(2)
+            }
+            Rule::Softest(block) => {
+                let (own, change) = compliance()?;
+                along(own, &change, block, 2).1
+            }
+            Rule::Free { block, least } => {
+                let (own, change) = compliance()?;
+                let (value, slope) = along(own, &change, block, if least { 2 } else { 0 });
+                -slope / value.powi(2)
+            }
+            Rule::Held { block, least } => {
+                along(&self.stiffness, stiffness, block, if least { 0 } else { 2 }).1
+            }
+            Rule::Work => compliance()?.1.fixed_view::<3, 3>(0, 0).trace() / 3.0,
+        };
+        Some(found).filter(|slope| slope.is_finite())
     }
 
     /// The inverse of the stiffness.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hyperstat_mechanisms::Job;
+use hyperstat_mechanisms::{Batch, Job};
 
 use crate::error::StudyError;
 
@@ -18,6 +18,14 @@ pub struct Selection {
 }
 
 impl Selection {
+    /// The job of a batch that is meant; `path` is the file that it is from.
+    ///
+    /// # Errors
+    /// The batch holds no such job, or several of which none is named.
+    pub fn job_of(&self, batch: Batch, path: &Path) -> Result<Job, StudyError> {
+        choose(batch.jobs, path, self)
+    }
+
     /// Name of the first choice that is made.
     pub(crate) fn given(&self) -> Option<&'static str> {
         let made = [

@@ -164,20 +164,7 @@ impl Study {
                 number,
             } => {
                 // Beside what the design has already, where the job varies it.
-                // A parameter may be named with and without its map.
-                let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
-                let given = |path: &str| {
-                    let path = alone(path);
-                    values.iter().any(|(own, _)| alone(own.as_ref()) == path)
-                };
-                let kept = job.varied().iter().zip(design.values());
-                let kept = kept.filter(|(varied, _)| !given(&varied.path));
-                let kept = kept.map(|(varied, value)| (varied.path.as_str(), vec![value.clone()]));
-                let new = values.iter();
-                let new = new.map(|(path, value)| (path.as_ref(), vec![value.clone().into()]));
-                let all: Vec<_> = kept.chain(new).collect();
-                let mut changed = (**job).clone();
-                changed.set_vary(&all, false)?;
+                let changed = job.with_values(design.number(), values)?;
                 let mut study = Self::of_job(changed, 0, *pose)?;
                 study.files.clone_from(&self.files);
                 if let Origin::Job { number: own, .. } = &mut study.origin {

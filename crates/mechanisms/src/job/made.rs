@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::batch::{Job, job_name};
-use super::subject::Recipe;
+use super::poses::Poses;
+use super::subject::{Checked, Recipe};
 use crate::error::LoadError;
 use crate::file::mechanism::Mechanism;
 use crate::file::registry::Registry;
@@ -14,7 +15,7 @@ use crate::text::scope::Scope;
 use crate::text::source::{Place, Source};
 use crate::text::tree::Node;
 use crate::text::value::Value;
-use crate::text::{csv, names};
+use crate::text::{csv, json, names};
 
 /// The mechanism of a job that a program makes.
 #[derive(Debug, Clone)]
@@ -27,6 +28,8 @@ pub enum JobMechanism {
         /// Names and values of its parameters.
         parameters: Vec<(String, Value)>,
     },
+    /// A prebuilt one as it is written in a file, RON or JSON: `Delta(…)`, `{"Delta": {…}}`.
+    Written(String),
     /// One that was read, as it was read: what has been changed in its model since is not taken over.
     Loaded(Box<Mechanism>),
 }
@@ -56,6 +59,9 @@ impl From<Mechanism> for JobMechanism {
 pub enum JobPoses {
     /// The mechanism's own configuration.
     Own,
+    /// Not yet any, of a mechanism that is given some later ([`Job::set_poses`]): its own configuration, of a
+    /// prebuilt one that has none all coordinates zero, whether it reaches that or not.
+    Later,
     /// A row of numbers a pose: coordinates x y z \[m\] rx ry rz \[rad\] of the output, the first three or
     /// all six for a prebuilt mechanism, any for one of a file; or values \[m, rad\] of drives of one of a
     /// file, `joint.direction`.
@@ -158,27 +164,9 @@ impl Job {
         let checked = recipe.read(recipe.root())?;
         let root_node = Node::whole(Fragment::at(&root));
         let mut written = vec![("mechanism", root_node)];
-        let poses = match poses {
-            JobPoses::Own => Some(checked.own_pose(&root)?),
-            JobPoses::Table { columns, rows } => {
-                let at = |part: &str| {
-                    let name = match part {
-                        "" => "poses".into(),
-                        part => format!("poses.{part}"),
-                    };
-                    Place::whole(&Source::argument(&name, String::new(), None))
-                };
-                check_rows(&columns, &rows, at)?;
-                Some(checked.poses_of(&columns, &rows, &at(""), at)?)
-            }
-            JobPoses::Written(text) => {
-                let poses = argument("poses", text, Some(&near))?;
-                written.push(("poses", Scope::written(Fragment::at(&poses))));
-                None
-            }
-        };
+        let poses = asked(poses, &checked, &root, &near, &mut written)?;
         let fields = fields(&place, &written);
-        Self::read(name, &fields, place.clone(), recipe, poses.map(Arc::new))
+        Self::read(name, &fields, place.clone(), recipe, poses)
     }
 
     /// Sets a field of the job to what would stand there in a batch file: `loads`, `cases`, `gravity`,
@@ -188,7 +176,62 @@ impl Job {
     /// # Errors
     /// An unknown field, what is wrong with its value. The job is then as it was.
     pub fn set(&mut self, field: &str, value: &str) -> Result<(), LoadError> {
-        self.set_all(&[(field, value.into())])
+        self.set_all(&[(field, value.into())], false)
+    }
+
+    /// The same by a value in JSON, in whatever form the mechanism is written.
+    ///
+    /// # Errors
+    /// As [`Job::set`].
+    pub fn set_json(&mut self, field: &str, value: &str) -> Result<(), LoadError> {
+        self.set_all(&[(field, value.into())], true)
+    }
+
+    /// Gives it other poses. Its figures, which name poses, go.
+    ///
+    /// # Errors
+    /// What is wrong with the poses. The job is then as it was.
+    pub fn set_poses(&mut self, poses: JobPoses) -> Result<(), LoadError> {
+        let mut written = self.written.clone();
+        written.retain(|(field, _)| !["poses", "figures"].contains(field));
+        let checked = self.recipe.read(self.recipe.root())?;
+        let root = self.recipe.root().place();
+        let near = Arc::clone(self.recipe.root().source());
+        let poses = asked(poses, &checked, &root, &near, &mut written)?;
+        self.reread(&written, self.recipe.clone(), poses, |job, own| {
+            job.modes = own.modes.take();
+        })
+    }
+
+    /// The job of one design alone, with other values in some places, named by their paths as `vary` names
+    /// them. What else the job varies stays as it is in the design.
+    ///
+    /// # Errors
+    /// A path that leads nowhere, what is wrong with the mechanism that the values make.
+    ///
+    /// # Panics
+    /// If `design` is not below [`Job::designs`].
+    pub fn with_values<P: AsRef<str>, V: Clone + Into<Value>>(
+        &self,
+        design: usize,
+        values: &[(P, V)],
+    ) -> Result<Self, LoadError> {
+        // A parameter may be named with and without its map.
+        let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
+        let given = |path: &str| {
+            let path = alone(path);
+            values.iter().any(|(own, _)| alone(own.as_ref()) == path)
+        };
+        let of_design = self.values(design);
+        let kept = self.varied().iter().zip(&of_design);
+        let kept = kept.filter(|(varied, _)| !given(&varied.path));
+        let kept = kept.map(|(varied, value)| (varied.path.as_str(), vec![value.clone()]));
+        let new = values.iter();
+        let new = new.map(|(path, value)| (path.as_ref(), vec![value.clone().into()]));
+        let all: Vec<_> = kept.chain(new).collect();
+        let mut job = self.clone();
+        job.set_vary(&all, false)?;
+        Ok(job)
     }
 
     /// Sets the loads.
@@ -239,11 +282,11 @@ impl Job {
             false => format!("{{ {} }}", axes.join(", ")),
         };
         let zip = if zip { "true" } else { "" };
-        self.set_all(&[("vary", vary), ("zip", zip.into())])
+        self.set_all(&[("vary", vary), ("zip", zip.into())], false)
     }
 
     /// Sets fields, or takes away those whose text is empty.
-    fn set_all(&mut self, values: &[(&str, String)]) -> Result<(), LoadError> {
+    fn set_all(&mut self, values: &[(&str, String)], json: bool) -> Result<(), LoadError> {
         let mut written = self.written.clone();
         let near = Arc::clone(self.recipe.root().source());
         for (field, text) in values {
@@ -257,27 +300,75 @@ impl Job {
             };
             written.retain(|(other, _)| *other != name);
             if !text.is_empty() {
-                let value = argument(name, text.clone(), Some(&near))?;
+                let source = match json {
+                    true => Source::json_argument(name, text.clone(), Some(&near)),
+                    false => Source::argument(name, text.clone(), Some(&near)),
+                };
+                let value = Fragment::of_file(&source)?.place();
                 written.push((name, Scope::written(Fragment::at(&value))));
             }
         }
-        let fields = fields(&self.place, &written);
-        let recipe = self.recipe.with_fields(&fields)?;
+        let recipe = self.recipe.with_fields(&fields(&self.place, &written))?;
         let poses = Some(Arc::clone(&self.poses));
-        let (name, place) = (self.name.clone(), self.place.clone());
-        let mut job = Self::read(name, &fields, place, recipe, poses)?;
         // What a program has put there by itself stays.
         let set = |name: &str| values.iter().any(|(field, _)| *field == name);
-        if !set("modes") {
-            job.modes = self.modes.take();
-        }
-        if !set("figures") {
-            job.figures = std::mem::take(&mut self.figures);
-            job.figure_places = std::mem::take(&mut self.figure_places);
-        }
+        self.reread(&written, recipe, poses, |job, own| {
+            if !set("modes") {
+                job.modes = own.modes.take();
+            }
+            if !set("figures") {
+                job.figures = std::mem::take(&mut own.figures);
+                job.figure_places = std::mem::take(&mut own.figure_places);
+            }
+        })
+    }
+
+    /// Reads it again from these fields; `keep` takes over what does not follow from them.
+    fn reread(
+        &mut self,
+        written: &[(&'static str, Node)],
+        recipe: Recipe,
+        poses: Option<Arc<Poses>>,
+        keep: impl FnOnce(&mut Self, &mut Self),
+    ) -> Result<(), LoadError> {
+        let (name, place) = (self.name.clone(), self.place.clone());
+        let mut job = Self::read(name, &fields(&place, written), place.clone(), recipe, poses)?;
+        keep(&mut job, self);
         *self = job;
         Ok(())
     }
+}
+
+/// The poses that a program asks of a mechanism that stands at `root`; `None` where they are to be read from
+/// the fields, to which they are then added.
+fn asked(
+    poses: JobPoses,
+    checked: &Checked,
+    root: &Place,
+    near: &Arc<Source>,
+    written: &mut Vec<(&'static str, Node)>,
+) -> Result<Option<Arc<Poses>>, LoadError> {
+    let poses = match poses {
+        JobPoses::Own => checked.own_pose(root)?,
+        JobPoses::Later => checked.no_pose(),
+        JobPoses::Table { columns, rows } => {
+            let at = |part: &str| {
+                let name = match part {
+                    "" => "poses".into(),
+                    part => format!("poses.{part}"),
+                };
+                Place::whole(&Source::argument(&name, String::new(), None))
+            };
+            check_rows(&columns, &rows, at)?;
+            checked.poses_of(&columns, &rows, &at(""), at)?
+        }
+        JobPoses::Written(text) => {
+            let poses = argument("poses", text, Some(near))?;
+            written.push(("poses", Scope::written(Fragment::at(&poses))));
+            return Ok(None);
+        }
+    };
+    Ok(Some(Arc::new(poses)))
 }
 
 /// Fields that stand at these places.
@@ -305,12 +396,23 @@ fn recipe(mechanism: JobMechanism, registry: &Registry) -> Result<(Place, Recipe
                 Recipe::of(root.clone(), None, &none, registry),
             ))
         }
+        JobMechanism::Written(text) => {
+            let source = match json::is_json(&text) {
+                true => Source::json_argument("mechanism", text, None),
+                false => Source::argument("mechanism", text, None),
+            };
+            let whole = Fragment::of_file(&source)?;
+            let (kind, _) = whole.variant("a prebuilt mechanism, such as `Delta(…)`")?;
+            let Some(known) = registry.prebuilt(kind.text()) else {
+                return Err(unknown_kind(&kind.place(), kind.text(), registry));
+            };
+            let recipe = Recipe::of(Node::of(whole), Some(known.clone()), &none, registry);
+            Ok((whole.place(), recipe))
+        }
         JobMechanism::Prebuilt { kind, parameters } => {
             let Some(known) = registry.prebuilt(&kind) else {
                 let whole = Place::whole(&Source::argument("mechanism", kind.clone(), None));
-                return Err(whole
-                    .error(format!("unknown mechanism `{kind}`"))
-                    .with_help(names::help(&kind, "mechanisms", registry.prebuilts())));
+                return Err(unknown_kind(&whole, &kind, registry));
             };
             let mut text = format!("{kind}(");
             let mut values = Vec::with_capacity(parameters.len());
@@ -332,6 +434,12 @@ fn recipe(mechanism: JobMechanism, registry: &Registry) -> Result<(Place, Recipe
             ))
         }
     }
+}
+
+/// The error of a kind of mechanism that is not registered.
+fn unknown_kind(at: &Place, kind: &str, registry: &Registry) -> LoadError {
+    at.error(format!("unknown mechanism `{kind}`"))
+        .with_help(names::help(kind, "mechanisms", registry.prebuilts()))
 }
 
 /// Refuses rows of another length than that of the columns, and numbers that are not finite.

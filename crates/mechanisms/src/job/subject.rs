@@ -239,6 +239,14 @@ impl Checked {
         }
     }
 
+    /// A pose that stands for those that are given later.
+    pub(crate) fn no_pose(&self) -> Poses {
+        match self {
+            Self::Prebuilt(own, _) if !own.coordinates().is_empty() => Poses::List(vec![[0.0; 6]]),
+            _ => Poses::Own,
+        }
+    }
+
     /// The mechanism's own configuration as its only pose; `mechanism` is where it stands.
     pub(crate) fn own_pose(&self, mechanism: &Place) -> Result<Poses, LoadError> {
         match self {

@@ -121,9 +121,19 @@ impl Source {
     /// What a program hands in under this name, as it would stand in a file: in that of `near`, whose
     /// files it may name, or in none. Near a JSON file it is JSON where it can be, else RON.
     pub(crate) fn argument(name: &str, text: String, near: Option<&Arc<Self>>) -> Arc<Self> {
+        let json = near.is_some_and(|near| near.json) && json::is_value(&text);
+        Self::handed_in(name, text, json, near)
+    }
+
+    /// The same in JSON, near whatever file.
+    pub(crate) fn json_argument(name: &str, text: String, near: Option<&Arc<Self>>) -> Arc<Self> {
+        Self::handed_in(name, text, true, near)
+    }
+
+    fn handed_in(name: &str, text: String, json: bool, near: Option<&Arc<Self>>) -> Arc<Self> {
         Arc::new(Self {
             path: near.map_or_else(PathBuf::new, |near| near.path.clone()),
-            json: near.is_some_and(|near| near.json) && json::is_value(&text),
+            json,
             text,
             added: false,
             origin: None,

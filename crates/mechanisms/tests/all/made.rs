@@ -514,3 +514,59 @@ fn a_job_s_mechanism_is_not_taken_for_that_of_its_file() {
     let made = Job::new("n", mechanism, JobPoses::Own, &Registry::builtin());
     assert!(made.unwrap_err().help().is_some());
 }
+
+#[test]
+fn a_mechanism_as_it_is_written_takes_poses_later() {
+    let registry = Registry::builtin();
+    let link = |json: bool| match json {
+        true => {
+            r#"{"section": {"Circle": {"diameter": 0.02}}, "material": {"young": 2.1e11, "poisson": 0.3}}"#
+        }
+        false => "(section: Circle(diameter: 0.02), material: (young: 2.1e11, poisson: 0.3))",
+    };
+    let json = format!(
+        r#"{{"Delta": {{"base_radius": 0.25, "platform_radius": 0.06, "arm_length": 0.3, "rod_length": 0.6,
+            "rod_spacing": 0.12, "arm": {link}, "bar": {link}, "rod": {link}}}}}"#,
+        link = link(true)
+    );
+    let ron = format!(
+        "Delta(base_radius: 0.25, platform_radius: 0.06, arm_length: 0.3, rod_length: 0.6, \
+         rod_spacing: 0.12, arm: {link}, bar: {link}, rod: {link})",
+        link = link(false)
+    );
+    let poses = || JobPoses::list(&[[0.0, 0.0, 0.5], [0.1, -0.1, 0.52]]);
+    let mut placed = Vec::new();
+    for text in [json, ron] {
+        let written = JobMechanism::Written(text);
+        let mut job = Job::new("later", written, JobPoses::Later, &registry).unwrap();
+        job.set_json(
+            "loads",
+            r#"[{"on": ["platform", "P"], "force": [0, 0, -50]}]"#,
+        )
+        .unwrap();
+        let error = job.set_json("loads", r#"[{"on": ["platform", "P"], "force": [0, 0]}]"#);
+        assert!(error.unwrap_err().to_string().starts_with("loads:1:"));
+        job.set_poses(poses()).unwrap();
+        assert_eq!(job.len(), 2);
+        let error = job
+            .set_poses(JobPoses::list(&[[0.0, f64::NAN, 0.5]]))
+            .unwrap_err();
+        assert!(error.to_string().starts_with("poses.0.y: "), "{error}");
+        assert_eq!(job.len(), 2);
+        let model = job.model().unwrap();
+        assert_eq!(model.loads().len(), 1);
+        placed.push(model.geometry().positions.clone());
+        let thicker = job
+            .with_values(0, &[("rod.section.diameter", 0.03)])
+            .unwrap();
+        assert_eq!((thicker.len(), thicker.designs()), (2, 1));
+    }
+    assert_eq!(placed[0], placed[1]);
+    let unknown = JobMechanism::Written("Dleta()".into());
+    let error = Job::new("later", unknown, JobPoses::Later, &registry).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "mechanism:1:1: unknown mechanism `Dleta`"
+    );
+    assert_eq!(error.help(), Some("did you mean `Delta`?"));
+}

@@ -66,7 +66,7 @@ pub struct FrequencySensitivityReport {
 
 impl SensitivityReport {
     /// Sensitivities of a solution, largest first by `relative`.
-    pub(super) fn all(
+    pub(crate) fn all(
         study: &Study,
         influence: &Influence<'_>,
         solution: &Solution,

@@ -37,6 +37,23 @@ impl Threads {
         }
     }
 
+    /// What is made of every number of a range, in order.
+    pub fn each<R: Send>(
+        &self,
+        numbers: std::ops::Range<usize>,
+        make: impl Fn(usize) -> R + Sync + Send,
+    ) -> Vec<R> {
+        #[cfg(feature = "threads")]
+        {
+            use rayon::iter::{IntoParallelIterator, ParallelIterator};
+            self.install(|| numbers.into_par_iter().map(make).collect())
+        }
+        #[cfg(not(feature = "threads"))]
+        {
+            numbers.map(make).collect()
+        }
+    }
+
     /// Has what follows run on them.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         #[cfg(feature = "threads")]

@@ -1,0 +1,553 @@
+"""Mechanisms: read, asked, swept, changed."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import Any, ClassVar, Literal, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _hyperstat
+from ._data import Part, data, dumps, with_names
+from ._errors import ArgumentError, SelectionError
+from ._hyperstat import Core, Pose
+from ._solution import Solution
+from ._table import Table
+
+Array = npt.NDArray[np.float64]
+Poses = Union[npt.ArrayLike, Mapping[str, npt.ArrayLike]]
+"""Rows of x, y, z [m] or of x, y, z, rx, ry, rz [m, rad]; or columns by name."""
+OnePose = Union[npt.ArrayLike, Mapping[str, float]]
+Along = Union[Literal["displacement", "x", "y", "z", "rx", "ry", "rz"], Sequence[float]]
+Progress = Union[bool, Callable[[int, int], object]]
+
+_COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
+# As the command line has it.
+_MOST_MODES = 1000
+
+
+class Mechanism:
+    """A mechanism in one configuration.
+
+    Parameters
+    ----------
+    source : str or mapping
+        A mechanism or batch file as text (RON or JSON), or the data of one: names as in a file, values
+        plain or parts such as `hyperstat.Beam`. Beams may hold their section and material themselves.
+    job : str, optional
+        Job of a batch; may be left out where there is only one.
+    design, pose : int
+        Numbers, from 0, of the design and of the pose of a job.
+    path : path, optional
+        What messages call the text; files that it names are found beside it.
+
+    Raises
+    ------
+    InputError
+        With the place of the first mistake.
+    SelectionError
+        There is no such job, design or pose.
+    """
+
+    _core: Core
+
+    def __init__(
+        self,
+        source: Union[str, Mapping[str, Any]],
+        *,
+        job: Optional[str] = None,
+        design: int = 0,
+        pose: int = 0,
+        path: Optional[Union[str, PathLike[str]]] = None,
+    ) -> None:
+        name = "text" if isinstance(source, str) else "data"
+        text = source if isinstance(source, str) else dumps(with_names(source))
+        at = name if path is None else fspath(path)
+        self._core = _hyperstat.parse(text, at, job, *_chosen(design, pose))
+
+    @classmethod
+    def _of(cls, core: Core) -> Mechanism:
+        new = Mechanism.__new__(Mechanism)
+        new._core = core
+        return new
+
+    # What it is.
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._core.called()[0]
+
+    @property
+    def job(self) -> Optional[str]:
+        """The job that it is from."""
+        return self._core.called()[1]
+
+    @property
+    def designs(self) -> int:
+        """Number of designs of its job."""
+        return self._core.counts()[0]
+
+    @property
+    def poses(self) -> int:
+        """Number of poses of its own: those of its job, else 1, its configuration."""
+        return self._core.counts()[1]
+
+    @property
+    def cases(self) -> list[str]:
+        """Names of its load cases."""
+        return self._core.counts()[2]
+
+    @property
+    def path(self) -> Path:
+        """The file that it is from."""
+        return self._core.path()
+
+    # What it is asked.
+
+    def solve(
+        self,
+        *,
+        verify: bool = False,
+        all_nodes: bool = False,
+        modes: Optional[int] = None,
+        mass: Optional[Literal["Exact", "Consistent", "Lumped"]] = None,
+        why: bool = False,
+        case: Optional[str] = None,
+        along: Along = "displacement",
+        allow_free: bool = False,
+    ) -> Solution:
+        """Solves it, in its configuration, under its loads and in every load case.
+
+        Parameters
+        ----------
+        verify : bool
+            Solve a second time with the independent solver, and tell the largest differences.
+        all_nodes : bool
+            Displacements of the nodes inside segments too.
+        modes : int, optional
+            So many natural frequencies, the lowest.
+        mass : {"Exact", "Consistent", "Lumped"}, optional
+            Masses of beams in modes.
+        why : bool
+            What is soft and why: budget, sensitivities, measures.
+        case : str, optional
+            The case that `why` is of.
+        along : str or (3,) array_like
+            The direction of the budget.
+        allow_free : bool
+            An output that moves freely is then no error: `stiffness` tells what there is.
+
+        Returns
+        -------
+        Solution
+
+        Raises
+        ------
+        UnsolvableError
+            It has no solution, with the part that is to blame; its output moves freely.
+        PoseError
+            The pose of its job is out of reach.
+        SelectionError
+            There is no such case.
+        """
+        if modes is not None and not 1 <= modes <= _MOST_MODES:
+            raise ArgumentError(f"{modes} natural frequencies", help=f"ask for 1 to {_MOST_MODES}")
+        word = along if isinstance(along, str) else None
+        direction = None if isinstance(along, str) else [float(number) for number in along]
+        text = self._core.solve(
+            verify, all_nodes, modes, mass, why, case, word, direction, allow_free
+        )
+        return Solution(text, self._core)
+
+    def check(self) -> dict[str, Any]:
+        """Its counts, what may be a slip, and whether it can be solved.
+
+        Returns
+        -------
+        dict
+            The JSON of `hyperstat check`.
+        """
+        report: dict[str, Any] = json.loads(self._core.check())
+        return report
+
+    def at(self, pose: OnePose) -> Pose:
+        """One pose, as a row of a sweep, in microseconds: what is worked out once is kept.
+
+        Parameters
+        ----------
+        pose : (3,) or (6,) array_like, or mapping
+            x, y, z [m] and rotation vector rx, ry, rz [rad] of the output from home, global; or
+            coordinates or drives `joint.direction` [m, rad] by name.
+
+        Returns
+        -------
+        Pose
+            With `status`, `stiffness` (6, 6), `displacement` (6,); NaN without a result.
+        """
+        try:
+            return self._core.at(pose)  # type: ignore[arg-type]
+        except TypeError:
+            raise _no_pose(pose) from None
+
+    def sweep(
+        self,
+        poses: Optional[Poses] = None,
+        loads: Optional[Sequence[Any]] = None,
+        *,
+        cases: Optional[Mapping[str, Sequence[Any]]] = None,
+        columns: Optional[Sequence[Any]] = None,
+        modes: Optional[int] = None,
+        threads: int = 0,
+        one_by_one: bool = False,
+        progress: Progress = False,
+    ) -> Table:
+        """Solves it in many poses, on all cores.
+
+        Parameters
+        ----------
+        poses : (n, 3) or (n, 6) array_like, or mapping of (n,) array_like
+            x, y, z [m] and rotation vector rx, ry, rz [rad] of the output from home, global; or columns
+            by name: coordinates, or drives `joint.direction` [m, rad]. Left out: the poses of its job.
+        loads : sequence of Load or dict, optional
+            In place of its own.
+        cases : mapping, optional
+            Load cases by name, in place of its own.
+        columns : sequence, optional
+            More columns, as a job's `columns`: `"Drives"`, `"Stress"`, `"Mass"`, `"Measures"`, ...
+        modes : int, optional
+            So many natural frequencies at every pose, `f1`, `f2`, ...
+        threads : int
+            0 is one a core. The numbers are the same with any.
+        one_by_one : bool
+            Not eight at once: to compare with.
+        progress : bool or callable
+            True: a bar, where tqdm is installed. A callable gets the rows that are done, and all; what it
+            raises ends the sweep, as Ctrl-C does.
+
+        Returns
+        -------
+        Table
+            A row a pose. A pose without a result is a row of NaN with a word in `status`, no error.
+
+        Raises
+        ------
+        InputError, ArgumentError
+            Poses or loads that mean nothing, with their place.
+        UnsolvableError
+            It has no solution in any pose.
+        """
+        fields = {"loads": loads, "cases": cases, "columns": columns, "modes": modes}
+        return self._swept(poses, fields, None, threads, one_by_one, progress)
+
+    def evaluate(
+        self,
+        designs: Mapping[str, Sequence[Union[float, str]]],
+        poses: Optional[Poses] = None,
+        *,
+        columns: Optional[Sequence[Any]] = None,
+        threads: int = 0,
+        progress: Progress = False,
+    ) -> Table:
+        """Solves many designs in many poses in one call.
+
+        Parameters
+        ----------
+        designs : mapping of (d,) sequences
+            Values by path, side by side: design k has the k-th of each.
+        poses, columns, threads, progress
+            As of `sweep`.
+
+        Returns
+        -------
+        Table
+            Design by design, a row a pose; `table.by_design(array)` has the shape (d, n, ...).
+        """
+        varied = [(path, [_value(own) for own in values]) for path, values in designs.items()]
+        return self._swept(poses, {"columns": columns}, varied, threads, False, progress)
+
+    def _swept(
+        self,
+        poses: Optional[Poses],
+        fields: Mapping[str, Any],
+        designs: Optional[list[tuple[str, list[Union[float, str]]]]],
+        threads: int,
+        one_by_one: bool,
+        progress: Progress,
+    ) -> Table:
+        table = None if poses is None else _columns(poses)
+        if threads < 0:
+            raise ArgumentError(f"{threads} threads", help="0 is one a core")
+        call, close = _reporter(progress)
+        try:
+            found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
+        finally:
+            close()
+        return Table(found)
+
+    def value_and_gradient(
+        self,
+        measure: str,
+        paths: Sequence[str],
+        poses: Optional[Poses] = None,
+        *,
+        case: Optional[str] = None,
+        threads: int = 0,
+    ) -> tuple[Array, Array]:
+        """A measure and its derivatives by values of the mechanism.
+
+        Parameters
+        ----------
+        measure : str
+            Of `hyperstat.measures()`, or `k11` to `k66`, `dx` to `drz`.
+        paths : sequence of str
+            Of dimensions of sections, constants of materials, masses, joint stiffnesses and parameters,
+            as `solve(why=True)` lists them.
+        poses
+            As of `sweep`.
+        case : str, optional
+            The case whose displacement it is of.
+
+        Returns
+        -------
+        v : (n,) ndarray
+            SI; NaN where a pose has no result.
+        g : (n, len(paths)) ndarray
+            By each value, SI.
+
+        Raises
+        ------
+        ArgumentError
+            A measure that there is not; a path by which there is no derivative.
+        """
+        table = None if poses is None else _columns(poses)
+        return self._core.value_and_gradient(measure, list(paths), table, case, threads)
+
+    # What it becomes.
+
+    def with_values(self, values: Mapping[str, Union[float, str]]) -> Mechanism:
+        """The same with other values in some places.
+
+        Parameters
+        ----------
+        values : mapping
+            Numbers (SI), or texts as they stand in a file, by path: `sections.rod.diameter`,
+            `rod.section.diameter` of a prebuilt mechanism, the name of a parameter.
+
+        Raises
+        ------
+        InputError
+            A path that leads nowhere, or what is wrong with the mechanism that the values make.
+        """
+        given = [(path, _value(value)) for path, value in values.items()]
+        return self._of(self._core.with_values(given))
+
+    def with_loads(
+        self,
+        loads: Optional[Sequence[Any]] = None,
+        *,
+        cases: Optional[Mapping[str, Sequence[Any]]] = None,
+        **fields: Any,
+    ) -> Mechanism:
+        """The same under other loads, or with another output.
+
+        Parameters
+        ----------
+        loads : sequence of Load or dict, optional
+        cases : mapping, optional
+            Load cases by name.
+        **fields
+            Other fields of a job: `gravity`, `masses`, `misfits`, `preloads`, `output`, `tool`, `modes`,
+            `columns`.
+
+        Raises
+        ------
+        InputError
+            What means nothing, with its place in the argument.
+        """
+        all_fields = {"loads": loads, "cases": cases, **fields}
+        return self._of(self._core.with_fields(_json(all_fields)))
+
+    def in_pose(self, pose: OnePose) -> Mechanism:
+        """The same in another pose.
+
+        Parameters
+        ----------
+        pose
+            As of `at`.
+        """
+        try:
+            return self._of(self._core.in_pose(pose))  # type: ignore[arg-type]
+        except TypeError:
+            raise _no_pose(pose) from None
+
+    def to_ron(self) -> str:
+        """It in its configuration as a mechanism file (RON)."""
+        return self._core.written(False)
+
+    def to_json(self) -> str:
+        """It in its configuration as a mechanism file (JSON)."""
+        return self._core.written(True)
+
+    def __repr__(self) -> str:
+        name, job, design, pose = self._core.called()
+        parts = [f"{name!r}"]
+        parts += [f"job={job!r}"] if job not in (None, name) else []
+        parts += [] if design is None else [f"design={design}"]
+        parts += [f"pose={pose}"] if job is not None and self.poses > 1 else []
+        return f"<hyperstat.{type(self).__name__} {' '.join(parts)}>"
+
+    def _repr_html_(self) -> str:
+        report = self.check()
+        rows = [
+            ("mobility", report.get("mobility")),
+            ("over-constraint", report.get("overconstraint")),
+            ("unknowns", report.get("unknowns")),
+            ("cases", ", ".join(self.cases) or None),
+        ]
+        problem = report.get("problem")
+        rows += [("problem", problem["message"])] if problem else []
+        cells = "".join(
+            f"<tr><th>{name}</th><td>{html.escape(str(value))}</td></tr>"
+            for name, value in rows
+            if value is not None
+        )
+        return f"<b>{html.escape(repr(self)[1:-1])}</b><table>{cells}</table>"
+
+
+class Prebuilt(Mechanism):
+    """A prebuilt mechanism by its parameters, under no loads and in no pose yet: `in_pose`, `at` and `sweep`
+    bring it to some, `with_loads` loads it.
+    """
+
+    _kind: ClassVar[Optional[str]] = None
+    _words: ClassVar[Mapping[str, str]] = {}
+
+    def _set(self, **fields: Any) -> None:
+        given = {self._words.get(name, name): data(own) for name, own in fields.items() if own is not None}
+        kind = self._kind or ""
+        self._core = _hyperstat.prebuilt(dumps({kind: given}), kind)
+
+    def _repr_html_(self) -> str:
+        return html.escape(repr(self))
+
+
+def load(
+    path: Union[str, PathLike[str]],
+    job: Optional[str] = None,
+    design: int = 0,
+    *,
+    pose: int = 0,
+) -> Mechanism:
+    """Reads a mechanism file, or one job of a batch file (RON or JSON).
+
+    Parameters
+    ----------
+    path : path
+    job : str, optional
+        Job of a batch; may be left out where there is only one.
+    design, pose : int
+        Numbers, from 0, of the design and of the pose of a job.
+
+    Returns
+    -------
+    Mechanism
+
+    Raises
+    ------
+    InputError
+        With the place of the first mistake.
+    SelectionError
+        There is no such job, design or pose.
+    """
+    return Mechanism._of(_hyperstat.load(fspath(path), job, *_chosen(design, pose)))
+
+
+def schema() -> str:
+    """The JSON Schema of files, as `hyperstat schema` prints it."""
+    return _hyperstat.schema()
+
+
+def measures() -> dict[str, tuple[str, str]]:
+    """Unit and meaning of every measure that `Table.measure` and `Pose.measure` take, by its name."""
+    return {name: (unit, words) for name, unit, words in _hyperstat.measures()}
+
+
+def _chosen(design: int, pose: int) -> tuple[Optional[int], Optional[int]]:
+    """What is chosen of a batch; nothing for the first, which a mechanism file has too."""
+    for what, number in (("design", design), ("pose", pose)):
+        if number < 0:
+            raise SelectionError(
+                f"there is no {what} {number}", code=f"unknown-{what}", help="they are counted from 0"
+            )
+    return design or None, pose or None
+
+
+def _no_pose(pose: object) -> ArgumentError:
+    return ArgumentError(
+        f"`{pose!r}` is no pose",
+        help="give x, y, z [m], or x, y, z, rx, ry, rz [m, rad], or a mapping of names to numbers",
+    )
+
+
+def _value(value: Any) -> Union[float, str]:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Part):
+        return dumps(value.to_data())
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ArgumentError(
+            f"`{value!r}` is no value", help="give a number or a text"
+        ) from None
+
+
+def _json(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
+    return [(name, dumps(data(own))) for name, own in fields.items() if own is not None]
+
+
+def _columns(poses: Poses) -> tuple[list[str], Array]:
+    """Names of columns, and rows."""
+    try:
+        if isinstance(poses, Mapping):
+            each = [np.asarray(own, dtype=np.float64).reshape(-1) for own in poses.values()]
+            return [str(name) for name in poses], np.stack(np.broadcast_arrays(*each), axis=1)
+        rows = np.asarray(poses, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise ArgumentError(f"poses that are no numbers: {error}") from None
+    if rows.ndim != 2 or rows.shape[1] not in (3, 6):
+        raise ArgumentError(
+            f"poses of the shape {rows.shape}",
+            code="argument",
+            help="give (n, 3): x, y, z [m]; (n, 6): and rx, ry, rz [rad]; or a mapping of columns",
+        )
+    return list(_COORDINATES[: rows.shape[1]]), rows
+
+
+def _reporter(
+    progress: Progress,
+) -> tuple[Optional[Callable[[int, int], object]], Callable[[], object]]:
+    """What is called with the rows that are done, and what ends it."""
+    if callable(progress):
+        return progress, lambda: None
+    if not progress:
+        return None, lambda: None
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        return None, lambda: None
+    bar = tqdm(unit=" poses")
+
+    def show(done: int, total: int) -> None:
+        bar.total = total
+        bar.update(done - bar.n)
+
+    return show, bar.close
+
+

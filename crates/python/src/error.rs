@@ -1,0 +1,99 @@
+//! Errors on their way to Python: each becomes a subclass of `hyperstat.Error`; no panic comes through.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use hyperstat_study::{LoadError, StudyError};
+use pyo3::prelude::*;
+
+/// What ends a computation.
+pub(crate) enum Ended {
+    /// An answer that there is not.
+    Study(Box<StudyError>),
+    /// An argument that is none.
+    Argument(String, Option<String>),
+    /// An exception of Python: an interrupt, or one of a callback.
+    Python(PyErr),
+}
+
+impl From<StudyError> for Ended {
+    fn from(error: StudyError) -> Self {
+        Self::Study(Box::new(error))
+    }
+}
+
+impl From<LoadError> for Ended {
+    fn from(error: LoadError) -> Self {
+        Self::Study(Box::new(error.into()))
+    }
+}
+
+impl From<PyErr> for Ended {
+    fn from(error: PyErr) -> Self {
+        Self::Python(error)
+    }
+}
+
+impl Ended {
+    /// An argument that is wrong, and what would be right.
+    pub(crate) fn argument(message: impl Into<String>, help: &str) -> Self {
+        Self::Argument(message.into(), Some(help.into()))
+    }
+
+    /// The exception.
+    pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::Study(error) => raised(py, &error),
+            Self::Argument(message, help) => made(py, "argument", &message, help, None),
+            Self::Python(error) => error,
+        }
+    }
+}
+
+/// Where an error is: path, line and column, from 1, the number of characters, and the line.
+type Place<'e> = (String, usize, usize, usize, &'e str);
+
+fn raised(py: Python<'_>, error: &StudyError) -> PyErr {
+    let place = error.location().map(|at| {
+        let path = at.path.display().to_string();
+        (path, at.line, at.column, at.width, &*at.text)
+    });
+    made(py, error.code(), &error.to_string(), error.help(), place)
+}
+
+fn made(
+    py: Python<'_>,
+    code: &str,
+    message: &str,
+    help: Option<String>,
+    place: Option<Place<'_>>,
+) -> PyErr {
+    let make = |py: Python<'_>| {
+        let module = py.import("hyperstat._errors")?;
+        module
+            .getattr("make")?
+            .call1((code, message, help, place))
+            .map(PyErr::from_value)
+    };
+    make(py).unwrap_or_else(|error| error)
+}
+
+/// Computes without the interpreter, which goes on meanwhile.
+pub(crate) fn apart<T: Send>(
+    py: Python<'_>,
+    compute: impl FnOnce() -> Result<T, Ended> + Send,
+) -> PyResult<T> {
+    // Nothing of what a panic may leave half done is used again.
+    match py.detach(|| catch_unwind(AssertUnwindSafe(compute))) {
+        Ok(outcome) => outcome.map_err(|ended| ended.raised(py)),
+        Err(panic) => {
+            let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
+            let said = said.or_else(|| panic.downcast_ref::<String>().cloned());
+            let message = format!(
+                "this is a bug in hyperstat; it is not your fault: {}",
+                said.unwrap_or_default()
+            );
+            let help = "please report it with the file and the call".to_owned();
+            Err(made(py, "internal", &message, Some(help), None))
+        }
+    }
+}

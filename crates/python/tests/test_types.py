@@ -1,0 +1,62 @@
+"""The stubs are those of the module, and examples are typed."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import hyperstat as hs
+
+ROOT = Path(__file__).resolve().parents[3]
+EXAMPLES = sorted((ROOT / "examples" / "python").glob("*.py"))
+
+
+def checked(*command: str, cwd: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", *command], cwd=cwd, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_stubs_are_those_of_the_module(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    checked("mypy.stubtest", "hyperstat._hyperstat", cwd=tmp_path)
+
+
+def test_the_package_and_the_examples_are_typed(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    (tmp_path / "mypy.ini").write_text(
+        "[mypy]\nstrict = true\n"
+        "[mypy-matplotlib.*,pandas.*,pyarrow.*,xarray.*,pyvista.*,tqdm.*,scipy.*]\n"
+        "ignore_missing_imports = true\nfollow_imports = skip\n"
+    )
+    checked("mypy", "-p", "hyperstat", cwd=tmp_path)
+    checked("mypy", *map(str, EXAMPLES), cwd=tmp_path)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=[path.stem for path in EXAMPLES])
+def test_examples_run(path: Path, tmp_path: Path) -> None:
+    environment = {**os.environ, "MPLBACKEND": "Agg"}
+    done = subprocess.run(
+        [sys.executable, path],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_everything_public_is_documented() -> None:
+    for name in hs.__all__:
+        own = getattr(hs, name)
+        if isinstance(own, type):
+            assert own.__doc__, name
+            for member, value in vars(own).items():
+                if not member.startswith("_") and callable(value):
+                    assert value.__doc__, f"{name}.{member}"
