@@ -51,7 +51,9 @@ pub use lanes::{Beside, Lanes};
 pub use modal::{Counted, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
 pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};
-pub use response::budget::{Budget, Deformation, MisfitEffect, Part, PartSource, larger_first};
+pub use response::budget::{
+    Budget, Carried, Deformation, MisfitEffect, Part, PartSource, larger_first,
+};
 pub use response::influence::Influence;
 pub use response::parameters::Parameter;
 pub use response::sensitivity::Sensitivity;

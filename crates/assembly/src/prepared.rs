@@ -15,7 +15,7 @@ use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
 use crate::pose::restraint::{SUSPICIOUS_PIVOT, inverse};
-use crate::response::budget::Budget;
+use crate::response::budget::Carried;
 use crate::response::influence::Influence;
 
 /// A mechanism made ready: a model, and with it what is worked out once for its topology and for its
@@ -258,7 +258,7 @@ impl Prepared {
         lanes: &mut Lanes,
         pose: usize,
         found: &PoseResult,
-    ) -> Result<Option<(Vec<Forces>, Vec<Budget>)>, SolveError> {
+    ) -> Result<Option<Carried>, SolveError> {
         let compliance = found.stiffness.as_ref();
         let compliance = compliance.and_then(|k| inverse(k, SUSPICIOUS_PIVOT));
         let (Some(compliance), Some((forces, units, geometry))) = (compliance, lanes.found(pose))
@@ -270,7 +270,7 @@ impl Prepared {
         let states = displacements.zip(&forces);
         let budget = |(moved, forces)| influence.pose_budget(moved, forces, &compliance);
         let budgets = states.map(budget).collect();
-        Ok(Some((forces, budgets)))
+        Ok(Some(Carried { forces, budgets }))
     }
 
     /// The mechanism made ready for natural frequencies.

@@ -1,7 +1,9 @@
 //! What joints and segments carry, and budgets, as the lanes find them: those of a full solution of each
 //! pose, over all prebuilt mechanisms.
 
-use hyperstat_assembly::{Beside, Budget, Forces, Geometry, LANES, Model, Prepared, SegmentForces};
+use hyperstat_assembly::{
+    Beside, Budget, Carried, Forces, Geometry, LANES, Model, Prepared, SegmentForces,
+};
 use hyperstat_tests::prebuilt::Case;
 use nalgebra::Vector6;
 
@@ -93,7 +95,10 @@ fn check(case: &Case, model: Model) -> u64 {
             let found = found.expect("a filled lane").expect("a result");
             let budgets = prepared.budgets(&mut lanes, lane, &found).expect("budgets");
             let here = prepared.at(&poses[lane]).expect("a geometry of it");
-            let Some((forces, budgets)) = budgets else {
+            let Some(Carried {
+                forces, budgets, ..
+            }) = budgets
+            else {
                 without += 1;
                 let forces = prepared.forces(&mut lanes, lane).expect("forces");
                 most = most.max(check_pose(&what, &prepared, &poses[lane], &forces));

@@ -87,6 +87,26 @@ pub enum Deformation {
     Misfit,
 }
 
+/// What joints and segments carry at a pose of a sweep in every state, and where the output's displacement
+/// comes from.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Carried {
+    /// By states: the model's own loads, then its cases.
+    pub forces: Vec<Forces>,
+    /// Budgets of the same states; none where they are not asked for.
+    pub budgets: Vec<Budget>,
+}
+
+impl From<Vec<Forces>> for Carried {
+    fn from(forces: Vec<Forces>) -> Self {
+        Self {
+            forces,
+            budgets: Vec::new(),
+        }
+    }
+}
+
 impl Influence<'_> {
     /// The budget of a solution of this model along the unit wrench `along` (global axes, at the
     /// output). `along` is taken as it is: with length 1, `total` is a displacement.

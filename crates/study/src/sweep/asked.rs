@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Beside, Budget, Configuration, Forces, Geometry, JointId, Model, MovingMass, PartSource,
+    Beside, Budget, Carried, Configuration, Geometry, JointId, Model, MovingMass, PartSource,
     Prepared, SegmentForces, Solution, SolveError, worst_stress,
 };
 use hyperstat_joints::Dof;
@@ -47,9 +47,6 @@ pub(super) struct Found<'f> {
     /// known.
     pub(super) carried: Option<&'f Carried>,
 }
-
-/// What joints and segments carry in every state, and the budgets where these are asked for.
-pub(super) type Carried = (Vec<Forces>, Vec<Budget>);
 
 /// Wrenches in joints and forces of segments.
 type OfState<'s> = (&'s [Option<Vector6<f64>>], &'s [SegmentForces]);
@@ -96,8 +93,9 @@ impl Asked {
         let here;
         let solution;
         let (states, solved): (Vec<OfState<'_>>, _) = match found.carried {
-            Some((forces, _)) => {
-                let own = forces
+            Some(carried) => {
+                let own = carried
+                    .forces
                     .iter()
                     .map(|own| (&*own.joint_wrenches, &*own.segments));
                 (own.collect(), None)
@@ -131,7 +129,7 @@ impl Asked {
                 Group::Frequencies(_) => cells.extend_from_slice(found.frequencies),
                 Group::Budget(parts) => {
                     let budgets = match (found.carried, solved) {
-                        (Some((_, budgets)), _) => Cow::Borrowed(budgets),
+                        (Some(carried), _) => Cow::Borrowed(&carried.budgets),
                         (None, Some((here, solution))) => Cow::Owned(budgets(here, solution)?),
                         (None, None) => continue,
                     };

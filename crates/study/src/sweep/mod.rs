@@ -15,7 +15,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Beside, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
+    Beside, Carried, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
 };
 use hyperstat_mechanisms::{Design, Job, Placing};
 
@@ -23,7 +23,7 @@ use crate::error::StudyError;
 pub use crate::schema::Columns;
 use crate::schema::{self, Group};
 use crate::source::Written;
-use asked::{Asked, Carried};
+use asked::Asked;
 pub use chunk::{Chunk, Row};
 pub use poser::Poser;
 pub use record::{Cell, Failure, Found, Held, NUMBERS, Record, UPPER};
@@ -308,7 +308,7 @@ impl Planned {
         match self.beside() {
             Beside::Forces => {
                 let forces = self.prepared.forces(lanes, pose);
-                Some(forces.map(|forces| (forces, Vec::new())))
+                Some(forces.map(Carried::from))
             }
             Beside::Budgets => self.prepared.budgets(lanes, pose, found).transpose(),
             _ => None,

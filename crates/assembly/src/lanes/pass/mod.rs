@@ -26,7 +26,7 @@ use super::pass::factor::{Matrix, eliminate};
 use super::pass::hang::{Motion, make_relative};
 use super::pass::lane::{Lane, TRIANGLE, Vec3, add, cross, scaled};
 use super::pass::loops::close;
-use super::pass::transmit::add_chain;
+use super::pass::transmit::{ChainRoom, add_chain};
 use super::program::Program;
 use super::program::element::{Kind, Screw};
 use super::program::fronts::{Front, FrontPart, Moves};
@@ -302,7 +302,11 @@ impl<S: Simd> Registers<'_, S> {
                     Some(recovery) => &mut self.kept[recovery.range(k)],
                     None => &mut [],
                 };
-                let room = (&mut *self.wrenches, &mut *self.links, kept);
+                let room = ChainRoom {
+                    wrenches: self.wrenches,
+                    links: self.links,
+                    kept,
+                };
                 add_chain(
                     &mut assembly,
                     (element, chain),

@@ -25,26 +25,33 @@ use crate::lanes::program::recovery::{AXES, Layout};
 /// Of a free motion, what the others leave of it must be above this share (squared).
 const INDEPENDENT: f64 = 1e-12;
 
+/// A chain's room.
+pub(crate) struct ChainRoom<'a, S: Simd> {
+    /// Seven entries a coordinate.
+    pub wrenches: &'a mut [S::f64s],
+    /// [`TRIANGLE`](super::lane::TRIANGLE) entries a link of a chain that something acts on.
+    pub links: &'a mut [S::f64s],
+    /// What forces are found from, where they are asked for.
+    pub kept: &'a mut [S::f64s],
+}
+
 /// Adds a chain to a front. `places` of its coordinates, and of the rows of what acts on it; `pairs`:
-/// places of its coordinates' entries, column by column of the lower triangle; `wrenches`: seven
-/// entries a coordinate; `links`: [`TRIANGLE`](super::lane::TRIANGLE) entries a link of a chain that
-/// something acts on; `kept`: what forces are found from, where they are asked for.
+/// places of its coordinates' entries, column by column of the lower triangle.
 #[inline(always)]
 pub(crate) fn add_chain<S: Simd>(
     assembly: &mut Assembly<'_, S>,
     (element, chain): (&Element, &Chain),
     (places, pairs): (&[usize], &[u32]),
-    (wrenches, links, kept): (&mut [S::f64s], &mut [S::f64s], &mut [S::f64s]),
+    room: ChainRoom<'_, S>,
 ) {
     let (simd, inputs) = (assembly.simd, assembly.inputs);
     let frame = Frame::new(simd, chain, inputs);
     let c = if element.columns.is_empty() {
         compliance(simd, chain, &frame, inputs)
     } else {
-        compliances(simd, chain, &frame, inputs, links)
+        compliances(simd, chain, &frame, inputs, room.links)
     };
     let (seen, to) = ((element, chain, &frame), (places, pairs));
-    let room = (wrenches, &*links, kept);
     match chain.releases.len() {
         0 => transmit::<S, 0, 6>(assembly, seen, c, to, room),
         1 => transmit::<S, 1, 5>(assembly, seen, c, to, room),
@@ -62,8 +69,13 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
     (element, chain, frame): (&Element, &Chain, &Frame<S>),
     c: [Six<S>; 6],
     (places, pairs): (&[usize], &[u32]),
-    (wrenches, links, kept): (&mut [S::f64s], &[S::f64s], &mut [S::f64s]),
+    room: ChainRoom<'_, S>,
 ) {
+    let ChainRoom {
+        wrenches,
+        links,
+        kept,
+    } = room;
     let (simd, inputs) = (assembly.simd, assembly.inputs);
     let nodes = &element.nodes;
     let zero = Lane::splat(simd, 0.0);
@@ -144,7 +156,7 @@ fn transmit<S: Simd, const M: usize, const R: usize>(
         coordinates: count,
     };
     if !kept.is_empty() {
-        keep(kept, layout, frame, (&directions, &stiffness, &trust));
+        keep(kept, layout, frame, &directions, (&stiffness, &trust));
         for k in 0..R * count {
             kept[layout.works() + k] = wrenches[k];
         }
@@ -212,7 +224,8 @@ fn keep<S: Simd, const R: usize>(
     kept: &mut [S::f64s],
     layout: Layout,
     frame: &Frame<S>,
-    (directions, stiffness, trust): (&[Six<S>; R], &[Lane<S>; R], &[Lane<S>; R]),
+    directions: &[Six<S>; R],
+    (stiffness, trust): (&[Lane<S>; R], &[Lane<S>; R]),
 ) {
     for k in 0..3 {
         kept[k] = frame.origin[k].value;
