@@ -1,13 +1,13 @@
-//! Quantities with their derivatives, pose after pose.
+//! Quantities with their derivatives, some poses after the others.
 
-use hyperstat_study::{Job, Measure, Quantity, Study, StudyError};
+use hyperstat_study::{Gradient, Job, Measure, Quantity};
 use pyo3::prelude::*;
 
 use crate::error::Ended;
 use crate::pool;
 
 /// Poses between two looks at the interpreter.
-const POSES: usize = 64;
+const POSES: usize = 1024;
 
 /// Values, and derivatives by rows, in all poses of a job.
 pub(crate) fn of(
@@ -26,29 +26,14 @@ pub(crate) fn of(
         Ended::argument(format!("unknown measure `{quantity}`"), &help)
     })?;
     let threads = pool::threads(threads)?;
+    let gradient = Gradient::new(job, quantity, paths, case)?;
     let (mut values, mut slopes) = (Vec::new(), Vec::new());
-    let one = |pose: usize| match Study::of_job(job.clone(), 0, pose) {
-        Ok(mut study) => match study.value_and_gradient(quantity, paths, case) {
-            Ok(found) => Ok(found),
-            // A pose without a result raises nothing; what is asked wrongly does.
-            Err(StudyError::Unsolvable { .. } | StudyError::FreeOutput { .. }) => Ok(none(paths)),
-            Err(error) => Err(error),
-        },
-        Err(StudyError::Pose { .. }) => Ok(none(paths)),
-        Err(error) => Err(error),
-    };
     for first in (0..job.len()).step_by(POSES) {
         Python::attach(|py| py.check_signals())?;
         let poses = first..job.len().min(first + POSES);
-        for found in threads.each(poses, one) {
-            let (value, gradient) = found?;
-            values.push(value);
-            slopes.extend(gradient);
-        }
+        let (own, by_paths) = gradient.of(poses, &threads)?;
+        values.extend(own);
+        slopes.extend(by_paths);
     }
     Ok((values, slopes))
-}
-
-fn none(paths: &[String]) -> (f64, Vec<f64>) {
-    (f64::NAN, vec![f64::NAN; paths.len()])
 }

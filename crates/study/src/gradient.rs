@@ -32,7 +32,7 @@ impl Quantity {
         measure.or_else(stiffness).or_else(displacement)
     }
 
-    fn value(self, pose: &Pose, displacement: &Vector6<f64>) -> Option<f64> {
+    pub(crate) fn value(self, pose: &Pose, displacement: &Vector6<f64>) -> Option<f64> {
         match self {
             Self::Measure(measure) => pose.measure(measure.rule, displacement),
             Self::Stiffness(row, column) => Some(pose.stiffness()[(row, column)]),
@@ -114,18 +114,24 @@ fn by_path<'s>(
     found: &'s [SensitivityReport],
     path: &str,
 ) -> Result<&'s SensitivityReport, StudyError> {
+    let own = found.iter().find(|own| is_named(own, path));
+    own.ok_or_else(|| no_derivative(found, path))
+}
+
+/// Whether it is of the value at a path, which may name a parameter with and without its map.
+pub(crate) fn is_named(own: &SensitivityReport, path: &str) -> bool {
     let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
-    let own = found
-        .iter()
-        .find(|own| alone(&own.parameter) == alone(path));
-    own.ok_or_else(|| {
-        let known: Vec<&str> = found.iter().map(|own| own.parameter.as_str()).collect();
-        StudyError::NoDerivative {
-            path: path.into(),
-            nearest: nearest(path, &known).map(Into::into),
-            known: known.into_iter().map(Into::into).collect(),
-        }
-    })
+    alone(&own.parameter) == alone(path)
+}
+
+/// The error of a path by which there is no derivative, beside those by which there are some.
+pub(crate) fn no_derivative(found: &[SensitivityReport], path: &str) -> StudyError {
+    let known: Vec<&str> = found.iter().map(|own| own.parameter.as_str()).collect();
+    StudyError::NoDerivative {
+        path: path.into(),
+        nearest: nearest(path, &known).map(Into::into),
+        known: known.into_iter().map(Into::into).collect(),
+    }
 }
 
 #[cfg(test)]

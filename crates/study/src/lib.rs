@@ -7,6 +7,7 @@ mod ask;
 mod compare;
 #[cfg(feature = "figures")]
 mod contrast;
+mod differences;
 #[cfg(feature = "figures")]
 mod digits;
 mod doubts;
@@ -50,6 +51,7 @@ pub use contrast::{
     ColumnDifference, Furthest, Matched, Ratios, StatusCount, TableComparison,
     tables as compare_tables,
 };
+pub use differences::Gradient;
 pub use doubts::Watch;
 pub use drives::MissingDrives;
 pub use entries::Entries;

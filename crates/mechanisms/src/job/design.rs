@@ -181,6 +181,11 @@ impl Designs {
         places.filter_map(Recipe::in_mechanism).collect()
     }
 
+    /// The tree of all that may vary, in a design.
+    pub(crate) fn whole(&self, number: usize) -> Node {
+        self.changed(number).tree()
+    }
+
     /// The mechanism's tree in a design.
     pub(crate) fn tree(&self, number: usize, recipe: &Recipe) -> Node {
         recipe.root_of(&self.changed(number).tree())

@@ -234,6 +234,29 @@ impl Job {
         Ok(job)
     }
 
+    /// The number that stands at a path, as `vary` names it, in a design \[SI\]: what an expression there
+    /// comes to; of several places that the path names as one, at the first.
+    ///
+    /// # Errors
+    /// A path that leads nowhere, or to what is no number.
+    ///
+    /// # Panics
+    /// If `design` is not below [`Job::designs`].
+    pub fn number_at(&self, design: usize, path: &str) -> Result<f64, LoadError> {
+        assert!(design < self.designs(), "there is no design {design}");
+        let source = Source::argument("vary", format!("{path:?}"), None);
+        let key = Place::whole(&source);
+        let places = self.recipe.places(Fragment::at(&key))?;
+        let whole = match &self.designs {
+            Some(designs) => designs.whole(design),
+            None => self.recipe.whole(),
+        };
+        let settled = self.recipe.settled(&whole, &[]);
+        let value = places.first().and_then(|steps| settled.find(steps));
+        let value = value.ok_or_else(|| key.error(format!("`{path}` is no number")))?;
+        Ok(Fragment::of_node(value).measured(None)?.0)
+    }
+
     /// Sets the loads.
     ///
     /// # Errors

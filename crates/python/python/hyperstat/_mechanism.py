@@ -306,8 +306,10 @@ class Mechanism:
         measure : str
             Of `hyperstat.measures()`, or `k11` to `k66`, `dx` to `drz`.
         paths : sequence of str
-            Of dimensions of sections, constants of materials, masses, joint stiffnesses and parameters,
-            as `solve(why=True)` lists them.
+            Of any numbers, as `vary` names them: exact derivatives by those that `solve(why=True)` lists
+            (dimensions of sections, constants of materials, masses, joint stiffnesses, parameters),
+            differences of designs by others (lengths, coordinates of points, axes, loads), in the same
+            pose of the output.
         poses
             As of `sweep`.
         case : str, optional
@@ -323,7 +325,7 @@ class Mechanism:
         Raises
         ------
         ArgumentError
-            A measure that there is not; a path by which there is no derivative.
+            A measure that there is not; a path that leads to no number.
         """
         table = None if poses is None else _columns(poses)
         return self._core.value_and_gradient(measure, list(paths), table, case, threads)

@@ -189,6 +189,13 @@ impl Found {
         Pose::new(&self.stiffness).measure(rule, &self.displacement)
     }
 
+    /// The displacement in a load case, by its number in the job.
+    pub(crate) fn of_case(&self, case: usize) -> Option<Vector6<f64>> {
+        let own = self.further.get(6 * case..6 * case + 6)?;
+        let numbers: Vec<f64> = own.iter().filter_map(Cell::number).collect();
+        (numbers.len() == 6).then(|| Vector6::from_column_slice(&numbers))
+    }
+
     fn is_finite(&self) -> bool {
         let stiffness = self.upper().iter().all(|number| number.is_finite());
         stiffness && all_finite(&self.displacement, &self.further)

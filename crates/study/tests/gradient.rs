@@ -1,0 +1,135 @@
+//! Derivatives of what is measured in all poses of a job, by values that `solve --why` lists and by lengths
+//! and points, against a closed form and against each other.
+
+use std::f64::consts::PI;
+
+use hyperstat_study::sweep::Threads;
+use hyperstat_study::{
+    Gradient, Job, JobMechanism, JobPoses, MemoryFiles, Quantity, Registry, Selection, Study,
+    StudyError,
+};
+
+const CANTILEVER: &str = r#"(
+    name: "cantilever",
+    parameters: { "L": 0.5 },
+    points: { "A": (0.0, 0.0, 0.0), "B": ("= L", 0.0, 0.0) },
+    sections: { "round": Circle(diameter: 0.02) },
+    materials: { "steel": (young: 2e11, poisson: 0.3) },
+    bodies: { "bar": Beam(through: ["A", "B"], section: "round", material: "steel") },
+    joints: { "wall": (at: "A", between: ("ground", "bar"), kind: Fixed) },
+    loads: [(on: ("bar", "B"), force: (0.0, 0.0, -1.0))],
+    output: ("bar", "B"),
+)"#;
+
+fn job(text: &str) -> Job {
+    let files = MemoryFiles::from_iter([("cantilever.ron", text)]);
+    let selection = Selection::default();
+    let study = Study::open(
+        "cantilever.ron".as_ref(),
+        &selection,
+        &files,
+        &Registry::builtin(),
+    );
+    let mechanism = study.unwrap().mechanism().unwrap().clone();
+    let home = JobPoses::list(&[[0.5, 0.0, 0.0]]);
+    Job::new("cantilever", mechanism, home, &Registry::builtin()).unwrap()
+}
+
+fn delta() -> Job {
+    let link = |diameter: f64| {
+        let material = "(young: 2.1e11, poisson: 0.3)";
+        format!("(section: Circle(diameter: {diameter:?}), material: {material})").into()
+    };
+    let delta = JobMechanism::prebuilt(
+        "Delta",
+        [
+            ("base_radius", 0.25.into()),
+            ("platform_radius", 0.06.into()),
+            ("arm_length", 0.30.into()),
+            ("rod_length", 0.60.into()),
+            ("rod_spacing", 0.12.into()),
+            ("arm", link(0.030)),
+            ("bar", link(0.020)),
+            ("rod", link(0.014)),
+        ],
+    );
+    let poses = JobPoses::list(&[[0.0, 0.0, 0.5], [0.1, -0.05, 0.52], [3.0, 0.0, 0.5]]);
+    Job::new("delta", delta, poses, &Registry::builtin()).unwrap()
+}
+
+fn found(job: &Job, quantity: &str, paths: &[&str]) -> (Vec<f64>, Vec<f64>) {
+    let paths: Vec<String> = paths.iter().map(|&path| path.into()).collect();
+    let quantity = Quantity::named(quantity).unwrap();
+    let gradient = Gradient::new(job, quantity, &paths, None).unwrap();
+    gradient
+        .of(0..job.len(), &Threads::new(1).unwrap())
+        .unwrap()
+}
+
+/// k22 = 12 E I / L³ of a bar along x.
+#[test]
+fn a_cantilever_answers_to_its_length_as_its_formula() {
+    let job = job(CANTILEVER);
+    let (value, slopes) = found(&job, "k22", &["L", "sections.round.diameter", "points.A.1"]);
+    let (young, d, length) = (2e11, 0.02_f64, 0.5_f64);
+    let k = 12.0 * young * PI * d.powi(4) / 64.0 / length.powi(3);
+    assert!((value[0] / k - 1.0).abs() < 1e-12, "{value:?}");
+    assert!(
+        (slopes[0] / (-3.0 * k / length) - 1.0).abs() < 1e-8,
+        "{slopes:?}"
+    );
+    assert!((slopes[1] / (4.0 * k / d) - 1.0).abs() < 1e-8, "{slopes:?}");
+    // Moved across, its length changes in the second order.
+    assert!(slopes[2].abs() < 1e-8 * k / length, "{slopes:?}");
+}
+
+/// With all lengths and the diameters larger by a factor, all stiffnesses of translations are: the derivatives
+/// by all of them add up (Euler's theorem; Young's modulus stays).
+#[test]
+fn derivatives_by_all_lengths_add_up_to_the_scale() {
+    let job = delta();
+    let values = [
+        ("base_radius", 0.25),
+        ("platform_radius", 0.06),
+        ("arm_length", 0.30),
+        ("rod_length", 0.60),
+        ("rod_spacing", 0.12),
+        ("arm.section.diameter", 0.030),
+        ("bar.section.diameter", 0.020),
+        ("rod.section.diameter", 0.014),
+    ];
+    let paths = values.map(|(path, _)| path);
+    let (k, slopes) = found(&job, "k33", &paths);
+    assert!(k[2].is_nan() && slopes[2 * paths.len()..].iter().all(|slope| slope.is_nan()));
+    // Where the platform stands over the same angles: in the first pose by z alone.
+    let (_, along) = {
+        let step = 1e-4;
+        let at = |z: f64| {
+            let mut moved = job.clone();
+            moved.set_poses(JobPoses::list(&[[0.0, 0.0, z]])).unwrap();
+            found(&moved, "k33", &[]).0[0]
+        };
+        let central = |h: f64| (at(0.5 + h) - at(0.5 - h)) / (2.0 * h);
+        (0.0, (4.0 * central(step) - central(2.0 * step)) / 3.0)
+    };
+    let sum: f64 = values
+        .iter()
+        .zip(&slopes)
+        .map(|((_, value), slope)| value * slope)
+        .sum();
+    let sum = sum + 0.5 * along;
+    assert!((sum / k[0] - 1.0).abs() < 1e-7, "{} {}", sum, k[0]);
+}
+
+#[test]
+fn a_path_that_leads_to_no_number_is_told() {
+    let job = delta();
+    let quantity = Quantity::named("k33").unwrap();
+    for path in ["rod_lenght", "rod.section", "rod"] {
+        let made = Gradient::new(&job, quantity, &[path.into()], None);
+        assert!(
+            matches!(made, Err(StudyError::NoDerivative { .. })),
+            "{path}: {made:?}"
+        );
+    }
+}
