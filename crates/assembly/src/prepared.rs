@@ -211,7 +211,7 @@ impl Prepared {
         self.single_beside(Beside::Nothing)
     }
 
-    /// The same where more is to be found at every pose.
+    /// The same where more is to be found at every pose, which allocates.
     ///
     /// # Errors
     /// As [`Prepared::unknowns`].
@@ -233,11 +233,14 @@ impl Prepared {
     /// a pose of [`Lanes::geometry_mut`] that was swept: what [`Configuration::solve`] finds there. In lanes
     /// that were made for it ([`Prepared::lanes_beside`]) it is found beside the stiffness, as long as
     /// the mechanism is made of beams, rigid bodies and elastic joints without loops of rigid bodies, and
-    /// the numbers are in balance; else, and in others, by the numeric pass and its recovery. `lanes` are of
-    /// this mechanism.
+    /// the numbers are in balance, to 1e-10 of the largest force; else, in others, and where they were taken
+    /// already, by the numeric pass and its recovery. `lanes` are of this mechanism.
     ///
     /// # Errors
     /// As [`Configuration::solve`].
+    ///
+    /// # Panics
+    /// If `pose` is not below [`LANES`].
     pub fn forces(&self, lanes: &mut Lanes, pose: usize) -> Result<Vec<Forces>, SolveError> {
         let plan = self.plan()?;
         match lanes.forces(plan, &self.model, pose)? {
@@ -249,10 +252,13 @@ impl Prepared {
     /// The budgets of every state at a pose of [`Lanes::geometry_mut`] that was swept, along the way that each
     /// moves the output; where it does not, that of the compliance along the softest force; with what joints
     /// and segments carry. `found` is what [`Prepared::sweep_lanes`] gave there. `None` where the lanes were
-    /// not made for it or do not have it: then [`Configuration::influence`] has.
+    /// not made for it, do not have it, or gave it already: then [`Configuration::influence`] has.
     ///
     /// # Errors
     /// As [`Configuration::influence`].
+    ///
+    /// # Panics
+    /// If `pose` is not below [`LANES`].
     pub fn budgets(
         &self,
         lanes: &mut Lanes,
@@ -261,8 +267,8 @@ impl Prepared {
     ) -> Result<Option<Carried>, SolveError> {
         let compliance = found.stiffness.as_ref();
         let compliance = compliance.and_then(|k| inverse(k, SUSPICIOUS_PIVOT));
-        let (Some(compliance), Some((forces, units, geometry))) = (compliance, lanes.found(pose))
-        else {
+        let kept = lanes.found(self.plan()?, &self.model, pose)?;
+        let (Some(compliance), Some((forces, units, geometry))) = (compliance, kept) else {
             return Ok(None);
         };
         let influence = Influence::of_forces(&self.model, geometry, &units)?;

@@ -1,9 +1,14 @@
 //! What joints and segments carry, and budgets, as the lanes find them: those of a full solution of each
 //! pose, over all prebuilt mechanisms.
 
+use std::path::Path;
+
 use hyperstat_assembly::{
-    Beside, Budget, Carried, Forces, Geometry, LANES, Model, Prepared, SegmentForces,
+    Beside, Budget, Carried, Forces, Geometry, LANES, Lanes, LoadSet, Model, Part, Prepared,
+    SegmentForces,
 };
+use hyperstat_mechanisms::{Disk, MemoryFiles, Registry, load_batch, mechanism_from_str};
+use hyperstat_tests::acted::acted_on;
 use hyperstat_tests::prebuilt::Case;
 use nalgebra::Vector6;
 
@@ -43,10 +48,9 @@ fn apart(found: &[Option<Vector6<f64>>], expected: &[Option<Vector6<f64>>]) -> f
 /// What budgets differ by, part by part, beside the whole.
 fn budgets_apart(found: &Budget, expected: &Budget) -> f64 {
     let whole = expected.total.abs();
-    let part_of = |own: &Budget, like: &hyperstat_assembly::Part| {
-        let same = |part: &&hyperstat_assembly::Part| {
-            part.source == like.source && part.deformation == like.deformation
-        };
+    let part_of = |own: &Budget, like: &Part| {
+        let same =
+            |part: &&Part| part.source == like.source && part.deformation == like.deformation;
         let part = own.parts.iter().find(same);
         part.map_or(0.0, |part| part.displacement)
     };
@@ -78,48 +82,164 @@ fn check_pose(what: &str, prepared: &Prepared, geometry: &Geometry, found: &[For
     differences.fold(0.0, f64::max)
 }
 
+/// The largest differences of forces and of shares at the poses that stand in the lanes, and how many of
+/// them went one by one.
+fn check_poses(
+    what: &str,
+    prepared: &Prepared,
+    lanes: &mut Lanes,
+    poses: &[Geometry; LANES],
+) -> [f64; 3] {
+    let (mut most, mut most_shares, mut without) = (0.0_f64, 0.0_f64, 0.0);
+    let found = prepared.sweep_lanes(lanes, [true; LANES]);
+    for (lane, found) in found.into_iter().enumerate() {
+        let found = found.expect("a filled lane").expect("a result");
+        let budgets = prepared.budgets(lanes, lane, &found).expect("budgets");
+        let here = prepared.at(&poses[lane]).expect("a geometry of it");
+        let Some(Carried {
+            forces, budgets, ..
+        }) = budgets
+        else {
+            without += 1.0;
+            let forces = prepared.forces(lanes, lane).expect("forces");
+            most = most.max(check_pose(what, prepared, &poses[lane], &forces));
+            continue;
+        };
+        most = most.max(check_pose(what, prepared, &poses[lane], &forces));
+        let solution = here.solve().expect("a solution");
+        let influence = here.influence().expect("an influence");
+        let names = prepared.model().cases().iter().map(|case| &*case.name);
+        let states = names.map(|name| solution.of_case(name).expect("a case"));
+        let states = std::iter::once(solution.clone()).chain(states);
+        for (state, budget) in states.zip(&budgets) {
+            // Where nothing moves the output, of the compliance along the softest force.
+            let Some(along) = Budget::direction_of(&state.output.displacement) else {
+                continue;
+            };
+            let apart = (along - budget.along).amax();
+            assert!(apart < 1e-8, "{what}: along {along} and {}", budget.along);
+            let expected = influence.budget(&state, &along);
+            most_shares = most_shares.max(budgets_apart(budget, &expected));
+        }
+    }
+    [most, most_shares, without]
+}
+
 /// Poses whose forces went one by one.
 fn check(case: &Case, model: Model) -> u64 {
     let what = case.what(&case.poses[0]);
     let prepared = Prepared::new(model);
     let mut lanes = prepared.lanes_beside(Beside::Budgets).expect("a plan");
     let mut random = Random::new();
-    let (mut most, mut most_shares) = (0.0_f64, 0.0_f64);
-    let mut without = 0;
+    let (mut most, mut most_shares, mut without) = (0.0_f64, 0.0_f64, 0.0);
     for _ in 0..POSES / LANES {
         let poses: [_; LANES] =
             std::array::from_fn(|_| random.geometry(case, prepared.model().geometry()));
         lanes.geometries_mut().clone_from(&poses);
-        let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
-        for (lane, found) in found.into_iter().enumerate() {
-            let found = found.expect("a filled lane").expect("a result");
-            let budgets = prepared.budgets(&mut lanes, lane, &found).expect("budgets");
-            let here = prepared.at(&poses[lane]).expect("a geometry of it");
-            let Some(Carried {
-                forces, budgets, ..
-            }) = budgets
-            else {
-                without += 1;
-                let forces = prepared.forces(&mut lanes, lane).expect("forces");
-                most = most.max(check_pose(&what, &prepared, &poses[lane], &forces));
-                continue;
-            };
-            most = most.max(check_pose(&what, &prepared, &poses[lane], &forces));
-            let solution = here.solve().expect("a solution");
-            let influence = here.influence().expect("an influence");
-            let names = prepared.model().cases().iter().map(|case| &*case.name);
-            let states = names.map(|name| solution.of_case(name).expect("a case"));
-            let states = std::iter::once(solution.clone()).chain(states);
-            for (state, budget) in states.zip(&budgets) {
-                let expected = influence.budget(&state, &budget.along);
-                most_shares = most_shares.max(budgets_apart(budget, &expected));
-            }
-        }
+        let [forces, shares, own] = check_poses(&what, &prepared, &mut lanes, &poses);
+        (most, most_shares) = (most.max(forces), most_shares.max(shares));
+        without += own;
     }
     println!("{what}: forces {most:.1e}, shares {most_shares:.1e}, {without} one by one");
     assert!(most <= FORCES, "{what}: forces {most:e}");
     assert!(most_shares <= SHARES, "{what}: shares {most_shares:e}");
-    without
+    without as u64
+}
+
+/// Loads, weight, heat, misfits, preloads and cases, on the prebuilt mechanisms of the benches.
+#[test]
+fn forces_and_budgets_under_all_that_acts_are_those_of_full_solutions() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/mechanisms.ron");
+    let batch = load_batch(&path, &Disk, &Registry::builtin()).expect("a batch");
+    let (mut without, mut poses) = (0, 0);
+    for job in &batch.jobs {
+        let model = job.model().expect("a pose within reach");
+        for (what, model) in acted_on(&model) {
+            let what = format!("{}, {what}", job.name);
+            let prepared = Prepared::new(model);
+            let mut lanes = prepared.lanes_beside(Beside::Budgets).expect("a plan");
+            for lane in 0..LANES {
+                let placed = job.place(lane * 7 % job.len(), lanes.geometry_mut(lane));
+                placed.expect("a pose within reach");
+            }
+            let geometries = lanes.geometries_mut().clone();
+            let [forces, shares, own] = check_poses(&what, &prepared, &mut lanes, &geometries);
+            assert!(forces <= FORCES, "{what}: forces {forces:e}");
+            assert!(shares <= SHARES, "{what}: shares {shares:e}");
+            without += own as usize;
+            poses += LANES;
+        }
+    }
+    println!("{without} of {poses} poses one by one");
+    assert!(
+        without * 50 < poses,
+        "{without} of {poses} poses one by one"
+    );
+}
+
+/// What moves the output by a moment alone has rounding for a translation: no way to move.
+#[test]
+fn a_budget_under_a_moment_alone_is_of_the_rotation() {
+    let case = &cases()[0];
+    let mut model = model(case, false);
+    let output = model.output().expect("an output");
+    model
+        .set_loads(LoadSet::on(output, Vector6::ith(5, 10.0)))
+        .expect("a load");
+    check(case, model);
+}
+
+/// A joint whose stiffness has no inverse, rigid along one direction: it goes one by one.
+#[test]
+fn a_joint_of_singular_stiffness_has_its_budget_one_by_one() {
+    let text = r#"(
+        name: "bush",
+        points: { "A": (0.0, 0.0, 0.0), "B": (0.5, 0.0, 0.0), "C": (0.6, 0.1, 0.0) },
+        bodies: {
+            "arm": Beam(through: ["A", "B"], section: Circle(diameter: 0.02),
+                        material: (young: 2.1e11, poisson: 0.3)),
+            "plate": Rigid(points: ["B", "C"]),
+            "stay": Beam(through: ["A", "C"], section: Circle(diameter: 0.01),
+                         material: (young: 2.1e11, poisson: 0.3)),
+        },
+        joints: {
+            "wall": (at: "A", between: ("ground", "arm"), kind: Fixed),
+            "foot": (at: "A", between: ("ground", "stay"), kind: Fixed),
+            "tip": (at: "C", between: ("stay", "plate"), kind: Fixed),
+            "bush": (at: "B", between: ("arm", "plate"), kind: Revolute(axis: (0.0, 0.0, 1.0)), locked: true,
+                stiffness: Matrix([
+                    [1e7, 1e7, 0.0, 0.0, 0.0, 0.0], [1e7, 1e7, 0.0, 0.0, 0.0, 0.0],
+                    [0.0, 0.0, 1e7, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1e4, 0.0, 0.0],
+                    [0.0, 0.0, 0.0, 0.0, 1e4, 0.0], [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                ])),
+        },
+        loads: [(on: ("plate", "C"), force: (3.0, -2.0, -50.0))],
+        output: ("plate", "C"),
+    )"#;
+    let files = MemoryFiles::new();
+    let loaded = mechanism_from_str(text, "bush.ron".as_ref(), &files, &Registry::builtin());
+    let model = loaded.unwrap_or_else(|error| panic!("{error}")).model;
+    let prepared = Prepared::new(model);
+    let mut lanes = prepared.lanes_beside(Beside::Budgets).expect("a plan");
+    let geometries = lanes.geometries_mut().clone();
+    let [forces, _, without] = check_poses("bush", &prepared, &mut lanes, &geometries);
+    assert!(forces <= FORCES, "{forces:e}");
+    assert_eq!(without as usize, LANES);
+}
+
+/// What was found for another model, or another mechanism's lanes, is no answer.
+#[test]
+fn forces_of_another_model_are_refused() {
+    let case = &cases()[0];
+    let mut prepared = Prepared::new(model(case, false));
+    let mut lanes = prepared.lanes_beside(Beside::Budgets).expect("a plan");
+    let found = prepared.sweep_lanes(&mut lanes, [true; LANES]);
+    let found = found[0].clone().expect("a filled lane").expect("a result");
+    let output = prepared.model().output().expect("an output");
+    let load = LoadSet::on(output, Vector6::ith(0, 7.0));
+    prepared.model_mut().set_loads(load).expect("a load");
+    assert!(prepared.forces(&mut lanes, 0).is_err());
+    assert!(prepared.budgets(&mut lanes, 1, &found).is_err());
 }
 
 #[test]

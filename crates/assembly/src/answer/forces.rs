@@ -13,7 +13,7 @@ pub struct Forces {
     pub joint_wrenches: Vec<Option<Vector6<f64>>>,
     /// As [`Solution::segments`](crate::Solution::segments).
     pub segments: Vec<SegmentForces>,
-    /// As [`Solution::floor`](crate::Solution::floor).
+    /// As [`Solution::floor`](crate::Solution::floor); in the lanes, that of the plan's configuration.
     pub floor: Floor,
 }
 

@@ -19,6 +19,7 @@ use super::program::chain::{Chain, Item};
 use super::program::element::{Kind, NodeMotion};
 use super::program::fronts::Hang;
 use super::program::recovery::{AXES, KeptChain, Recovery};
+use super::wrench::Wrench;
 use crate::answer::forces::Forces;
 use crate::answer::solution::SegmentForces;
 use crate::pose::restraint::{SUSPICIOUS_PIVOT, inverse};
@@ -50,52 +51,6 @@ pub(crate) struct ForceRoom {
     origins: Vec<Vector3<f64>>,
 }
 
-/// A force and a moment about some point.
-#[derive(Debug, Clone, Copy, Default)]
-struct Wrench {
-    force: Vector3<f64>,
-    moment: Vector3<f64>,
-}
-
-impl Wrench {
-    fn of(six: &Vector6<f64>) -> Self {
-        Self {
-            force: six.fixed_rows::<3>(0).into_owned(),
-            moment: six.fixed_rows::<3>(3).into_owned(),
-        }
-    }
-
-    /// The same about another point; `arm`: from there to the own one.
-    fn carried(self, arm: &Vector3<f64>) -> Self {
-        Self {
-            moment: self.moment + arm.cross(&self.force),
-            ..self
-        }
-    }
-
-    fn six(self) -> Vector6<f64> {
-        let (f, m) = (self.force, self.moment);
-        Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
-    }
-
-    fn add(&mut self, other: Self) {
-        self.force += other.force;
-        self.moment += other.moment;
-    }
-
-    /// What it does along a twist about its point.
-    fn work(&self, [linear, angular]: &[Vector3<f64>; 2]) -> f64 {
-        self.force.dot(linear) + self.moment.dot(angular)
-    }
-
-    fn turned_back(self) -> Self {
-        Self {
-            force: -self.force,
-            moment: -self.moment,
-        }
-    }
-}
-
 /// A pose of the lanes.
 #[derive(Clone, Copy)]
 struct Seen<'a> {
@@ -106,14 +61,25 @@ struct Seen<'a> {
 }
 
 impl Engine {
-    /// What joints and segments carry in every state at a pose that the lanes vouch for, in its geometry;
-    /// `None` where the numbers are not to be trusted, or the mechanism's forces are not found here.
-    pub(super) fn forces(
+    /// What joints and segments carry at a pose that the lanes vouch for, in its geometry: in every state, and
+    /// under a unit of each component of a wrench on the output, where these are asked for and found.
+    pub(super) fn carried(
         &mut self,
         model: &Model,
         geometry: &Geometry,
         lane: usize,
-    ) -> Option<Vec<Forces>> {
+    ) -> (Option<Vec<Forces>>, Option<[Forces; 6]>) {
+        let forces = self.forces(model, geometry, lane);
+        let units = match forces {
+            Some(_) => self.units(model, geometry, lane),
+            None => None,
+        };
+        (forces, units)
+    }
+
+    /// What joints and segments carry in every state at a pose that the lanes vouch for, in its geometry;
+    /// `None` where the numbers are not to be trusted, or the mechanism's forces are not found here.
+    fn forces(&mut self, model: &Model, geometry: &Geometry, lane: usize) -> Option<Vec<Forces>> {
         let Self {
             program,
             buffers,
@@ -142,12 +108,7 @@ impl Engine {
     }
 
     /// The same under a unit of each component of a wrench on the output, where that is asked for.
-    pub(super) fn units(
-        &mut self,
-        model: &Model,
-        geometry: &Geometry,
-        lane: usize,
-    ) -> Option<[Forces; 6]> {
+    fn units(&mut self, model: &Model, geometry: &Geometry, lane: usize) -> Option<[Forces; 6]> {
         let compliance = inverse(&self.found(lane).stiffness?, SUSPICIOUS_PIVOT)?;
         let Self {
             program,
@@ -527,8 +488,10 @@ impl Seen<'_> {
             }
             joint_wrenches.push(rotation6(&geometry.frames[k]).transpose() * sum.six());
         }
-        for (joint, preload) in &self.recovery.preloads {
-            joint_wrenches[joint.0] += preload;
+        if room.unit.is_none() {
+            for (joint, preload) in &self.recovery.preloads {
+                joint_wrenches[joint.0] += preload;
+            }
         }
         let found = segments.iter().flat_map(|s| &s.ends).chain(&joint_wrenches);
         if !found.flatten().all(|number| number.is_finite()) {

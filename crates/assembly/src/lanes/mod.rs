@@ -19,6 +19,7 @@ mod random_tests;
 pub(crate) mod single;
 #[cfg(test)]
 mod tests;
+mod wrench;
 use hyperstat_model::{Geometry, LANES, Model};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -65,10 +66,13 @@ pub struct Lanes {
     forces: [Option<Vec<Forces>>; LANES],
     /// The same under a unit of each component of a wrench on the output.
     units: [Option<[Forces; 6]>; LANES],
-    /// Poses that went one by one, and those whose forces did.
+    /// Poses that went one by one.
     one_by_one: u64,
-    recovered_one_by_one: u64,
 }
+
+/// What joints and segments carry at a pose in every state, and under a unit of each component of a wrench on
+/// the output, with the pose's geometry.
+type CarriedAt<'l> = (Vec<Forces>, [Forces; 6], &'l Geometry);
 
 #[derive(Debug)]
 struct Engine {
@@ -129,7 +133,6 @@ impl Plan {
             forces: [const { None }; LANES],
             units: [const { None }; LANES],
             one_by_one: 0,
-            recovered_one_by_one: 0,
         }
     }
 
@@ -145,15 +148,10 @@ impl Plan {
         filled: [bool; LANES],
     ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
         let mut results = [const { None }; LANES];
-        let foreign = if lanes.plan != self.id {
-            Some(SolveError::ForeignWorkspace)
-        } else {
-            (lanes.model != model.revisions()).then_some(SolveError::ForeignModel)
-        };
-        if let Some(error) = foreign {
+        lanes.forget();
+        if let Err(error) = lanes.check(self, model) {
             return filled.map(|filled| filled.then(|| Err(error.clone())));
         }
-        lanes.forget();
         let mut taken = filled;
         for (pose, taken) in taken.iter_mut().enumerate().filter(|(_, taken)| **taken) {
             if let Err(error) = model.check_geometry(&lanes.geometries[pose], self.one_point) {
@@ -178,10 +176,8 @@ impl Plan {
                     if taken[pose] && engine.vouches(lane) {
                         results[pose] = Some(Ok(engine.found(lane)));
                         let geometry = &lanes.geometries[pose];
-                        lanes.forces[pose] = engine.forces(model, geometry, lane);
-                        if lanes.forces[pose].is_some() {
-                            lanes.units[pose] = engine.units(model, geometry, lane);
-                        }
+                        (lanes.forces[pose], lanes.units[pose]) =
+                            engine.carried(model, geometry, lane);
                     }
                 }
             }
@@ -213,16 +209,35 @@ impl Lanes {
         &mut self.geometries
     }
 
+    /// Whether they were made by a plan for a model as it is now.
+    fn check(&self, plan: &Plan, model: &Model) -> Result<(), SolveError> {
+        if self.plan != plan.id {
+            return Err(SolveError::ForeignWorkspace);
+        }
+        match self.model == model.revisions() {
+            true => Ok(()),
+            false => Err(SolveError::ForeignModel),
+        }
+    }
+
     fn forget(&mut self) {
         self.forces = [const { None }; LANES];
         self.units = [const { None }; LANES];
     }
 
     /// What joints and segments carry at a pose in every state, and under a unit of each component of a wrench
-    /// on the output, with its geometry, where the lanes found both.
-    pub(crate) fn found(&mut self, pose: usize) -> Option<(Vec<Forces>, [Forces; 6], &Geometry)> {
-        let units = self.units[pose].take()?;
-        Some((self.forces[pose].take()?, units, &self.geometries[pose]))
+    /// on the output, with its geometry, where the lanes found both and they were not taken yet.
+    pub(crate) fn found(
+        &mut self,
+        plan: &Plan,
+        model: &Model,
+        pose: usize,
+    ) -> Result<Option<CarriedAt<'_>>, SolveError> {
+        self.check(plan, model)?;
+        let units = self.units[pose].take();
+        let Some(units) = units else { return Ok(None) };
+        let forces = self.forces[pose].take();
+        Ok(forces.map(|forces| (forces, units, &self.geometries[pose])))
     }
 
     /// What joints and segments carry at a pose that was swept: as the lanes found it, else by the numeric
@@ -233,18 +248,11 @@ impl Lanes {
         model: &Model,
         pose: usize,
     ) -> Result<Option<Vec<Forces>>, SolveError> {
+        self.check(plan, model)?;
         match self.forces[pose].take() {
             Some(found) => Ok(Some(found)),
-            None => {
-                self.recovered_one_by_one += 1;
-                plan.forces(model, &self.geometries[pose], &mut self.workspace)
-            }
+            None => plan.forces(model, &self.geometries[pose], &mut self.workspace),
         }
-    }
-
-    /// Poses so far whose forces were found one by one.
-    pub fn recovered_one_by_one(&self) -> u64 {
-        self.recovered_one_by_one
     }
 
     /// Whether the mechanism goes through the lanes at all.

@@ -17,6 +17,7 @@ use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
 use crate::lanes::{Beside, Lanes};
 use crate::plan::Plan;
+use crate::prepared::Prepared;
 
 /// Mechanisms.
 const CASES: usize = 300;
@@ -533,6 +534,7 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
             continue;
         };
         let (mut lanes, mut workspace) = (plan.lanes(&model, Beside::Forces), plan.workspace());
+        let prepared = Prepared::new(model.clone());
         if lanes.engine.is_none() {
             continue;
         }
@@ -547,11 +549,13 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         handed_on += (lanes.one_by_one() - before) as usize;
         for (lane, pose) in chosen.iter().enumerate() {
             if let Some(found) = lanes.forces[lane].take() {
-                let one = plan.forces(&model, pose, &mut workspace);
+                let one = match plan.forces(&model, pose, &mut workspace) {
+                    Ok(None) => prepared.at(pose).and_then(|here| here.forces()).map(Some),
+                    one => one,
+                };
                 let error = match one {
                     Ok(Some(one)) => apart(&found, &one, &model, pose),
-                    Ok(None) => 0.0,
-                    Err(_) => f64::NAN,
+                    _ => f64::NAN,
                 };
                 recovered += 1;
                 largest_force = largest_force.max(error);
@@ -598,4 +602,9 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
     assert!(wrong.is_empty(), "{}\n{}", wrong.len(), wrong.join("\n"));
     assert!(taken > cases / 3, "only {taken} mechanisms");
     assert!(poses > 2 * handed_on, "{handed_on} of {poses} handed on");
+    // Two thirds have no flexible bodies, loops of rigid bodies or singular stiffnesses.
+    assert!(
+        3 * recovered > poses - handed_on,
+        "forces of {recovered} poses"
+    );
 }

@@ -31,12 +31,8 @@ impl Plan {
         single: &mut Single,
     ) -> Result<PoseResult, SolveError> {
         let lanes = &mut single.lanes;
-        if lanes.plan != self.id {
-            return Err(SolveError::ForeignWorkspace);
-        }
-        if lanes.model != model.revisions() {
-            return Err(SolveError::ForeignModel);
-        }
+        lanes.forget();
+        lanes.check(self, model)?;
         let [geometry, ..] = &lanes.geometries;
         model.check_geometry(geometry, self.one_point)?;
         if let Some(engine) = &mut lanes.engine {
@@ -44,8 +40,7 @@ impl Plan {
             let width = engine.buffers.width;
             engine.solve(model, &[geometry; LANES][..width], lanes.arch);
             if let Some(result) = engine.result(0) {
-                lanes.forces[0] = engine.forces(model, geometry, 0);
-                lanes.units[0] = engine.units(model, geometry, 0);
+                (lanes.forces[0], lanes.units[0]) = engine.carried(model, geometry, 0);
                 return Ok(result);
             }
         }

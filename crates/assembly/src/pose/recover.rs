@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_joints::{Dof, DofSet};
-use hyperstat_model::{JointId, Model, NodeId, rotation6, to_directions};
-use nalgebra::{DMatrix, DVector, Matrix6, Point3, Rotation3, Vector6};
+use hyperstat_model::{JointId, Model, NodeId, rotation6};
+use nalgebra::{DMatrix, DVector, Matrix6, Point3, Vector6};
 
 use super::joining::join;
 use super::subassembly::{absorbed_joint, misfit_inside, subassembly_frame};
@@ -23,7 +23,7 @@ use crate::rank::sparse::{SparseElimination, SparseVector};
 use crate::sets::Sets;
 use crate::state::acting::Acting;
 use crate::state::floor::Floor;
-use crate::state::preload::loose_preload;
+use crate::state::preload::loose_wrench;
 
 /// Most carriers whose equilibrium is found with complete pivoting.
 const MOST_DENSE: usize = 40;
@@ -141,10 +141,7 @@ pub(crate) fn recover(
     if acting.misfits {
         for entry in model.misfits() {
             if let Some(wrench) = &mut joint_wrenches[entry.joint.0] {
-                let directions = &plan.topology.joints[entry.joint.0].directions;
-                let basis = model.joints()[entry.joint.0].joint.basis();
-                *wrench += to_directions(&basis, &Rotation3::identity()).transpose()
-                    * loose_preload(directions, entry);
+                *wrench += loose_wrench(model, entry);
             }
         }
     }

@@ -127,13 +127,16 @@ impl Influence<'_> {
         forces: &Forces,
         compliance: &Matrix6<f64>,
     ) -> Budget {
-        let Some(along) = Budget::direction_of(displacement) else {
+        // What is rounding beside what acts is no way to move.
+        let mut displacement = *displacement;
+        forces.floor.clear_displacement(&mut displacement);
+        let Some(along) = Budget::direction_of(&displacement) else {
             let softest =
                 principal(&compliance.fixed_view::<3, 3>(0, 0).into_owned()).directions[2];
             let along = Vector6::new(softest.x, softest.y, softest.z, 0.0, 0.0, 0.0);
             return self.compliance_budget(compliance, &along);
         };
-        let rounding = forces.floor.rounding_along(displacement, &along);
+        let rounding = forces.floor.rounding_along(&displacement, &along);
         let loaded = self.state_under(&[], &forces.joint_wrenches, &forces.segments);
         let total = displacement.dot(&along);
         self.budget_of(&loaded, total, &along, self.misfit_parts(&along), rounding)

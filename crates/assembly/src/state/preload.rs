@@ -1,8 +1,8 @@
 //! Preloads of joints, and what misfits do to springs.
 
 use hyperstat_joints::DofSet;
-use hyperstat_model::{Directions, JointId, Misfit, rotation6};
-use nalgebra::Vector6;
+use hyperstat_model::{Directions, JointId, Misfit, Model, rotation6, to_directions};
+use nalgebra::{Rotation3, Vector6};
 
 use crate::posture::Posture;
 
@@ -32,6 +32,13 @@ pub(crate) fn loose_preload(directions: &Directions, entry: &Misfit) -> Vector6<
         Some(_) => along(&entry.preload, directions.free),
         None => entry.preload,
     }
+}
+
+/// That part as a wrench on the joint's second body, in the joint's frame.
+pub(crate) fn loose_wrench(model: &Model, entry: &Misfit) -> Vector6<f64> {
+    let joint = &model.joints()[entry.joint.0];
+    let preload = loose_preload(&Directions::of(joint), entry);
+    to_directions(&joint.joint.basis(), &Rotation3::identity()).transpose() * preload
 }
 
 /// Displacement of a joint's second body from its first, global axes, of a misfit by directions.

@@ -6,18 +6,19 @@
 
 use std::ops::Range;
 
-use hyperstat_model::{Geometry, JointId, LoadSet, Model, NodeId, SegmentId, to_directions};
-use nalgebra::{Rotation3, Vector6};
+use hyperstat_model::{Geometry, JointId, LoadSet, Misfit, Model, NodeId, SegmentId};
+use nalgebra::Vector6;
 
 use super::acts::Act;
 use super::chain::{Chain, Item, LinkSource};
 use super::element::{Element, Kind, NodeMotion, Screw};
 use super::fronts::{FrontPart, Fronts};
+use crate::plan::roles::JointRole;
 use crate::plan::topology::Topology;
 use crate::posture::Posture;
 use crate::state::acting::Acting;
 use crate::state::floor::Floor;
-use crate::state::preload::loose_preload;
+use crate::state::preload::loose_wrench;
 
 /// What is needed for the forces of a pose, worked out once a topology.
 #[derive(Debug)]
@@ -141,7 +142,8 @@ struct Placed {
 
 impl Recovery {
     /// That of a mechanism of chains and trees; `None` of any other: with flexible bodies, joints of
-    /// singular stiffness, loops of rigid bodies, and segments that nothing moves.
+    /// singular stiffness, loops of rigid bodies, and segments that nothing moves. Budgets lean on that:
+    /// the deflection of every joint follows from its wrench.
     pub fn new(
         model: &Model,
         geometry: &Geometry,
@@ -149,7 +151,12 @@ impl Recovery {
         (elements, screws, fronts): (&[Element], &[Screw], &Fronts),
         loads: Vec<NodeWrench>,
     ) -> Option<Self> {
-        if topology.components.iter().any(|c| !c.closings.is_empty()) {
+        let is_singular = |joint: &JointRole| {
+            !joint.directions.elastic.is_empty() && joint.directions.compliance.is_none()
+        };
+        if topology.components.iter().any(|c| !c.closings.is_empty())
+            || topology.joints.iter().any(is_singular)
+        {
             return None;
         }
         let at = Posture::new(model, geometry);
@@ -347,11 +354,6 @@ fn subtree(topology: &Topology, carrier: usize) -> Vec<usize> {
 }
 
 fn preloads(model: &Model) -> Vec<(JointId, Vector6<f64>)> {
-    let own = |entry: &hyperstat_model::Misfit| {
-        let joint = &model.joints()[entry.joint.0];
-        let preload = loose_preload(&hyperstat_model::Directions::of(joint), entry);
-        let map = to_directions(&joint.joint.basis(), &Rotation3::identity());
-        (entry.joint, map.transpose() * preload)
-    };
+    let own = |entry: &Misfit| (entry.joint, loose_wrench(model, entry));
     model.misfits().iter().map(own).collect()
 }
