@@ -118,10 +118,11 @@ fn by_path<'s>(
     own.ok_or_else(|| no_derivative(found, path))
 }
 
-/// Whether it is of the value at a path, which may name a parameter with and without its map.
+/// Whether it is of the value at a path, which may name a parameter with and without its map, and several
+/// joints as one.
 pub(crate) fn is_named(own: &SensitivityReport, path: &str) -> bool {
-    let alone = |path: &str| path.trim_start_matches("parameters.").to_owned();
-    alone(&own.parameter) == alone(path)
+    let alone = |path: &str| path.strip_prefix("parameters.").unwrap_or(path).to_owned();
+    alone(&own.parameter) == alone(path) || own.path.as_deref() == Some(path)
 }
 
 /// The error of a path by which there is no derivative, beside those by which there are some.

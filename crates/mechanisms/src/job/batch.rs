@@ -57,7 +57,7 @@ pub struct Job {
     pub(super) recipe: Recipe,
     pub(super) poses: Arc<Poses>,
     /// Where `vary` is given.
-    designs: Option<Arc<Designs>>,
+    pub(super) designs: Option<Arc<Designs>>,
     /// Names of the cases.
     cases: Vec<String>,
     /// The first design that can be, and its number.
