@@ -11,6 +11,7 @@
 // be compiled with the instruction set chosen at run time.
 #![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
 
+mod beside;
 mod forces;
 mod pass;
 mod program;
@@ -20,6 +21,7 @@ pub(crate) mod single;
 #[cfg(test)]
 mod tests;
 mod wrench;
+pub use beside::Beside;
 use hyperstat_model::{Geometry, LANES, Model};
 use nalgebra::{Matrix6, Vector6};
 use pulp::{Arch, Simd, WithSimd};
@@ -38,19 +40,6 @@ use crate::plan::workspace::Workspace;
 /// Relative error that a pose of the lanes may have, by its estimate. That is no bound, and 1e-11 is
 /// promised: of 210 600 states of 10 666 random mechanisms the largest error below this was 5.0e-12.
 const TRUSTED: f64 = 5e-13;
-
-/// What lanes find at a pose beside the output's stiffness and displacements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-#[non_exhaustive]
-pub enum Beside {
-    /// Nothing.
-    #[default]
-    Nothing,
-    /// What joints and segments carry in every state: [`Prepared::forces`](crate::Prepared::forces).
-    Forces,
-    /// That, and what budgets are made of: [`Prepared::budgets`](crate::Prepared::budgets).
-    Budgets,
-}
 
 /// One thread's poses and buffers; made by [`Prepared::lanes`](crate::Prepared::lanes).
 #[derive(Debug)]

@@ -26,7 +26,7 @@ pub(crate) mod series;
 
 use hyperstat_model::{Geometry, JointId, Model, characteristic_length};
 
-use super::Beside;
+use super::beside::Beside;
 use super::program::acts::Acts;
 use super::program::columns::{Brought, Columns};
 use super::program::element::{Element, NodeLoad, NodeMotion, Screw, Spring};
