@@ -31,8 +31,8 @@ fn job(text: &str) -> Job {
         &Registry::builtin(),
     );
     let mechanism = study.unwrap().mechanism().unwrap().clone();
-    let home = JobPoses::list(&[[0.5, 0.0, 0.0]]);
-    Job::new("cantilever", mechanism, home, &Registry::builtin()).unwrap()
+    // Its own configuration, which follows the length.
+    Job::new("cantilever", mechanism, JobPoses::Own, &Registry::builtin()).unwrap()
 }
 
 fn delta() -> Job {
