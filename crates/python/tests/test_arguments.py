@@ -59,6 +59,17 @@ def test_columns_without_a_case(delta: hs.Mechanism) -> None:
         t.measure("stress_at")
 
 
+def test_a_measure_that_there_is_not(delta: hs.Mechanism) -> None:
+    one = delta.at(POSES[0])
+    assert one.measure("softest_force") > 0.0
+    assert np.isnan(delta.at((3.0, 0.0, 0.5)).measure("softest_force"))
+    for name in ("nonsense", "k11", ""):
+        with pytest.raises(hs.ArgumentError, match="unknown measure"):
+            one.measure(name)
+        with pytest.raises(hs.ArgumentError, match="unknown measure"):
+            delta.at((3.0, 0.0, 0.5)).measure(name)
+
+
 def refused(call: Callable[[], object]) -> str:
     with pytest.raises(hs.Error) as caught:
         call()

@@ -99,10 +99,10 @@ class Table:
         self.varied: dict[str, Any] = {}
         if varied:
             self.varied["design"] = np.repeat(np.arange(self.designs), each)
-        for path, values in varied:
-            texts = any(isinstance(value, str) for value in values)
-            given = np.array(list(values), dtype=object if texts else np.float64)
-            self.varied[path] = np.repeat(given, each)
+        for path, given in varied:
+            texts = any(isinstance(value, str) for value in given)
+            own = np.array(list(given), dtype=object if texts else np.float64)
+            self.varied[path] = np.repeat(own, each)
 
     @cached_property
     def status(self) -> npt.NDArray[np.str_]:
@@ -150,6 +150,8 @@ class Table:
         SelectionError
             There is no such case.
         """
+        if not isinstance(name, str):
+            raise ArgumentError(f"`{name!r}` is no measure", help="give its name")
         if case is None:
             if self._has(name):
                 return self._numbers(name)
