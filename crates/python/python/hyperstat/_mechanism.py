@@ -642,7 +642,8 @@ def _json(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _numbers(given: Any) -> Array:
     """An array of real numbers, all of them there."""
     rows = given if isinstance(given, (list, tuple)) else ()
-    if np.ma.is_masked(given) or any(np.ma.is_masked(row) for row in rows):
+    masked = (own for own in (given, *rows) if isinstance(own, np.ma.MaskedArray))
+    if any(np.ma.is_masked(own) for own in masked):
         raise ArgumentError("a pose with masked entries", help="leave masked rows out")
     try:
         own = np.asarray(given)
@@ -666,6 +667,8 @@ def _one_pose(pose: Any) -> tuple[Optional[tuple[str, ...]], list[float]]:
     elif hasattr(pose, "to_dict") and all(isinstance(name, str) for name in getattr(pose, "index", (0,))):
         # A row of a DataFrame.
         names = tuple(pose.index)
+    if isinstance(given, (list, tuple)) and all(type(own) in (float, int) for own in given):
+        return names, [float(own) for own in given]
     try:
         numbers = _numbers(given)
     except ArgumentError:
