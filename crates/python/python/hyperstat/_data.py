@@ -69,7 +69,7 @@ def data(value: Any) -> Any:
     to_data = getattr(value, "to_data", None)
     if to_data is not None and not isinstance(value, type):
         return to_data()
-    if isinstance(value, np.ndarray) and not np.ma.is_masked(value):
+    if isinstance(value, np.ndarray) and not is_masked(value):
         return data(value.tolist())
     if isinstance(value, np.generic):
         return data(value.item())
@@ -87,6 +87,11 @@ def data(value: Any) -> Any:
         f"`{value!r}` is nothing that a file can hold",
         help="give numbers, texts, sequences and mappings of them, or parts such as `hyperstat.Beam`",
     )
+
+
+def is_masked(value: Any) -> bool:
+    """Whether it is an array some of whose entries are not there."""
+    return isinstance(value, np.ma.MaskedArray) and bool(np.any(value.mask))
 
 
 def ron(value: Any) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hyperstat
-from ._data import Part, data, dumps, ron, with_names
+from ._data import Part, data, dumps, is_masked, ron, with_names
 from ._errors import ArgumentError, Error, SelectionError
 from ._hyperstat import Core, Pose
 from ._solution import Solution
@@ -642,8 +642,7 @@ def _json(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
 def _numbers(given: Any) -> Array:
     """An array of real numbers, all of them there."""
     rows = given if isinstance(given, (list, tuple)) else ()
-    masked = (own for own in (given, *rows) if isinstance(own, np.ma.MaskedArray))
-    if any(np.ma.is_masked(own) for own in masked):
+    if any(is_masked(own) for own in (given, *rows)):
         raise ArgumentError("a pose with masked entries", help="leave masked rows out")
     try:
         own = np.asarray(given)
