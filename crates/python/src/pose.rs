@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{array, known};
 use crate::error::Ended;
+use crate::sweep::measure_named;
 
 const COORDINATES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
@@ -234,9 +235,10 @@ impl Pose {
     }
 
     /// A measure, such as `deflection` or `softest_force`, SI; NaN where there is none.
-    fn measure(&self, name: &str) -> f64 {
+    fn measure(&self, py: Python<'_>, name: &str) -> PyResult<f64> {
+        let _ = measure_named(name).map_err(|unknown| unknown.raised(py))?;
         let found = self.record.result.as_ref().ok();
-        known(found.and_then(|found| found.measure(name)))
+        Ok(known(found.and_then(|found| found.measure(name))))
     }
 
     fn __repr__(&self) -> String {

@@ -216,6 +216,15 @@ pub(crate) struct Found {
     designs: usize,
 }
 
+/// The measure of this name.
+pub(crate) fn measure_named(name: &str) -> Result<&'static Measure, Ended> {
+    Measure::named(name).ok_or_else(|| {
+        let known: Vec<&str> = Measure::all().iter().map(|own| own.name).collect();
+        let help = format!("the measures are {}", known.join(", "));
+        Ended::argument(format!("unknown measure `{name}`"), &help)
+    })
+}
+
 /// A measure of every row; NaN where it has none.
 #[pyfunction]
 pub(crate) fn measure<'py>(
@@ -226,11 +235,7 @@ pub(crate) fn measure<'py>(
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let (stiffness, displacement) = (stiffness.as_array(), displacement.as_array());
     let values = apart(py, || {
-        let Some(measure) = Measure::named(name) else {
-            let known: Vec<&str> = Measure::all().iter().map(|own| own.name).collect();
-            let help = format!("the measures are {}", known.join(", "));
-            return Err(Ended::argument(format!("unknown measure `{name}`"), &help));
-        };
+        let measure = measure_named(name)?;
         let rows = stiffness.outer_iter().zip(displacement.outer_iter());
         let value = rows.map(|(stiffness, displacement)| {
             let mut k = [0.0; 36];

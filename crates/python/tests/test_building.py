@@ -89,6 +89,61 @@ def test_sections_and_materials_of_beams_get_names() -> None:
     assert m.solve().stiffness is not None
 
 
+def test_sections_of_groups_get_names() -> None:
+    """Beside those of the mechanism, of which they may have the names."""
+    group = hs.Group(
+        points={"C": (1, 0, 0), "D": (1, 1, 0)},
+        bodies={"arm": hs.Beam(through=["C", "D"], section=hs.Circle(diameter=0.02), material=STEEL)},
+        joints={"K": hs.Joint(at="C", between=("beam", "arm"), kind="Fixed")},
+    )
+    fields = {
+        "name": "chain",
+        "points": {"A": (0, 0, 0)},
+        "bodies": {"beam": hs.Beam(through=["A", "C1"], section=hs.Circle(diameter=0.03), material=STEEL)},
+        "groups": {"tip": group},
+        "copies": {"tip": hs.Copies(places=hs.Moved(by=[(0, 0, 0)]))},
+        "joints": {"J": hs.Joint(at="A", between=("ground", "beam"), kind="Fixed")},
+        "output": ("arm1", "D1"),
+    }
+    named = {
+        **fields,
+        "materials": {"steel": STEEL},
+        "sections": {"thin": hs.Circle(diameter=0.02), "thick": hs.Circle(diameter=0.03)},
+        "bodies": {"beam": hs.Beam(through=["A", "C1"], section="thick", material="steel")},
+    }
+    held = hs.Mechanism(fields).solve()
+    assert np.array_equal(held.stiffness, hs.Mechanism(named).solve().stiffness)
+    # Of another section it is another mechanism.
+    group.bodies["arm"].section = hs.Circle(diameter=0.01)  # type: ignore[attr-defined]
+    assert hs.Mechanism(fields).solve().stiffness[2, 2] < held.stiffness[2, 2]
+
+
+def test_names_that_are_given_stay_free() -> None:
+    """A beam that names a section of no table does not get that of another beam."""
+    beams = {
+        "a": hs.Beam(through=["A", "B"], section=hs.Circle(diameter=0.02), material=STEEL),
+        "b": hs.Beam(through=["B", "C"], section="a", material=STEEL),
+    }
+    fields = {
+        "name": "two",
+        "points": {"A": (0, 0, 0), "B": (1, 0, 0), "C": (2, 0, 0)},
+        "bodies": beams,
+        "joints": {
+            "J": hs.Joint(at="A", between=("ground", "a"), kind="Fixed"),
+            "K": hs.Joint(at="B", between=("a", "b"), kind="Fixed"),
+        },
+        "output": ("b", "C"),
+    }
+    with pytest.raises(hs.InputError, match="`a`"):
+        hs.Mechanism(fields)
+    given = hs.Mechanism({**fields, "sections": {"a": hs.Circle(diameter=0.01)}})
+    beams["b"].section = hs.Circle(diameter=0.01)  # type: ignore[attr-defined]
+    assert np.array_equal(given.solve().stiffness, hs.Mechanism(fields).solve().stiffness)
+    beams["b"].section = "a"  # type: ignore[attr-defined]
+    with pytest.raises(hs.InputError):
+        hs.Mechanism({**fields, "sections": []})
+
+
 LINK = {"section": hs.Circle(diameter=0.014), "material": hs.Material(young=2.1e11, poisson=0.3)}
 
 
@@ -126,6 +181,38 @@ def test_a_prebuilt_one_of_objects(examples: Path) -> None:
     assert k is not None and np.allclose(k, t.stiffness[0], rtol=1e-9, atol=1e-3)
     thicker = built.with_values({"rod.section.diameter": 0.02}).in_pose((0, 0, 0.5))
     assert thicker.solve().stiffness[2, 2] > built.at((0, 0, 0.5)).stiffness[2, 2]  # type: ignore[index]
+
+
+def test_a_prebuilt_one_in_a_batch() -> None:
+    built = delta(joint_stiffness=hs.Stiffness(x=1e8, y=1e8, z=1e8, u=1e5, w=1e5))
+    poses = [(0.0, 0.0, 0.5), (0.1, -0.05, 0.52)]
+    job = hs.Mechanism({"jobs": [{"name": "a", "mechanism": built, "poses": {"List": poses}}]})
+    assert np.array_equal(job.sweep().stiffness, built.sweep(poses).stiffness)
+    assert built.to_data()["Delta"]["base_radius"] == 0.25
+
+
+def test_values_may_be_parts(examples: Path) -> None:
+    """In files of either format, of jobs and of prebuilt mechanisms."""
+    thick = hs.Circle(diameter=0.02)
+    files = [hs.load(examples / "portal.ron"), portal(), hs.load(examples / "portal.ron").with_loads([])]
+    for m, path in zip(files, ("sections.rod", "sections.arm", "sections.rod")):
+        wanted = m.with_values({f"{path}.diameter": 0.02}).solve().stiffness
+        assert np.array_equal(m.with_values({path: thick}).solve().stiffness, wanted)
+        t = m.evaluate({path: [hs.Circle(diameter=0.014), thick, hs.Tube(outer=0.02, inner=1e-5)]})
+        assert t.ok.all() and np.allclose(t.stiffness[1], wanted, rtol=1e-9, atol=1e-3)
+        other = m.with_values({"joints.wrist.stiffness": hs.Stiffness(x=1e8, y="100 N/um", z=1e8)})
+        assert np.array_equal(other.solve().stiffness, m.solve().stiffness)
+    link = hs.Link(section=thick, material=STEEL)
+    built = delta().with_values({"rod": link})
+    wanted = delta().with_values({"rod.section.diameter": 0.02}).at((0, 0, 0.5)).stiffness
+    assert np.array_equal(built.at((0, 0, 0.5)).stiffness, wanted)
+    with pytest.raises(hs.InputError, match="diameter"):
+        files[0].with_values({"sections.rod": hs.Circle(diameter=-0.02)})
+
+
+def test_a_mechanism_out_of_reach_is_shown() -> None:
+    m = delta().in_pose((5.0, 0.0, 0.5))
+    assert "<b>" in m._repr_html_() and "hyperstat.Mechanism" in m._repr_html_()
 
 
 def test_a_prebuilt_one_without_poses() -> None:

@@ -94,8 +94,9 @@ def test_a_cantilever_answers_to_its_length_as_its_formula() -> None:
     text = f"""(
         name: "cantilever",
         points: {{ "A": (0.0, 0.0, 0.0), "B": ({length}, 0.0, 0.0) }},
-        bodies: {{ "bar": Beam(through: ["A", "B"], section: Circle(diameter: {diameter}),
-                               material: (young: {young}, poisson: 0.3)) }},
+        materials: {{ "steel": (young: {young}, poisson: 0.3) }},
+        sections: {{ "rod": Circle(diameter: {diameter}) }},
+        bodies: {{ "bar": Beam(through: ["A", "B"], section: "rod", material: "steel") }},
         joints: {{ "wall": (at: "A", between: ("ground", "bar"), kind: Fixed) }},
         loads: [(on: ("bar", "B"), force: (0.0, 0.0, -1.0))],
         output: ("bar", "B"),

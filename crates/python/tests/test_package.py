@@ -42,6 +42,21 @@ def test_profiles_are_the_workspaces() -> None:
     assert profile(ROOT / "crates/python/Cargo.toml") == profile(ROOT / "Cargo.toml")
 
 
+def test_licences_go_along() -> None:
+    """In the wheel too, which takes no file from above."""
+    named = re.findall(r'license-files = \[(.*)\]', (ROOT / "crates/python/pyproject.toml").read_text())
+    assert named == ['"LICENSE-APACHE", "LICENSE-MIT"']
+    for name in ("LICENSE-APACHE", "LICENSE-MIT"):
+        assert (ROOT / "crates/python" / name).read_bytes() == (ROOT / name).read_bytes()
+    installed = {path.name for path in metadata.files("hyperstat") or []}
+    assert {"LICENSE-APACHE", "LICENSE-MIT"} <= installed
+
+
+def test_the_readme_holds_outside_the_repository() -> None:
+    text = (ROOT / "crates/python/README.md").read_text(encoding="utf-8")
+    assert [link for link in re.findall(r"\]\(([^)]*)\)", text) if not link.startswith("http")] == []
+
+
 def test_one_wheel_serves_all_versions() -> None:
     tags = metadata.distribution("hyperstat").read_text("WHEEL") or ""
     assert "cp310-abi3" in tags

@@ -29,9 +29,8 @@ def test_what_solve_finds_is_the_reference(name: str) -> None:
     assert s.idle_modes == expected["idle_modes"]
     stiffness = expected["output_stiffness"]
     if stiffness is None:
-        assert s.stiffness is None
+        assert np.isnan(s.stiffness).all()
     else:
-        assert s.stiffness is not None
         k = np.array(stiffness, dtype=float)
         scale = np.sqrt(np.outer(np.diag(k), np.diag(k)))
         assert np.max(np.abs(s.stiffness - k) / scale) < 1e-12
@@ -52,7 +51,6 @@ def test_what_solve_finds_is_the_reference(name: str) -> None:
     if pairs:
         largest = max(float(np.max(np.abs(own))) for _, own in pairs)
         for wrench, own in pairs:
-            assert wrench is not None
             assert np.max(np.abs(wrench - own)) <= 1e-8 * largest
 
 

@@ -96,6 +96,34 @@ def test_values_and_designs(delta: hs.Mechanism) -> None:
     assert bad.status.tolist() == ["ok", "ok", "design", "design"]
 
 
+def test_designs_are_columns(delta: hs.Mechanism) -> None:
+    """As in the command line's table: the number of the design and what varies, behind all others."""
+    sections = [hs.Circle(diameter=0.03), "Circle(diameter: 0.025)"]
+    t = delta.evaluate({"rod.section.diameter": [0.012, 0.014], "arm.section": sections}, grid(2))
+    assert t.columns[-3:] == ["design", "rod.section.diameter", "arm.section"]
+    assert t["design"].tolist() == [0] * 8 + [1] * 8
+    assert t["rod.section.diameter"].tolist() == [0.012] * 8 + [0.014] * 8
+    assert t["arm.section"][[0, 8]].tolist() == ["Circle(diameter: 0.03)", "Circle(diameter: 0.025)"]
+    assert np.array_equal(t.measure("rod.section.diameter"), t["rod.section.diameter"])
+    assert "design" not in delta.sweep(grid(2)).columns
+    pytest.importorskip("pandas")
+    assert list(t.to_pandas().groupby("design")["k33"].count()) == [8, 8]
+
+
+def test_columns_of_words_are_so_without_a_result(delta: hs.Mechanism) -> None:
+    columns = ["Stress", "Utilisation"]
+    strong = hs.Material(young=2.1e11, poisson=0.3, yield_=3.55e8)
+    delta = delta.with_values({"rod.material": strong})
+    some = delta.sweep([[0.0, 0.0, 0.5], [3.0, 0.0, 0.5]], columns=columns)
+    none = delta.sweep([[3.0, 0.0, 0.5]], columns=columns)
+    for name, own in none.further.items():
+        if name.endswith("_at"):
+            assert own.dtype == object and own.tolist() == [None]
+        else:
+            assert own.dtype == np.float64 and np.isnan(own).all()
+    assert some["stress_at"].dtype == object and isinstance(some["stress_at"][0], str)
+
+
 def test_drives_are_columns(examples: Path) -> None:
     m = hs.load(examples / "five_bar_sweep.ron", _first_job(examples / "five_bar_sweep.ron"))
     t = m.sweep()

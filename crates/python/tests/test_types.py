@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -36,6 +37,13 @@ def test_the_package_and_the_examples_are_typed(tmp_path: Path) -> None:
     )
     checked("mypy", "-p", "hyperstat", cwd=tmp_path)
     checked("mypy", *map(str, EXAMPLES), cwd=tmp_path)
+    # The lines of both READMEs, as they stand there.
+    for name in ("README.md", "crates/python/README.md"):
+        found = re.findall(r"```python\n(.*?)```", (ROOT / name).read_text(encoding="utf-8"), re.DOTALL)
+        assert found
+        for lines in found:
+            (tmp_path / "lines.py").write_text(lines, encoding="utf-8")
+            checked("mypy", "lines.py", cwd=tmp_path)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=[path.stem for path in EXAMPLES])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Optional
 
 
@@ -94,8 +96,8 @@ class ArgumentError(Error, ValueError):
         super().__init__(message, code=code, help=help, place=place)
 
 
-class SelectionError(Error, LookupError):
-    """A job, design, pose or case that there is not."""
+class SelectionError(Error, KeyError):
+    """A job, design, pose, case or column that there is not."""
 
 
 class PoseError(Error, ValueError):
@@ -146,6 +148,15 @@ def make(
     """The error of a code, for the core."""
     at = None if place is None else Place(*place)
     return _CLASSES.get(code, Error)(message, code=code, help=help, place=at)
+
+
+def unknown(what: str, name: object, known: Iterable[str], code: str) -> SelectionError:
+    """The error of a name that there is not."""
+    names = list(known)
+    near = get_close_matches(str(name), names, 1)
+    shown = ", ".join(names[:40]) + (", ..." if len(names) > 40 else "")
+    help = f"did you mean `{near[0]}`?" if near else f"there are {shown or 'none'}"
+    return SelectionError(f"there is no {what} `{name}`", code=code, help=help)
 
 
 def _again(

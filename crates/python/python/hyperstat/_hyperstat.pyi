@@ -1,6 +1,6 @@
 """The core. What users need is in `hyperstat`."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any, Optional, Union, final
@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 _Array = npt.NDArray[np.float64]
-_Pose = Union[_Array, Sequence[float], Mapping[str, float]]
+_Pose = Union[_Array, Sequence[float], dict[str, float]]
 _Value = Union[float, str]
 
 __all__ = ["Core", "Found", "Pose", "__version__", "column", "load", "measure", "measures", "parse", "prebuilt", "schema"]

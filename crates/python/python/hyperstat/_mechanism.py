@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import html
 import json
+import math
 from collections.abc import Callable, Mapping, Sequence
-from os import PathLike, fspath
+from operator import index
+from os import PathLike, fsdecode
 from pathlib import Path
 from typing import Any, ClassVar, Literal, Optional, Union
 
@@ -13,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hyperstat
-from ._data import Part, data, dumps, with_names
-from ._errors import ArgumentError, SelectionError
+from ._data import Part, data, dumps, is_masked, ron, with_names
+from ._errors import ArgumentError, Error, SelectionError
 from ._hyperstat import Core, Pose
 from ._solution import Solution
 from ._table import Table
@@ -55,6 +57,10 @@ class Mechanism:
     """
 
     _core: Core
+    # What it was made of, and what was done to it since: for pickle.
+    _made: tuple[Any, ...]
+    # Names and places of zeros of poses that were found to be ones.
+    _posed: set[tuple[object, ...]]
 
     def __init__(
         self,
@@ -65,16 +71,38 @@ class Mechanism:
         pose: int = 0,
         path: Optional[Union[str, PathLike[str]]] = None,
     ) -> None:
+        if not isinstance(source, (str, Mapping)):
+            raise ArgumentError(
+                f"`{source!r}` is no mechanism",
+                help="give the text or the data of a file, or read a file by `hyperstat.load(path)`",
+            )
         name = "text" if isinstance(source, str) else "data"
         text = source if isinstance(source, str) else dumps(with_names(source))
-        at = name if path is None else fspath(path)
-        self._core = _hyperstat.parse(text, at, job, *_chosen(design, pose))
+        at = name if path is None else _path(path)
+        self._make("parse", text, at, _job(job), *_chosen(design, pose))
 
-    @classmethod
-    def _of(cls, core: Core) -> Mechanism:
+    def _make(self, by: str, *arguments: Any) -> None:
+        self._core = getattr(_hyperstat, by)(*arguments)
+        self._made = (by, arguments)
+        self._posed = set()
+
+    def _changed(self, by: str, given: Any) -> Mechanism:
+        """What a method of the core makes of it."""
         new = Mechanism.__new__(Mechanism)
-        new._core = core
+        new._core = getattr(self._core, by)(given)
+        new._made = (*self._made, (by, given))
+        new._posed = set()
         return new
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _again, (type(self), self._made)
+
+    def __copy__(self) -> Mechanism:
+        # Nothing changes one.
+        return self
+
+    def __deepcopy__(self, memo: object) -> Mechanism:
+        return self
 
     # What it is.
 
@@ -156,14 +184,14 @@ class Mechanism:
         SelectionError
             There is no such case.
         """
-        if modes is not None and not 1 <= modes <= _MOST_MODES:
+        if modes is not None and not 1 <= _whole(modes, "natural frequencies") <= _MOST_MODES:
             raise ArgumentError(f"{modes} natural frequencies", help=f"ask for 1 to {_MOST_MODES}")
         word = along if isinstance(along, str) else None
-        direction = None if isinstance(along, str) else [float(number) for number in along]
+        direction = None if isinstance(along, str) else _direction(along)
         text = self._core.solve(
             verify, all_nodes, modes, mass, why, case, word, direction, allow_free
         )
-        return Solution(text, self._core)
+        return Solution(text, self)
 
     def check(self) -> dict[str, Any]:
         """Its counts, what may be a slip, and whether it can be solved.
@@ -190,10 +218,18 @@ class Mechanism:
         Pose
             With `status`, `stiffness` (6, 6), `displacement` (6,); NaN without a result.
         """
-        try:
-            return self._core.at(pose)  # type: ignore[arg-type]
-        except TypeError:
-            raise _no_pose(pose) from None
+        return self._core.at(self._one(pose))
+
+    def _one(self, pose: OnePose) -> Union[list[float], dict[str, float]]:
+        """A pose that `sweep` takes too: what a pose must be does not depend on those before it."""
+        names, numbers = _one_pose(pose)
+        given = numbers if names is None else dict(zip(names, numbers))
+        # What is right with a pose depends on its names and on what is zero of it alone.
+        like = (names, len(numbers), *(number == 0.0 for number in numbers))
+        if like not in self._posed or not all(map(math.isfinite, numbers)):
+            self._core.in_pose(given)
+            self._posed.add(like)
+        return given
 
     def sweep(
         self,
@@ -268,7 +304,9 @@ class Mechanism:
         Table
             Design by design, a row a pose; `table.by_design(array)` has the shape (d, n, ...).
         """
-        varied = [(path, [_value(own) for own in values]) for path, values in designs.items()]
+        if not isinstance(designs, Mapping):
+            raise ArgumentError(f"`{designs!r}` are no designs", help="give a mapping of paths to values")
+        varied = [(str(path), _values(path, values)) for path, values in designs.items()]
         return self._swept(poses, {"columns": columns}, varied, threads, False, progress)
 
     def _swept(
@@ -281,14 +319,13 @@ class Mechanism:
         progress: Progress,
     ) -> Table:
         table = None if poses is None else _columns(poses)
-        if threads < 0:
-            raise ArgumentError(f"{threads} threads", help="0 is one a core")
+        threads = _threads(threads)
         call, close = _reporter(progress)
         try:
             found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
         finally:
             close()
-        return Table(found)
+        return Table(found, designs or ())
 
     def value_and_gradient(
         self,
@@ -328,7 +365,13 @@ class Mechanism:
             A measure that there is not; a path that leads to no number.
         """
         table = None if poses is None else _columns(poses)
-        return self._core.value_and_gradient(measure, list(paths), table, case, threads)
+        if isinstance(paths, str):
+            raise ArgumentError(f"`{paths}` is one path", help=f'give a list of paths, `["{paths}"]`')
+        each = list(paths)
+        for what, word in (("measure", measure), *(("path", path) for path in each)):
+            if not isinstance(word, str):
+                raise ArgumentError(f"`{word!r}` is no {what}", help="give a text")
+        return self._core.value_and_gradient(measure, each, table, case, _threads(threads))
 
     # What it becomes.
 
@@ -338,7 +381,7 @@ class Mechanism:
         Parameters
         ----------
         values : mapping
-            Numbers (SI), or texts as they stand in a file, by path: `sections.rod.diameter`,
+            Numbers (SI), texts as they stand in a file, or parts such as `Circle`, by path: `sections.rod.diameter`,
             `rod.section.diameter` of a prebuilt mechanism, the name of a parameter.
 
         Raises
@@ -346,8 +389,10 @@ class Mechanism:
         InputError
             A path that leads nowhere, or what is wrong with the mechanism that the values make.
         """
-        given = [(path, _value(value)) for path, value in values.items()]
-        return self._of(self._core.with_values(given))
+        if not isinstance(values, Mapping):
+            raise ArgumentError(f"`{values!r}` are no values", help="give a mapping of paths to values")
+        given = [(str(path), _value(value)) for path, value in values.items()]
+        return self._changed("with_values", given)
 
     def with_loads(
         self,
@@ -373,7 +418,7 @@ class Mechanism:
             What means nothing, with its place in the argument.
         """
         all_fields = {"loads": loads, "cases": cases, **fields}
-        return self._of(self._core.with_fields(_json(all_fields)))
+        return self._changed("with_fields", _json(all_fields))
 
     def in_pose(self, pose: OnePose) -> Mechanism:
         """The same in another pose.
@@ -383,10 +428,8 @@ class Mechanism:
         pose
             As of `at`.
         """
-        try:
-            return self._of(self._core.in_pose(pose))  # type: ignore[arg-type]
-        except TypeError:
-            raise _no_pose(pose) from None
+        names, numbers = _one_pose(pose)
+        return self._changed("in_pose", numbers if names is None else dict(zip(names, numbers)))
 
     def to_ron(self) -> str:
         """It in its configuration as a mechanism file (RON)."""
@@ -405,7 +448,11 @@ class Mechanism:
         return f"<hyperstat.{type(self).__name__} {' '.join(parts)}>"
 
     def _repr_html_(self) -> str:
-        report = self.check()
+        try:
+            report = self.check()
+        except Error as error:
+            title = html.escape(repr(self)[1:-1])
+            return f"<b>{title}</b><p>{html.escape(error.message)}</p>"
         rows = [
             ("mobility", report.get("mobility")),
             ("over-constraint", report.get("overconstraint")),
@@ -433,7 +480,17 @@ class Prebuilt(Mechanism):
     def _set(self, **fields: Any) -> None:
         given = {self._words.get(name, name): data(own) for name, own in fields.items() if own is not None}
         kind = self._kind or ""
-        self._core = _hyperstat.prebuilt(dumps({kind: given}), kind)
+        self._data = {kind: given}
+        self._make("prebuilt", dumps(self._data), kind)
+
+    def to_data(self) -> dict[str, Any]:
+        """What stands in a JSON file as the mechanism of a job.
+
+        Returns
+        -------
+        dict
+        """
+        return dict(json.loads(json.dumps(self._data)))
 
     def _repr_html_(self) -> str:
         return html.escape(repr(self))
@@ -467,7 +524,16 @@ def load(
     SelectionError
         There is no such job, design or pose.
     """
-    return Mechanism._of(_hyperstat.load(fspath(path), job, *_chosen(design, pose)))
+    at = _path(path)
+    new = Mechanism.__new__(Mechanism)
+    chosen = (_job(job), *_chosen(design, pose))
+    new._make("load", at, *chosen)
+    try:
+        # A pickle has the text: the file may change or be elsewhere.
+        new._made = ("parse", (Path(at).read_bytes().decode("utf-8"), at, *chosen))
+    except (OSError, UnicodeDecodeError):
+        pass
+    return new
 
 
 def schema() -> str:
@@ -483,7 +549,7 @@ def measures() -> dict[str, tuple[str, str]]:
 def _chosen(design: int, pose: int) -> tuple[Optional[int], Optional[int]]:
     """What is chosen of a batch; nothing for the first, which a mechanism file has too."""
     for what, number in (("design", design), ("pose", pose)):
-        if number < 0:
+        if _whole(number, f"as the number of a {what}") < 0:
             raise SelectionError(
                 f"there is no {what} {number}", code=f"unknown-{what}", help="they are counted from 0"
             )
@@ -501,7 +567,7 @@ def _value(value: Any) -> Union[float, str]:
     if isinstance(value, str):
         return value
     if isinstance(value, Part):
-        return dumps(value.to_data())
+        return ron(value)
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -510,19 +576,133 @@ def _value(value: Any) -> Union[float, str]:
         ) from None
 
 
+def _values(path: object, values: Any) -> list[Union[float, str]]:
+    """Values of designs."""
+    if isinstance(values, (str, Part, Mapping)) or not hasattr(values, "__iter__") or np.ndim(values) == 0:
+        raise ArgumentError(
+            f"`{values!r}` are no values for `{path}`", help="give a sequence, one for each design"
+        )
+    return [_value(own) for own in values]
+
+
+def _whole(number: Any, what: str) -> int:
+    try:
+        return index(number)
+    except TypeError:
+        raise ArgumentError(f"`{number!r}` {what}", help="give a whole number") from None
+
+
+def _threads(threads: Any) -> int:
+    if _whole(threads, "threads") < 0:
+        raise ArgumentError(f"{threads} threads", help="0 is one a core")
+    return index(threads)
+
+
+def _direction(along: Any) -> list[float]:
+    try:
+        direction = [float(number) for number in along]
+    except (TypeError, ValueError):
+        direction = []
+    if len(direction) != 3:
+        raise ArgumentError(
+            f"`{along!r}` is no direction", help="give three numbers, or a word such as `displacement`"
+        )
+    return direction
+
+
+def _path(path: Any) -> str:
+    try:
+        return fsdecode(path)
+    except TypeError:
+        raise ArgumentError(f"`{path!r}` is no path", help="give a text or a `pathlib.Path`") from None
+
+
+def _job(job: Any) -> Optional[str]:
+    if job is not None and not isinstance(job, str):
+        raise ArgumentError(f"`{job!r}` is no job", help="give its name")
+    return job
+
+
+def _again(kind: type[Mechanism], made: tuple[Any, ...]) -> Mechanism:
+    """One that was pickled."""
+    by, arguments, *changes = made
+    new = kind.__new__(kind)
+    new._make(by, *arguments)
+    if isinstance(new, Prebuilt):
+        new._data = json.loads(arguments[0])
+    for change, given in changes:
+        new = new._changed(change, given)
+    return new
+
+
 def _json(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [(name, dumps(data(own))) for name, own in fields.items() if own is not None]
 
 
+def _numbers(given: Any) -> Array:
+    """An array of real numbers, all of them there."""
+    rows = given if isinstance(given, (list, tuple)) else ()
+    if any(is_masked(own) for own in (given, *rows)):
+        raise ArgumentError("a pose with masked entries", help="leave masked rows out")
+    try:
+        own = np.asarray(given)
+        if own.dtype.kind not in "fiubO":
+            raise ArgumentError(
+                f"poses of the type {own.dtype}", help="give real numbers: x, y, z [m], rx, ry, rz [rad]"
+            )
+        return np.asarray(own, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, ArgumentError):
+            raise
+        raise ArgumentError(f"poses that are no numbers: {error}") from None
+
+
+def _one_pose(pose: Any) -> tuple[Optional[tuple[str, ...]], list[float]]:
+    """Names, where it has them, and numbers."""
+    names: Optional[tuple[str, ...]] = None
+    given = pose
+    if isinstance(pose, Mapping):
+        names, given = tuple(map(str, pose)), list(pose.values())
+    elif hasattr(pose, "to_dict") and all(isinstance(name, str) for name in getattr(pose, "index", (0,))):
+        # A row of a DataFrame.
+        names = tuple(pose.index)
+    if isinstance(given, (list, tuple)) and all(type(own) in (float, int) for own in given):
+        return names, [float(own) for own in given]
+    try:
+        numbers = _numbers(given)
+    except ArgumentError:
+        raise _no_pose(pose) from None
+    if numbers.ndim != 1:
+        raise _no_pose(pose)
+    own: list[float] = numbers.tolist()
+    return names, own
+
+
+def _named(poses: Any) -> Optional[list[tuple[str, Any]]]:
+    """Columns of what has them by names: mappings, data frames, tables of Arrow."""
+    if isinstance(poses, Mapping):
+        return [(str(name), own) for name, own in poses.items()]
+    names = getattr(poses, "column_names", None) or getattr(poses, "columns", None)
+    if names is None or callable(names) or not any(isinstance(name, str) for name in names):
+        return None
+    return [(str(name), poses[name]) for name in names]
+
+
 def _columns(poses: Poses) -> tuple[list[str], Array]:
     """Names of columns, and rows."""
-    try:
-        if isinstance(poses, Mapping):
-            each = [np.asarray(own, dtype=np.float64).reshape(-1) for own in poses.values()]
-            return [str(name) for name in poses], np.stack(np.broadcast_arrays(*each), axis=1)
-        rows = np.asarray(poses, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise ArgumentError(f"poses that are no numbers: {error}") from None
+    named = _named(poses)
+    if named is not None:
+        if not named:
+            raise ArgumentError("poses without columns", help="give coordinates or drives by name")
+        each = [_numbers(own).reshape(-1) for _, own in named]
+        try:
+            return [name for name, _ in named], np.stack(np.broadcast_arrays(*each), axis=1)
+        except ValueError:
+            lengths = ", ".join(f"{name} {len(own)}" for (name, _), own in zip(named, each))
+            raise ArgumentError(
+                f"columns of different lengths: {lengths}", help="give every pose a number in each"
+            ) from None
+    rows = _numbers(poses)
     if rows.ndim != 2 or rows.shape[1] not in (3, 6):
         raise ArgumentError(
             f"poses of the shape {rows.shape}",

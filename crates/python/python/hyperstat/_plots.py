@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hyperstat
-from ._errors import ArgumentError
+from ._errors import ArgumentError, unknown
 
 if TYPE_CHECKING:
     from ._table import Table
@@ -24,6 +24,7 @@ def over_plane(
     table: Table,
     quantity: str,
     case: Optional[str],
+    design: Optional[int],
     plane: Mapping[str, float],
     log: bool,
     ax: Any,
@@ -33,8 +34,17 @@ def over_plane(
 
     values = table.measure(quantity, case)
     rows = np.ones(len(table), dtype=bool)
+    if design is not None:
+        if not 0 <= design < table.designs:
+            raise unknown("design", design, map(str, range(table.designs)), "unknown-design")
+        rows = np.arange(len(table)) // (len(table) // table.designs) == design
+    elif table.designs > 1:
+        raise ArgumentError(
+            f"{table.designs} designs in one map",
+            help="give `design=`, or draw rows of `table.by_design(...)`",
+        )
     for name, value in plane.items():
-        own = table[name]
+        own = table.measure(name)
         rows &= np.abs(own - value) <= _SAME * max(1.0, float(np.nanmax(np.abs(own))))
     if not rows.any():
         raise ArgumentError("no pose lies in this plane", help="give values that poses have")

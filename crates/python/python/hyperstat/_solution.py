@@ -6,12 +6,15 @@ import html
 import json
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
-from typing import Any, Generic, Optional, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Optional, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from ._hyperstat import Core
+from ._errors import unknown
+
+if TYPE_CHECKING:
+    from ._mechanism import Mechanism
 
 Array = npt.NDArray[np.float64]
 T = TypeVar("T")
@@ -20,13 +23,14 @@ T = TypeVar("T")
 class Named(Mapping[str, T], Generic[T]):
     """Results by name, each made when it is asked for."""
 
-    def __init__(self, found: Mapping[str, Any], make: Callable[[str, Any], T]) -> None:
+    def __init__(self, found: Mapping[str, Any], make: Callable[[str, Any], T], what: str) -> None:
         self._found = found
         self._make = make
+        self._what = what
 
     def __getitem__(self, name: str) -> T:
         if name not in self._found:
-            raise KeyError(f"{name!r}; there are {', '.join(self._found) or 'none'}")
+            raise unknown(self._what, name, self._found, f"unknown-{self._what}")
         return self._make(name, self._found[name])
 
     def __iter__(self) -> Iterator[str]:
@@ -45,8 +49,8 @@ class JointResult:
     Attributes
     ----------
     name : str
-    wrench : (6,) ndarray or None
-        On the second body of `between`, at the joint, in the joint frame [N, N·m]; None where redundant
+    wrench : (6,) ndarray
+        On the second body of `between`, at the joint, in the joint frame [N, N·m]; NaN where redundant
         rigid constraints leave it undetermined.
     data : dict
         All that the JSON has of it.
@@ -56,7 +60,7 @@ class JointResult:
         self.name = name
         self.data = dict(found)
         wrench = found.get("wrench")
-        self.wrench: Optional[Array] = None if wrench is None else np.array(wrench, dtype=np.float64)
+        self.wrench: Array = np.full(6, np.nan) if wrench is None else np.array(wrench, dtype=np.float64)
 
     def __repr__(self) -> str:
         return f"<hyperstat.JointResult {self.name!r} wrench={self.wrench}>"
@@ -87,12 +91,12 @@ class State:
     @cached_property
     def displacements(self) -> Mapping[str, Array]:
         """Displacements of the nodes [m, rad], global, by `body.point`; shape (6,) each."""
-        return Named(self._found["displacements"], lambda _, own: np.array(own, dtype=np.float64))
+        return Named(self._found["displacements"], _vector, "node")
 
     @cached_property
     def joints(self) -> Mapping[str, JointResult]:
         """Joints by name."""
-        return Named(self._found["joints"], JointResult)
+        return Named(self._found["joints"], JointResult, "joint")
 
     @property
     def bodies(self) -> dict[str, Any]:
@@ -123,8 +127,8 @@ class Solution(State):
 
     Attributes
     ----------
-    stiffness, compliance : (6, 6) ndarray or None
-        Of the output [N/m, N/rad; N, N·m/rad] and [m/N, 1/N; rad/N, rad/(N·m)], global; None where it is
+    stiffness, compliance : (6, 6) ndarray
+        Of the output [N/m, N/rad; N, N·m/rad] and [m/N, 1/N; rad/N, rad/(N·m)], global; NaN where it is
         held rigidly in some direction, or moves freely.
     displacement : (6,) ndarray
         Of the output under the loads [m, rad], global.
@@ -137,24 +141,24 @@ class Solution(State):
     warnings : list of str
     """
 
-    def __init__(self, text: str, core: Core) -> None:
+    def __init__(self, text: str, mechanism: Mechanism) -> None:
         super().__init__(json.loads(text))
-        self._core = core
+        self._mechanism = mechanism
 
     @cached_property
-    def stiffness(self) -> Optional[Array]:
+    def stiffness(self) -> Array:
         """Stiffness of the output [N/m, N/rad; N, N·m/rad], global; shape (6, 6)."""
         return _matrix(self._found["output"]["stiffness"])
 
     @cached_property
-    def compliance(self) -> Optional[Array]:
+    def compliance(self) -> Array:
         """Compliance of the output [m/N, 1/N; rad/N, rad/(N·m)], global; shape (6, 6)."""
         return _matrix(self._found["output"]["compliance"])
 
     @cached_property
     def cases(self) -> Mapping[str, CaseResult]:
         """Load cases by name."""
-        return Named(self._found.get("cases", {}), CaseResult)
+        return Named(self._found.get("cases", {}), CaseResult, "case")
 
     @property
     def name(self) -> str:
@@ -215,13 +219,13 @@ class Solution(State):
         """
         from ._plots import deformed
 
-        return deformed(self._core.vtu(), self.name, ax, scale)
+        return deformed(self._mechanism._core.vtu(), self.name, ax, scale)
 
     def to_pyvista(self) -> Any:
         """The mechanism and its results as an unstructured grid of pyvista."""
         from ._plots import pyvista_grid
 
-        return pyvista_grid(self._core.vtu())
+        return pyvista_grid(self._mechanism._core.vtu())
 
     def __repr__(self) -> str:
         return (
@@ -232,7 +236,7 @@ class Solution(State):
     def _repr_html_(self) -> str:
         title = f"<b>{html.escape(self.name)}</b>"
         k = self.stiffness
-        if k is None:
+        if not np.isfinite(k).all():
             return title + "<p>held rigidly in some direction</p>"
         head = "".join(f"<th>{own}</th>" for own in ("Δx", "Δy", "Δz", "φx", "φy", "φz"))
         names = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
@@ -244,5 +248,9 @@ class Solution(State):
         return f"{title}<table><caption>{unit}</caption><tr><th></th>{head}</tr>{rows}</table>"
 
 
-def _matrix(rows: Any) -> Optional[Array]:
-    return None if rows is None else np.array(rows, dtype=np.float64)
+def _matrix(rows: Any) -> Array:
+    return np.full((6, 6), np.nan) if rows is None else np.array(rows, dtype=np.float64)
+
+
+def _vector(_: str, own: Any) -> Array:
+    return np.array(own, dtype=np.float64)

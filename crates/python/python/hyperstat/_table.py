@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, Optional
+from typing import Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _hyperstat
+from ._errors import ArgumentError, unknown
 from ._hyperstat import Found
 
 Array = npt.NDArray[np.float64]
 
 _COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 _DISPLACEMENT = ("dx", "dy", "dz", "drx", "dry", "drz")
+# The columns that hold words, of the cases too.
+_WORDS = ("stress_at", "utilisation_at")
+
+
+class Cases(dict[str, "CaseTable"]):
+    """Load cases by name."""
+
+    def __missing__(self, name: str) -> CaseTable:
+        raise unknown("case", name, self, "unknown-case")
 
 
 class CaseTable:
@@ -57,11 +67,15 @@ class Table:
         Values of the drives that the poses are, by `joint.direction`.
     further : dict
         Columns that were asked for, by name.
+    varied : dict
+        Of `Mechanism.evaluate`: `design`, the number of the design from 0, and its values by path.
     why : dict of str
         Of every status but `ok` why its first row has no result.
     """
 
-    def __init__(self, found: Found) -> None:
+    def __init__(
+        self, found: Found, varied: Sequence[tuple[str, Sequence[Union[float, str]]]] = ()
+    ) -> None:
         self.pose: Array = found.pose
         self.stiffness: Array = found.stiffness
         self.displacement: Array = found.displacement
@@ -70,18 +84,25 @@ class Table:
         self._words = [word for word, _ in found.words]
         self.why: dict[str, str] = {word: why for word, why in found.words if why is not None}
         columns: list[tuple[str, Any]] = [
-            (name, own if isinstance(own, np.ndarray) else np.array(own, dtype=object))
-            for name, own in found.further
+            (name, _column(name, own)) for name, own in found.further
         ]
         names, values = found.drives
         self.drives: dict[str, Array] = {name: values[:, k] for k, name in enumerate(names)}
         known = 6 * len(found.cases)
-        self.cases: dict[str, CaseTable] = {
-            name: CaseTable(name, np.stack([own for _, own in columns[6 * k : 6 * k + 6]], axis=1))
+        self.cases: dict[str, CaseTable] = Cases(
+            (name, CaseTable(name, np.stack([own for _, own in columns[6 * k : 6 * k + 6]], axis=1)))
             for k, name in enumerate(found.cases)
-        }
+        )
         self.further: dict[str, Any] = dict(columns[known:])
         self._all = dict(columns)
+        each = len(self) // max(self.designs, 1)
+        self.varied: dict[str, Any] = {}
+        if varied:
+            self.varied["design"] = np.repeat(np.arange(self.designs), each)
+        for path, given in varied:
+            texts = any(isinstance(value, str) for value in given)
+            own = np.array(list(given), dtype=object if texts else np.float64)
+            self.varied[path] = np.repeat(own, each)
 
     @cached_property
     def status(self) -> npt.NDArray[np.str_]:
@@ -115,17 +136,51 @@ class Table:
         name : str
             Of `hyperstat.measures()`, such as `deflection` or `softest_force`, or a column.
         case : str, optional
-            The case whose displacement it is of.
+            The case whose displacement it is of; of a column the case's, `push.stress`.
 
         Returns
         -------
         (n,) ndarray
             SI; NaN without a result.
+
+        Raises
+        ------
+        ArgumentError
+            Neither a measure nor a column of numbers, or not one of a case.
+        SelectionError
+            There is no such case.
         """
-        if name in self:
-            return np.asarray(self[name], dtype=np.float64)
-        displacement = self.displacement if case is None else self.cases[case].displacement
+        if not isinstance(name, str):
+            raise ArgumentError(f"`{name!r}` is no measure", help="give its name")
+        if case is None:
+            if self._has(name):
+                return self._numbers(name)
+            return _hyperstat.measure(name, self.stiffness, self.displacement)
+        displacement = self.cases[case].displacement
+        if name in _DISPLACEMENT:
+            return displacement[:, _DISPLACEMENT.index(name)]
+        if f"{case}.{name}" in self._all:
+            return self._numbers(f"{case}.{name}")
+        if name in _measures():
+            return _hyperstat.measure(name, self.stiffness, displacement)
+        # These are of the mechanism, whatever loads it.
+        if name in _COORDINATES or name in self.drives or name in self.varied or _entry(name):
+            return self._numbers(name)
+        if self._has(name):
+            raise ArgumentError(
+                f"the column `{name}` is not of a case", help="leave `case` out, or give a measure"
+            )
         return _hyperstat.measure(name, self.stiffness, displacement)
+
+    def _has(self, name: str) -> bool:
+        return name in self or _entry(name) is not None
+
+    def _numbers(self, name: str) -> Array:
+        """A column that holds numbers."""
+        own = np.asarray(self[name])
+        if own.dtype.kind not in "fiu":
+            raise ArgumentError(f"the column `{name}` holds words", help="give one of numbers, or a measure")
+        return own.astype(np.float64)
 
     def by_design(self, rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """Rows as designs and poses: of (d·n, ...) an array (d, n, ...)."""
@@ -137,7 +192,8 @@ class Table:
     def columns(self) -> list[str]:
         """Names of the columns, as in the command line's table after `pose`."""
         stiffness = [f"k{r}{c}" for r in range(1, 7) for c in range(r, 7)]
-        return [*_COORDINATES, "status", *_DISPLACEMENT, *stiffness, *self._all, *self.drives]
+        own = [*_COORDINATES, "status", *_DISPLACEMENT, *stiffness, *self._all, *self.drives]
+        return own + list(self.varied)
 
     def __getitem__(self, name: str) -> Any:
         if name == "status":
@@ -146,13 +202,13 @@ class Table:
             return self.pose[:, _COORDINATES.index(name)]
         if name in _DISPLACEMENT:
             return self.displacement[:, _DISPLACEMENT.index(name)]
-        if len(name) == 3 and name[0] == "k" and set(name[1:]) <= set("123456"):
-            return self.stiffness[:, int(name[1]) - 1, int(name[2]) - 1]
-        if name in self._all:
-            return self._all[name]
-        if name in self.drives:
-            return self.drives[name]
-        raise KeyError(name)
+        entry = _entry(name)
+        if entry is not None:
+            return self.stiffness[:, entry[0], entry[1]]
+        for columns in (self._all, self.drives, self.varied):
+            if name in columns:
+                return columns[name]
+        raise unknown("column", name, self.columns, "unknown-column")
 
     def __contains__(self, name: object) -> bool:
         return name in self.columns
@@ -201,7 +257,7 @@ class Table:
         }
         for name, case in self.cases.items():
             found[f"{name}.displacement"] = (("row", "i"), case.displacement, {"unit": "m, rad"})
-        for name, own in {**self.further, **self.drives}.items():
+        for name, own in {**self.further, **self.drives, **self.varied}.items():
             found[name] = ("row", own, {"unit": _hyperstat.column(name)[0]})
         return xarray.Dataset(found, coords=axes)
 
@@ -210,6 +266,7 @@ class Table:
         quantity: str = "deflection",
         *,
         case: Optional[str] = None,
+        design: Optional[int] = None,
         plane: Optional[Mapping[str, float]] = None,
         log: bool = False,
         ax: Any = None,
@@ -221,7 +278,9 @@ class Table:
         quantity : str
             A measure or a column.
         case : str, optional
-            The case whose displacement it is of.
+            The case whose displacement it is of, as of `measure`.
+        design : int, optional
+            Of several designs the one that is drawn, from 0.
         plane : mapping, optional
             Coordinates that are held, such as `{"z": 0.5}`: rows elsewhere are left out.
         log : bool
@@ -234,7 +293,7 @@ class Table:
         """
         from ._plots import over_plane
 
-        return over_plane(self, quantity, case, plane or {}, log, ax)
+        return over_plane(self, quantity, case, design, plane or {}, log, ax)
 
     def _count(self) -> str:
         words, counts = np.unique(self.status, return_counts=True)
@@ -258,3 +317,23 @@ class Table:
         )
         title = html.escape(repr(self)[1:-1])
         return f"<table><caption>{title}</caption><tr>{head}</tr>{rows}</table>"
+
+
+def _column(name: str, own: Any) -> Any:
+    """A further column; words even where no row has one."""
+    if not isinstance(own, np.ndarray):
+        return np.array(own, dtype=object)
+    if name.rsplit(".", 1)[-1] in _WORDS and np.isnan(own).all():
+        return np.full(len(own), None, dtype=object)
+    return own
+
+
+def _entry(name: str) -> Optional[tuple[int, int]]:
+    """Row and column, from 0, of an entry of the stiffness, `k11` to `k66`."""
+    if isinstance(name, str) and len(name) == 3 and name[0] == "k" and set(name[1:]) <= set("123456"):
+        return int(name[1]) - 1, int(name[2]) - 1
+    return None
+
+
+def _measures() -> set[str]:
+    return {name for name, _, _ in _hyperstat.measures()}
