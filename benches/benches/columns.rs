@@ -19,7 +19,7 @@ const COLUMNS: [(&str, &str); 10] = [
     ("Wrench of a joint", "Wrench(\"A1\")"),
     ("Stress", "Stress"),
     ("Budget", "Budget"),
-    ("Frequencies", "Frequencies(3)"),
+    ("Frequencies", "Frequencies(count: 3)"),
     (
         "all but frequencies",
         "Drives, DriveForces, Wrench(\"A1\"), Stress, Mass, Measures, Budget",
