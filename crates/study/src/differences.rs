@@ -89,7 +89,10 @@ impl Gradient {
             paths: paths.len(),
         };
         for (place, path) in paths.iter().enumerate() {
-            if known.iter().any(|own| is_named(own, path) && !own.by_differences) {
+            if known
+                .iter()
+                .any(|own| is_named(own, path) && !own.by_differences)
+            {
                 gradient.exact.0.push(place);
                 gradient.exact.1.push(path.clone());
                 continue;
