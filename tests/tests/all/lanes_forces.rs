@@ -194,13 +194,13 @@ fn a_budget_under_a_moment_alone_is_of_the_rotation() {
 fn a_joint_of_singular_stiffness_has_its_budget_one_by_one() {
     let text = r#"(
         name: "bush",
+        sections: { "arm": Circle(diameter: 0.02), "stay": Circle(diameter: 0.01) },
+        materials: { "steel": (young: 2.1e11, poisson: 0.3) },
         points: { "A": (0.0, 0.0, 0.0), "B": (0.5, 0.0, 0.0), "C": (0.6, 0.1, 0.0) },
         bodies: {
-            "arm": Beam(through: ["A", "B"], section: Circle(diameter: 0.02),
-                        material: (young: 2.1e11, poisson: 0.3)),
+            "arm": Beam(through: ["A", "B"], section: "arm", material: "steel"),
             "plate": Rigid(points: ["B", "C"]),
-            "stay": Beam(through: ["A", "C"], section: Circle(diameter: 0.01),
-                         material: (young: 2.1e11, poisson: 0.3)),
+            "stay": Beam(through: ["A", "C"], section: "stay", material: "steel"),
         },
         joints: {
             "wall": (at: "A", between: ("ground", "arm"), kind: Fixed),
