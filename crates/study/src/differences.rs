@@ -153,7 +153,11 @@ impl Gradient {
         poses: Range<usize>,
         threads: &Threads,
     ) -> Result<(Vec<f64>, Vec<f64>), StudyError> {
-        let (values, found) = self.values(&self.job, &poses, threads, self.sought())?;
+        let (mut values, found) = self.values(&self.job, &poses, threads, self.sought())?;
+        if values.iter().any(|value| value.is_nan()) && !self.parameters.is_empty() {
+            // Weight that changes may move what the weight itself does not.
+            (values, _) = self.values(&self.job, &poses, threads, None)?;
+        }
         let mut slopes = vec![f64::NAN; values.len() * self.paths];
         let rows = slopes.chunks_exact_mut(self.paths.max(1));
         for (row, found) in rows.zip(found.chunks_exact(self.parameters.len().max(1))) {
@@ -211,7 +215,12 @@ impl Gradient {
             parts: Vec::new(),
         };
         let wanted: Vec<Parameter> = parts.iter().map(|(own, _)| own.clone()).collect();
-        let slopes = model.map(|model| Slopes::new(model, &wanted));
+        let of_loads = self.quantity.is_of_loads();
+        let slopes = model.map(|model| {
+            let mut model = model.clone();
+            Slopes::add_cases(&mut model, &wanted)?;
+            Slopes::new(&model, &wanted, of_loads)
+        });
         if let Some(Ok(Some(_))) = slopes {
             for (parameter, weight) in parts {
                 let known = self.parameters.iter().position(|own| own == parameter);

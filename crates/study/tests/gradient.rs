@@ -190,7 +190,9 @@ fn number_at(job: &Job, path: &str) -> f64 {
 }
 
 fn batch(text: &str) -> Vec<Job> {
-    batch_from_str(text, "batch.ron".as_ref(), &Disk, &Registry::builtin()).unwrap().jobs
+    batch_from_str(text, "batch.ron".as_ref(), &Disk, &Registry::builtin())
+        .unwrap()
+        .jobs
 }
 
 const LANES: &str = r#"(
@@ -229,11 +231,13 @@ const LANES: &str = r#"(
             name: "three-prs",
             mechanism: ThreePrs(
                 rails: (radius: 0.4, tilt: 0.0, travel: 0.8, carriage: Near), platform_radius: 0.25, rod_length: 0.5,
-                rod: (section: Rectangle(width: 0.06, height: 0.04), material: (young: 2.1e11, poisson: 0.3)),
+                rod: (section: Rectangle(width: 0.06, height: 0.04), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
                 joint_stiffness: (x: 3e8, y: 3e8, z: 3e8, u: 5e5, w: 5e5),
                 drive_stiffness: 5e7,
             ),
             poses: List([(z: 0.9, rx: 0.1, ry: 0.2)]),
+            gravity: (0.5, 0.0, -9.81),
+            masses: [(on: ("platform", "P"), mass: 12.0)],
             loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))],
             cases: { "push": [(on: ("platform", "P"), force: (0.0, 100.0, 0.0))] },
         ),
