@@ -255,10 +255,12 @@ fn weight_change(model: &Model, varied: &Varied) -> Option<Option<LoadSet>> {
     let gravity = model.gravity();
     let per_mass = Vector6::new(gravity.x, gravity.y, gravity.z, 0.0, 0.0, 0.0);
     let mut loads = LoadSet::default();
-    if let Parameter::Mass { mass, inertia } = varied.parameter {
-        if !inertia {
-            loads = LoadSet::on(model.masses()[mass].node, per_mass);
-        }
+    if let Parameter::Mass {
+        mass,
+        inertia: false,
+    } = varied.parameter
+    {
+        loads = LoadSet::on(model.masses()[mass].node, per_mass);
     }
     for (id, change) in &varied.segments {
         let segment = &model.segments()[id.0];
