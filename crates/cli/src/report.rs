@@ -1,12 +1,15 @@
 //! `hyperstat report`: a page of everything.
 
-use hyperstat_mechanisms::{Disk, Registry};
+use hyperstat_mechanisms::{Disk, Job, Registry};
 use hyperstat_study::sweep::Threads;
 use hyperstat_study::{Input, Page, Selection, Study, StudyError};
 
 use crate::args::Report;
 use crate::error::CliError;
 use crate::outputs;
+
+/// Poses that are looked at for one that the mechanism can take.
+const LOOKED_AT: usize = 1000;
 
 /// The page, which goes to standard output where it is not written to a file.
 pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, CliError> {
@@ -38,11 +41,9 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
             for job in batch.jobs.into_iter().filter(|job| is_chosen(&job.name)) {
                 let Selection { design, pose, .. } = selection;
                 let design = design.unwrap_or_else(|| job.first_design());
-                let study = match Study::of_job(job.clone(), design, pose.unwrap_or(0)) {
-                    // Its table says so.
-                    Err(StudyError::Pose { .. }) if pose.is_none() => None,
-                    // What is chosen wrongly is told before the job is run.
-                    other => Some(other?),
+                let study = match pose {
+                    Some(pose) => Some(Study::of_job(job.clone(), design, pose)?),
+                    None => first_in_reach(&job, design)?,
                 };
                 page.add_job(&job, &threads)?;
                 if let Some(mut study) = study {
@@ -57,5 +58,18 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
         return Ok(Some(html));
     };
     outputs::write(out, html.as_bytes())?;
+    Ok(None)
+}
+
+/// A design of a job at the first of its poses that it can take; `None` where that is none of those that are
+/// looked at. What is chosen wrongly is told before the job is run.
+fn first_in_reach(job: &Job, design: usize) -> Result<Option<Study>, StudyError> {
+    for pose in 0..job.len().min(LOOKED_AT) {
+        match Study::of_job(job.clone(), design, pose) {
+            // Its table says so.
+            Err(StudyError::Pose { .. }) => {}
+            other => return other.map(Some),
+        }
+    }
     Ok(None)
 }

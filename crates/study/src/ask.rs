@@ -1,7 +1,9 @@
 //! What can be asked of a study: its solution as an answer with everything that belongs to it, a
 //! check, its natural frequencies, and a comparison with the independent solver.
 
-use hyperstat_assembly::{BeamMass, ModalOptions, ModalPlan, Modes, Solution};
+use hyperstat_assembly::{
+    BeamMass, ModalOptions, ModalPlan, Model, Modes, NodeMass, Solution,
+};
 use hyperstat_mechanisms::Along;
 use hyperstat_reference::ReferenceSolution;
 
@@ -150,7 +152,8 @@ impl Study {
         }
         let options = self.modal_options(None, None);
         let options = options.unwrap_or_else(|| ModalOptions::lowest(USUAL));
-        self.prepared.modal(&options).is_ok().then_some(options)
+        let possible = has_mass(self.model()) && self.prepared.modal(&options).is_ok();
+        possible.then_some(options)
     }
 
     /// Natural frequencies \[Hz\] and modes.
@@ -233,4 +236,12 @@ impl Study {
         report.add_frequencies(FrequencyReport::all(self, &found, options), found.complete);
         Ok(())
     }
+}
+
+/// Whether anything of a model has mass.
+fn has_mass(model: &Model) -> bool {
+    let is_heavy = |mass: &NodeMass| mass.mass.mass() > 0.0 || mass.mass.inertia().amax() > 0.0;
+    let segments = model.segments().iter();
+    let mut densities = segments.filter_map(|segment| segment.material.density());
+    model.masses().iter().any(is_heavy) || densities.any(|density| density > 0.0)
 }

@@ -225,6 +225,66 @@ fn lengths_are_among_what_is_listed() {
     }
 }
 
+/// A plate on three copied legs, the second of which has one stiffness and one mass of its own: a path
+/// stands for all values that `vary` reaches by it.
+#[test]
+fn a_path_of_copies_stands_for_all_that_it_reaches() {
+    let text = r#"(
+        name: "plate",
+        parameters: { "ku": 2e5 },
+        points: { "P": (0.0, 0.0, 0.5) },
+        sections: { "round": Circle(diameter: 0.02) },
+        materials: { "steel": (young: 2e11, poisson: 0.3, density: 7800.0) },
+        groups: { "leg": (
+            points: { "A": (0.4, 0.0, 0.0), "B": (0.2, 0.0, 0.5) },
+            bodies: { "leg": Beam(through: ["A", "B"], section: "round", material: "steel") },
+            joints: {
+                "foot": (at: "A", between: ("ground", "leg"), kind: Fixed, stiffness: (x: 1e7, y: 3e7, z: 2e7, u: "= ku", v: "= ku", w: 4e5)),
+                "top": (at: "B", between: ("leg", "plate"), kind: Fixed),
+            },
+            masses: [(on: ("leg", "B"), mass: 3.0, inertia: (0.1, 0.2, 0.3))],
+        ) },
+        copies: { "leg": (places: Turned(axis: (0.0, 0.0, 1.0), count: 3), overrides: { "2": {
+            "joints.foot.stiffness.y": 1e7, "masses.0.inertia": (0.2, 0.2, 0.2),
+        } }) },
+        bodies: { "plate": Rigid(points: ["B1", "B2", "B3", "P"]) },
+        gravity: (3.0, 1.0, -9.81),
+        loads: [(on: ("plate", "P"), force: (100.0, 50.0, 0.0), moment: (0.0, 0.0, 9.0))],
+        output: ("plate", "P"),
+    )"#;
+    let job = job(text);
+    let mut study = Study::of_job(job.clone(), 0, 0).unwrap();
+    let listed = study.sensitivities(None).unwrap();
+    let mut seen = Vec::new();
+    for own in listed.iter().filter(|own| !own.by_differences) {
+        let Ok(value) = job.number_at(0, &own.parameter) else {
+            continue;
+        };
+        seen.push(own.parameter.as_str());
+        // By one value more and one less.
+        let at = |value: f64| {
+            let changed = job.with_values(0, &[(own.parameter.as_str(), Value::Number(value))]);
+            let study = Study::of_job(changed.unwrap(), 0, 0).unwrap();
+            study.solve().unwrap().output.displacement
+        };
+        let step = 1e-3 * value;
+        let central = |h: f64| (at(value + h) - at(value - h)) / (2.0 * h);
+        let expected = (central(step) * 4.0 - central(2.0 * step)) / 3.0;
+        for (k, slope) in own.displacement.unwrap().iter().enumerate() {
+            let off = (slope - expected[k]).abs();
+            assert!(off < 1e-8 * expected.amax(), "{} {k}: {slope} {}", own.parameter, expected[k]);
+        }
+    }
+    for path in [
+        "parameters.ku",
+        "groups.leg.joints.foot.stiffness.w",
+        "groups.leg.joints.foot.stiffness.y",
+        "copies.leg.overrides.2.joints.foot.stiffness.y",
+    ] {
+        assert!(seen.contains(&path), "{path}: {seen:?}");
+    }
+}
+
 fn number_at(job: &Job, path: &str) -> f64 {
     job.number_at(0, path).unwrap()
 }

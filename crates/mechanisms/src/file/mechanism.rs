@@ -176,7 +176,9 @@ impl Mechanism {
     /// # Panics
     /// If a joint is not one of this mechanism's model.
     pub fn stiffness_path(&self, joints: &[JointId], direction: Dof) -> Option<String> {
-        let path = |joint: &JointId| self.copies.joint(&self.model.joints()[joint.0].name);
+        let letter = value_names::letter(direction);
+        let name = |joint: &JointId| &self.model.joints()[joint.0].name;
+        let path = |joint: &JointId| self.copies.stiffness(name(joint), letter);
         let path = value_names::together(joints.iter().map(path), direction)?;
         let name = Source::argument("path", format!("{path:?}"), None);
         let found = paths::find_all(&self.root, Fragment::at(&Place::whole(&name)));

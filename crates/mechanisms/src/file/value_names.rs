@@ -41,11 +41,26 @@ pub(crate) fn of_file(
             JointStiffness::Matrix(_) => None,
         }
     };
-    let mut written = HashMap::<_, HashSet<String>>::new();
-    for joint in (0..model.joints().len()).map(JointId) {
-        let path = copies.joint(&model.joints()[joint.0].name);
-        written.entry(alike(model, joint)).or_default().insert(path);
+    let path = |model: &Model, joint: JointId, direction: Dof| {
+        copies.stiffness(&model.joints()[joint.0].name, letter(direction))
+    };
+    let directions = |joint| Dof::ALL.map(|direction| (joint, direction));
+    let all = (0..model.joints().len()).map(JointId).flat_map(directions);
+    let mut written = HashMap::<_, HashSet<Option<String>>>::new();
+    for (joint, direction) in all.clone() {
+        let key = (alike(model, joint), direction);
+        let path = path(model, joint, direction);
+        written.entry(key).or_default().insert(path);
     }
+    let is_single = |model: &Model, joint, direction| {
+        let all = written.get(&(alike(model, joint), direction));
+        all.is_some_and(|all| all.len() == 1)
+    };
+    // A name is that of all values at its path, or of none.
+    let shared: HashSet<String> = (all)
+        .filter(|(joint, direction)| !is_single(model, *joint, *direction))
+        .filter_map(|(joint, direction)| path(model, joint, direction))
+        .collect();
     let values = model.values().into_iter().map(|(place, _)| place);
     let masses = (0..model.masses().len()).filter(|_| masses);
     let places = values.chain(masses.map(|mass| ValuePlace::Mass { mass }));
@@ -72,13 +87,10 @@ pub(crate) fn of_file(
                 own.map(|own| format!("materials.{}.{constant}", own.material))
             }
             ValuePlace::Stiffness { joint, direction } => {
-                let path = copies.joint(&model.joints()[joint.0].name);
-                let single = written
-                    .get(&alike(model, joint))
-                    .is_some_and(|all| all.len() == 1);
-                single.then(|| format!("{path}.stiffness.{}", letter(direction)))
+                let path = path(model, joint, direction);
+                path.filter(|path| !shared.contains(path))
             }
-            ValuePlace::Mass { mass } => Some(format!("{}.mass", copies.mass(mass))),
+            ValuePlace::Mass { mass } => copies.mass(mass),
         };
         if let Some(path) = path.filter(|path| paths.contains(path)) {
             model.name_value(place, path);
@@ -86,11 +98,16 @@ pub(crate) fn of_file(
     }
 }
 
-/// The path of one stiffness of joints with these paths, which copies of a joint share; `None` where they are
-/// not several, and of a name that no group of a path can hold.
-pub(crate) fn together(joints: impl Iterator<Item = String>, direction: Dof) -> Option<String> {
+/// The path of one stiffness of joints, of which these are the paths of each one's, which copies of a joint share;
+/// `None` where they are not several, and of a name that no group of a path can hold.
+pub(crate) fn together(
+    joints: impl Iterator<Item = Option<String>>,
+    direction: Dof,
+) -> Option<String> {
+    let end = format!(".stiffness.{}", letter(direction));
     let mut paths: Vec<String> = Vec::new();
     for path in joints {
+        let path = path?.strip_suffix(&end)?.to_owned();
         if path.contains(['{', '|', '}']) || path.trim() != path {
             return None;
         }
@@ -105,13 +122,12 @@ pub(crate) fn together(joints: impl Iterator<Item = String>, direction: Dof) -> 
     // Names may hold dots: what is before them is the same for all, or is named with them.
     let before = if own("joints.") { "joints." } else { "" };
     let names: Vec<&str> = paths.iter().map(|path| &path[before.len()..]).collect();
-    let letter = letter(direction);
     let names = names.join("|");
-    Some(format!("{before}{{{names}}}.stiffness.{letter}"))
+    Some(format!("{before}{{{names}}}{end}"))
 }
 
 /// The letter of a direction in files.
-fn letter(direction: Dof) -> &'static str {
+pub(crate) fn letter(direction: Dof) -> &'static str {
     ["x", "y", "z", "u", "v", "w"][direction.index()]
 }
 

@@ -221,6 +221,12 @@ fn resolved(field: &str, value: Json, shared: &[Map<String, Json>; 2]) -> Json {
 
 /// Whether two values are the same but for rounding, beside numbers of a size.
 fn same(a: &Json, b: &Json, size: f64) -> bool {
+    if let (Json::Array(first), Json::Array(second)) = (a, b)
+        && first.iter().chain(second).any(Json::is_array)
+    {
+        let mut pairs = first.iter().zip(second);
+        return first.len() == second.len() && pairs.all(|(a, b)| same(a, b, size));
+    }
     let numbers = |value: &Json| match value {
         Json::Array(items) => items.iter().map(Json::as_f64).collect(),
         value => value.as_f64().map(|number| vec![number]),

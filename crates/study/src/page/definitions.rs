@@ -50,8 +50,8 @@ const WORDS: [(&str, &str); 12] = [
     ),
     (
         "what more of a parameter changes",
-        "Relative change of the whole of the budget per relative change of the parameter, exact to first \
-         order.",
+        "Relative change of the whole of the budget per relative change of the parameter: exact to first \
+         order, or, where it says so, by differences of four designs beside this one.",
     ),
     (
         "natural frequencies",

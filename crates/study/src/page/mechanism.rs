@@ -164,7 +164,10 @@ fn sums(by: &str, budget: &BudgetReport, sums: &[Sum]) -> Markup {
 fn sensitive(sensitivities: &[SensitivityReport]) -> Markup {
     let told = &sensitivities[..sensitivities.len().min(PARAMETERS)];
     let row = |of: &SensitivityReport| Row {
-        words: vec![of.parameter.clone()],
+        words: vec![match of.by_differences {
+            true => format!("{} (by differences)", of.parameter),
+            false => of.parameter.clone(),
+        }],
         numbers: vec![Some(of.value), of.relative],
         ..Row::default()
     };

@@ -71,7 +71,7 @@ pub(crate) const DEFORMATIONS: [(Deformation, &str); 9] = [
     (Deformation::Tension, "tension"),
     (Deformation::FreeStrain, "free strain"),
     (Deformation::Flexible, "flexible body"),
-    (Deformation::Bearing, "joint bearing"),
+    (Deformation::Bearing, "bearings"),
     (Deformation::Drive, "drive"),
     (Deformation::Misfit, "misfit"),
 ];

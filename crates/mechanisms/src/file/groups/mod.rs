@@ -38,22 +38,50 @@ pub(crate) struct Written {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Copies {
     /// By the joint's name.
-    joints: HashMap<String, String>,
+    joints: HashMap<String, Shared>,
     /// By the mass's number.
-    masses: HashMap<usize, String>,
+    masses: HashMap<usize, Shared>,
+}
+
+/// A part of a group in one copy.
+#[derive(Debug, Clone)]
+struct Shared {
+    /// Its path, in the group.
+    group: String,
+    part: String,
+    /// The path to what the copy has of its own, and the paths in the group to these values.
+    overrides: String,
+    own: Vec<String>,
+}
+
+impl Shared {
+    /// The path to one of its values, which all copies share, or this copy's own; `None` where it is a part of
+    /// a value that is the copy's own.
+    fn value(&self, name: &str) -> Option<String> {
+        let value = format!("{}.{name}", self.part);
+        match self.own.iter().find(|own| starts_with(own, &value)) {
+            None => Some(format!("{}.{value}", self.group)),
+            Some(own) => (*own == value).then(|| format!("{}.{value}", self.overrides)),
+        }
+    }
 }
 
 impl Copies {
-    /// The path to a joint.
-    pub(crate) fn joint(&self, name: &str) -> String {
-        let own = self.joints.get(name);
-        own.cloned().unwrap_or_else(|| format!("joints.{name}"))
+    /// The path to the stiffness of a joint along a direction of this name.
+    pub(crate) fn stiffness(&self, joint: &str, direction: &str) -> Option<String> {
+        let value = format!("stiffness.{direction}");
+        match self.joints.get(joint) {
+            Some(own) => own.value(&value),
+            None => Some(format!("joints.{joint}.{value}")),
+        }
     }
 
     /// The path to a mass.
-    pub(crate) fn mass(&self, number: usize) -> String {
-        let own = self.masses.get(&number);
-        own.cloned().unwrap_or_else(|| format!("masses.{number}"))
+    pub(crate) fn mass(&self, number: usize) -> Option<String> {
+        match self.masses.get(&number) {
+            Some(own) => own.value("mass"),
+            None => Some(format!("masses.{number}.mass")),
+        }
     }
 }
 
@@ -166,7 +194,12 @@ fn of_group(
     written: &mut Written,
 ) -> Result<(), LoadError> {
     let owner = format!("group `{}`", group.name);
-    Fields::read(group.value, &owner, &GROUP.names())?;
+    let fields = Fields::read(group.value, &owner, &GROUP.names())?;
+    for map in ["points", "bodies", "joints"] {
+        if let Some(map) = fields.get(map) {
+            map.map()?;
+        }
+    }
     check_names(group, node, root)?;
     let (places, names, overrides) = read(entry)?;
     let overrides = match overrides {
@@ -187,26 +220,20 @@ fn of_group(
         let own = overrides.iter().find(|own| own.name == *name);
         let (node, changed) = changed((node, &owner), own.zip(of_copy(name)))?;
         let copy = Copy::new(&node, root, placement, name);
+        let shared = |part: String| Shared {
+            group: format!("groups.{}", group.name),
+            part,
+            overrides: format!("copies.{}.overrides.{name}", group.name),
+            own: changed.clone(),
+        };
         let joints = copy.joints(|joint, made| {
-            let path = format!("groups.{}.joints.{joint}", group.name);
-            let inside = |path: &str| changed.iter().any(|own| starts_with(own, path));
-            if !inside(&format!("joints.{joint}")) {
-                written.copies.joints.insert(made.to_owned(), path);
-            }
+            let own = shared(format!("joints.{joint}"));
+            written.copies.joints.insert(made.to_owned(), own);
         })?;
-        for (k, _) in node
-            .get("masses")
-            .map_or(&[][..], Node::items)
-            .iter()
-            .enumerate()
-        {
-            let path = format!("groups.{}.masses.{k}", group.name);
-            if !changed
-                .iter()
-                .any(|own| starts_with(own, &format!("masses.{k}")))
-            {
-                written.copies.masses.insert(parts[4].len() + k, path);
-            }
+        let masses = node.get("masses").map_or(&[][..], Node::items).len();
+        for k in 0..masses {
+            let own = shared(format!("masses.{k}"));
+            written.copies.masses.insert(parts[4].len() + k, own);
         }
         parts[0].add_entries(copy.points()?, "point")?;
         parts[1].add_entries(copy.bodies()?, "body")?;
