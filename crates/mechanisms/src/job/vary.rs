@@ -72,6 +72,7 @@ impl Variation {
         };
         let zip = zip.map_or(Ok(false), |zip| zip.parse("`true` or `false`"))?;
         let mut axes = Vec::<Axis>::new();
+        let whole = recipe.whole();
         for entry in map.map()? {
             let places = recipe.places(entry.key)?;
             if let Some(field) = replacing(fields, &entry.name) {
@@ -87,8 +88,12 @@ impl Variation {
             if let Some(other) = axes.iter().find(overlaps) {
                 return Err(paths::overlapping(&other.path, entry.key));
             }
+            let values = AxisValues::read(entry.value)?;
+            for known in places.iter().filter_map(|steps| whole.find(steps)) {
+                values.check(entry.value, Fragment::of_node(known), &entry.name)?;
+            }
             axes.push(Axis {
-                values: AxisValues::read(entry.value)?,
+                values,
                 path: entry.name,
                 place: entry.value.place(),
                 places,
@@ -110,7 +115,6 @@ impl Variation {
                 .error("more designs and poses than can be counted")
                 .with_help("give fewer values, or `zip: true` to take them side by side"));
         };
-        let whole = recipe.whole();
         let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
         Ok(Some(Self {
             place: map.place(),
@@ -270,6 +274,23 @@ impl AxisValues {
                 .error(format!("unknown kind of values `{}`", kind.text()))
                 .with_help(names::help(kind.text(), "kinds of values", ["Range"]))),
             _ => Err(fragment.expected(expected)),
+        }
+    }
+
+    /// Refuses values, read from `given`, that measure something else than what they take the place of.
+    fn check(&self, given: Fragment<'_>, known: Fragment<'_>, path: &str) -> Result<(), LoadError> {
+        let what = format!("`{path}`");
+        match self {
+            Self::List(values) => {
+                let mut values = values.iter().map(Fragment::of_node);
+                values.try_for_each(|value| value.in_place_of(known, &what))
+            }
+            Self::Range(values) => match (values.dimension(), known.measured(None)) {
+                (Some(other), Ok((_, Some(wanted)))) if other != wanted => {
+                    Err(given.of_dimension(&what, wanted, other))
+                }
+                _ => Ok(()),
+            },
         }
     }
 

@@ -85,6 +85,18 @@ impl<'a> Fragment<'a> {
         }
     }
 
+    /// Refuses a number with a unit that takes the place of one that measures something else; `what` it is, in
+    /// words.
+    pub(crate) fn in_place_of(self, known: Self, what: &str) -> Result<(), LoadError> {
+        let dimension = |own: Self| own.measured(None).ok().and_then(|(_, dimension)| dimension);
+        match (dimension(known), dimension(self)) {
+            (Some(wanted), Some(other)) if wanted != other => {
+                Err(self.of_dimension(what, wanted, other))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The error of a number that measures something else than wanted.
     pub(crate) fn of_dimension(self, what: &str, wanted: Dimension, other: Dimension) -> LoadError {
         let text = self.text;

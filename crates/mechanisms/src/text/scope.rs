@@ -464,7 +464,13 @@ pub(crate) fn parameters(root: &Node) -> impl Iterator<Item = &str> {
 /// # Errors
 /// They are no map, or have names that cannot be.
 pub(crate) fn put(mechanism: &mut Node, parameters: &Node) -> Result<(), LoadError> {
-    Fragment::of_node(parameters).map()?;
+    let known = mechanism.get(PARAMETERS);
+    for entry in Fragment::of_node(parameters).map()? {
+        if let Some(known) = known.and_then(|known| known.get(&entry.name)) {
+            let what = format!("the parameter `{}`", entry.name);
+            entry.value.in_place_of(Fragment::of_node(known), &what)?;
+        }
+    }
     mechanism.put_into(PARAMETERS, parameters);
     Ok(())
 }
