@@ -1,9 +1,7 @@
 //! What can be asked of a study: its solution as an answer with everything that belongs to it, a
 //! check, its natural frequencies, and a comparison with the independent solver.
 
-use hyperstat_assembly::{
-    BeamMass, ModalOptions, ModalPlan, Model, Modes, NodeMass, Solution,
-};
+use hyperstat_assembly::{BeamMass, ModalOptions, ModalPlan, Model, Modes, NodeMass, Solution};
 use hyperstat_mechanisms::Along;
 use hyperstat_reference::ReferenceSolution;
 

@@ -272,7 +272,12 @@ fn a_path_of_copies_stands_for_all_that_it_reaches() {
         let expected = (central(step) * 4.0 - central(2.0 * step)) / 3.0;
         for (k, slope) in own.displacement.unwrap().iter().enumerate() {
             let off = (slope - expected[k]).abs();
-            assert!(off < 1e-8 * expected.amax(), "{} {k}: {slope} {}", own.parameter, expected[k]);
+            assert!(
+                off < 1e-8 * expected.amax(),
+                "{} {k}: {slope} {}",
+                own.parameter,
+                expected[k]
+            );
         }
     }
     for path in [

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use super::{Mistake, Operation, What, functions};
+use crate::text::dimension::Dimension;
 use crate::text::names;
 
 /// Brackets, signs and powers in each other at the most.
@@ -291,12 +292,24 @@ impl Parser<'_> {
                 "unexpected `,`",
                 "commas separate the arguments of a function; write numbers with a decimal point",
             ),
+            Some(c) if c.is_alphabetic() && self.is_unit() => mistake(
+                self.next(),
+                "units do not stand in expressions",
+                "write the number in SI, or give it with its unit to a parameter",
+            ),
             Some(c) => mistake(
                 self.next(),
                 format!("unexpected `{c}`"),
                 "expected an operator such as `*` before it",
             ),
         }
+    }
+
+    /// Whether the name that follows is that of a unit.
+    fn is_unit(&self) -> bool {
+        let rest = &self.text[self.at..];
+        let end = rest.find(|c| !continues_name(c)).unwrap_or(rest.len());
+        Dimension::of_unit(&rest[..end]).is_some()
     }
 
     /// The next character that is no blank; blanks are passed over.
