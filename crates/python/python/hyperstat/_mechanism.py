@@ -18,6 +18,7 @@ from . import _hyperstat
 from ._data import Part, data, dumps, is_masked, ron, with_names
 from ._errors import ArgumentError, Error, SelectionError
 from ._hyperstat import Core, Pose
+from ._joints import JointKind
 from ._solution import Solution
 from ._table import Table
 
@@ -47,6 +48,8 @@ class Mechanism:
         Numbers, from 0, of the design and of the pose of a job.
     path : path, optional
         What messages call the text; files that it names are found beside it.
+    joints : sequence of JointKind
+        Kinds of joints of one's own that it names.
 
     Raises
     ------
@@ -70,6 +73,7 @@ class Mechanism:
         design: int = 0,
         pose: int = 0,
         path: Optional[Union[str, PathLike[str]]] = None,
+        joints: Sequence[JointKind] = (),
     ) -> None:
         if not isinstance(source, (str, Mapping)):
             raise ArgumentError(
@@ -79,10 +83,12 @@ class Mechanism:
         name = "text" if isinstance(source, str) else "data"
         text = source if isinstance(source, str) else dumps(with_names(source))
         at = name if path is None else _path(path)
-        self._make("parse", text, at, _job(job), *_chosen(design, pose))
+        self._make("parse", text, at, _job(job), *_chosen(design, pose), _kinds(joints))
 
     def _make(self, by: str, *arguments: Any) -> None:
-        self._core = getattr(_hyperstat, by)(*arguments)
+        # Kinds of joints as the core has them.
+        given = ([kind._core for kind in own] if isinstance(own, _Kinds) else own for own in arguments)
+        self._core = getattr(_hyperstat, by)(*given)
         self._made = (by, arguments)
         self._posed = set()
 
@@ -325,7 +331,7 @@ class Mechanism:
             found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
         finally:
             close()
-        return Table(found, designs or ())
+        return Table(found)
 
     def value_and_gradient(
         self,
@@ -502,6 +508,7 @@ def load(
     design: int = 0,
     *,
     pose: int = 0,
+    joints: Sequence[JointKind] = (),
 ) -> Mechanism:
     """Reads a mechanism file, or one job of a batch file (RON or JSON).
 
@@ -512,6 +519,8 @@ def load(
         Job of a batch; may be left out where there is only one.
     design, pose : int
         Numbers, from 0, of the design and of the pose of a job.
+    joints : sequence of JointKind
+        Kinds of joints of one's own that the file names.
 
     Returns
     -------
@@ -526,7 +535,7 @@ def load(
     """
     at = _path(path)
     new = Mechanism.__new__(Mechanism)
-    chosen = (_job(job), *_chosen(design, pose))
+    chosen = (_job(job), *_chosen(design, pose), _kinds(joints))
     new._make("load", at, *chosen)
     try:
         # A pickle has the text: the file may change or be elsewhere.
@@ -608,6 +617,20 @@ def _direction(along: Any) -> list[float]:
             f"`{along!r}` is no direction", help="give three numbers, or a word such as `displacement`"
         )
     return direction
+
+
+class _Kinds(tuple[JointKind, ...]):
+    """Kinds of joints that a mechanism is read with."""
+
+
+def _kinds(joints: Any) -> _Kinds:
+    kinds = _Kinds(joints) if hasattr(joints, "__iter__") else _Kinds((joints,))
+    for kind in kinds:
+        if not isinstance(kind, JointKind):
+            raise ArgumentError(
+                f"`{kind!r}` is no kind of joint", help="give a list of `hyperstat.JointKind`"
+            )
+    return kinds
 
 
 def _path(path: Any) -> str:
