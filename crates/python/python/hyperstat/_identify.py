@@ -100,8 +100,7 @@ class Information:
     @property
     def singular_values(self) -> Array:
         """Of the sensitivity, descending: inverse of the relative standard errors of its combinations."""
-        own: Array = np.linalg.svd(self.sensitivity, compute_uv=False)
-        return own
+        return np.asarray(np.linalg.svd(self.sensitivity, compute_uv=False), dtype=np.float64)
 
     @property
     def log_determinant(self) -> float:

@@ -289,7 +289,7 @@ class Mechanism:
 
     def evaluate(
         self,
-        designs: Mapping[str, Sequence[Union[float, str]]],
+        designs: Mapping[str, Union[Sequence[Union[float, str, Part]], npt.NDArray[np.float64]]],
         poses: Optional[Poses] = None,
         *,
         columns: Optional[Sequence[Any]] = None,
@@ -381,7 +381,7 @@ class Mechanism:
 
     # What it becomes.
 
-    def with_values(self, values: Mapping[str, Union[float, str]]) -> Mechanism:
+    def with_values(self, values: Mapping[str, Union[float, str, Part]]) -> Mechanism:
         """The same with other values in some places.
 
         Parameters
