@@ -18,6 +18,7 @@ Whatever is wrong is an `Error` with `.message`, `.place`, `.help` and `.code`.
 import os as _os
 
 from . import parts
+from ._choose import Choice, choose_poses
 from ._errors import (
     ArgumentError,
     Error,
@@ -30,7 +31,8 @@ from ._errors import (
     UnsolvableError,
 )
 from ._hyperstat import Pose, __version__, after_fork, before_fork
-from ._identify import Choice, Identification, Indistinct, Information, choose_poses, identify, information
+from ._identify import Identification, identify
+from ._information import Indistinct, Information, information
 from ._joints import JointKind
 from ._mechanism import Mechanism, load, measures, schema
 from ._solution import CaseResult, JointResult, Solution
