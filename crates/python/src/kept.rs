@@ -22,6 +22,10 @@ pub(crate) fn unforked<T>(make: impl FnOnce() -> T) -> T {
 /// Before this process is forked.
 #[pyfunction]
 pub(crate) fn before_fork(py: Python<'_>) {
+    // Once, however often it is registered.
+    if CLOSED.with_borrow(Option::is_some) {
+        return;
+    }
     py.detach(|| {
         let closed = GATE.write().unwrap_or_else(PoisonError::into_inner);
         CLOSED.set(Some(closed));

@@ -5,6 +5,8 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -301,6 +303,18 @@ def test_a_process_that_is_forked_while_others_compute(examples: Path, delta: hs
         ended.set()
         for thread in threads:
             thread.join()
+
+
+def test_a_fork_of_what_was_imported_twice() -> None:
+    code = (
+        "import importlib, os, signal, hyperstat\n"
+        "importlib.reload(hyperstat)\n"
+        "signal.alarm(30)\n"
+        "child = os.fork()\n"
+        "child or os._exit(0)\n"
+        "assert os.waitpid(child, 0)[1] == 0\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def resident() -> int:
