@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import importlib.util
 import pickle
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -69,44 +71,19 @@ def screw(lead: float) -> Array:
     return own
 
 
-def blades(
-    length: float, width: float, thickness: float, angle: float, spacing: float, young: float, poisson: float
-) -> Array:
-    """Compliance of two crossed leaf springs, as `examples/own-joints` has them, without shear."""
-    g = young / (2.0 + 2.0 * poisson)
-    area, flat, edge = width * thickness, width * thickness**3 / 12.0, thickness * width**3 / 12.0
-    torsion = width * thickness**3 / 3.0 * (1.0 - 0.63 * thickness / width)
-
-    def bending(second: float) -> tuple[float, float, float]:
-        return 12.0 * young * second / length**3, 6.0 * young * second / length**2, 4.0 * young * second / length
-
-    # Local x along the blade, y along its width, z through its thickness.
-    k = np.zeros((6, 6))
-    k[0, 0], k[3, 3] = young * area / length, g * torsion / length
-    for force, turn, second, sign in ((1, 5, edge, -1.0), (2, 4, flat, 1.0)):
-        k[force, force], coupling, k[turn, turn] = bending(second)
-        k[force, turn] = k[turn, force] = sign * coupling
-    whole = np.zeros((6, 6))
-    for side in (-1.0, 1.0):
-        along = np.array([np.cos(side * angle), 0.0, np.sin(side * angle)])
-        axes = np.stack([along, [0.0, 1.0, 0.0], np.cross(along, [0.0, 1.0, 0.0])], axis=1)
-        end = along * length / 2.0 + np.array([0.0, side * spacing / 2.0, 0.0])
-        moved = np.eye(6)
-        moved[:3, 3:] = -np.array([[0, -end[2], end[1]], [end[2], 0, -end[0]], [-end[1], end[0], 0]])
-        to_end = np.kron(np.eye(2), axes.T) @ moved
-        whole += to_end.T @ k @ to_end
-    return np.linalg.inv(whole)
+def _example() -> Any:
+    """`examples/python/own_joint.py`, as a module that pickles find."""
+    path = Path(__file__).resolve().parents[3] / "examples/python/own_joint.py"
+    spec = importlib.util.spec_from_file_location("own_joint", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["own_joint"] = module
+    spec.loader.exec_module(module)
+    return module
 
 
-def offset_axes(offset: float) -> Array:
-    own = np.eye(6)
-    own[0, 4] = -offset
-    return own
-
-
-NAMES = ["length", "width", "thickness", "angle", "spacing", "young", "poisson"]
-SPRING = hs.JointKind("CrossSpring", "v", frame="axis", arguments=NAMES, compliance=blades)
-OFFSET = hs.JointKind("OffsetUniversal", "uv", frame="axes", arguments=["offset"], basis=offset_axes)
+EXAMPLE = _example()
+NAMES, SPRING, OFFSET = EXAMPLE.SIZES, EXAMPLE.SPRING, EXAMPLE.OFFSET
 
 
 def test_the_lever_of_the_own_joints(examples: Path) -> None:
