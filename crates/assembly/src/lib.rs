@@ -34,7 +34,9 @@ pub use answer::mass::MovingMass;
 pub use answer::measures;
 pub use answer::pose_result::PoseResult;
 pub use answer::solution::{CaseSolution, Output, SegmentForces, Solution, State, Warning};
-pub use answer::worst::{WorstPoint, section_strain, section_wrench, stations, worst_stress};
+pub use answer::worst::{
+    WorstPoint, section_strain, section_wrench, stations, worst_stress, worst_von_mises,
+};
 pub use configuration::Configuration;
 pub use error::SolveError;
 pub use hyperstat_model::{
@@ -50,11 +52,12 @@ pub use lanes::single::Single;
 pub use lanes::{Beside, Lanes};
 pub use modal::{Counted, FrequencySensitivity, ModalPlan, ModalSensitivities, Mode, Modes};
 pub use plan::workspace::Workspace;
-pub use prepared::{Prepared, analyse, modes, redundant_constraints, solve};
+pub use prepared::{PoseSlopes, Prepared, analyse, modes, redundant_constraints, solve};
 pub use response::budget::{
     Budget, Carried, Deformation, MisfitEffect, Part, PartSource, larger_first,
 };
 pub use response::influence::Influence;
 pub use response::parameters::Parameter;
 pub use response::sensitivity::Sensitivity;
+pub use response::slopes::{Probe, Slopes};
 pub use state::floor::Floor;

@@ -1,6 +1,9 @@
 //! A mechanism made ready, and the shortest ways through.
 
+use std::sync::OnceLock;
+
 use hyperstat_model::{Geometry, LANES, ModalOptions, Model};
+use nalgebra::Vector6;
 
 use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
@@ -9,14 +12,15 @@ use crate::configuration::{Configuration, Kept, Planned, planned};
 use crate::error::SolveError;
 use crate::kinematics::Kinematics;
 use crate::kinematics::redundancy::Redundancy;
+use crate::lanes::forces::Virtual;
 use crate::lanes::single::Single;
 use crate::lanes::{Beside, Lanes};
 use crate::modal::{ModalPlan, Modes};
 use crate::plan::Plan;
 use crate::plan::workspace::Workspace;
-use crate::pose::restraint::{SUSPICIOUS_PIVOT, inverse};
 use crate::response::budget::Carried;
-use crate::response::influence::Influence;
+use crate::response::gives::Gives;
+use crate::response::slopes::{Probe, Slopes};
 
 /// A mechanism made ready: a model, and with it what is worked out once for its topology and for its
 /// own configuration, each when it is first asked for.
@@ -75,7 +79,12 @@ pub struct Prepared {
     model: Model,
     plan: Planned,
     here: Kept,
+    /// What budgets of poses are made of, once one is asked for.
+    gives: OnceLock<Result<Gives, SolveError>>,
 }
+
+/// A pose's result, and derivatives by parameters where they are found.
+pub type PoseSlopes = (PoseResult, Option<Vec<f64>>);
 
 impl Prepared {
     /// A model to be made ready.
@@ -84,6 +93,7 @@ impl Prepared {
             model,
             plan: Planned::new(),
             here: Kept::default(),
+            gives: OnceLock::new(),
         }
     }
 
@@ -100,6 +110,7 @@ impl Prepared {
             model,
             plan: Planned::from(Ok(plan)),
             here: Kept::default(),
+            gives: OnceLock::new(),
         })
     }
 
@@ -111,6 +122,7 @@ impl Prepared {
     /// The model, to be changed: whatever was worked out for it is forgotten.
     pub fn model_mut(&mut self) -> &mut Model {
         (self.plan, self.here) = (Planned::new(), Kept::default());
+        self.gives = OnceLock::new();
         &mut self.model
     }
 
@@ -202,6 +214,51 @@ impl Prepared {
         }
     }
 
+    /// What [`Prepared::sweep_lanes`] finds, with the derivatives by some parameters of what `probe` asks of each
+    /// pose, in one of the model's states (0: its own loads, then its cases). `None` in their place where
+    /// nothing is asked, and where the lanes do not find them: then [`Configuration::influence`] does. In
+    /// lanes that were made for [`Beside::Wrenches`], where no probe is one of the displacement, or
+    /// [`Beside::Forces`].
+    ///
+    /// # Errors
+    /// Of a pose: as [`Prepared::sweep_lanes`]; a section that cannot be formed, which no model has.
+    pub fn sweep_slopes(
+        &self,
+        lanes: &mut Lanes,
+        filled: [bool; LANES],
+        (slopes, state): (&Slopes, usize),
+        probe: &mut dyn FnMut(&PoseResult) -> Option<Probe>,
+    ) -> [Option<Result<PoseSlopes, SolveError>>; LANES] {
+        let plan = match self.plan() {
+            Ok(plan) => plan,
+            Err(error) => return filled.map(|filled| filled.then(|| Err(error.clone()))),
+        };
+        let mut probes = [const { None }; LANES];
+        let mut ask = |pose: usize, result: &PoseResult, _: &[Forces]| {
+            let own: &Option<Probe> = probes[pose].insert(probe(result));
+            own.as_ref().map(Probe::states).unwrap_or_default()
+        };
+        let model = &self.model;
+        let results = plan.sweep_lanes_asking(model, lanes, filled, Some(&mut ask));
+        let mut pose = 0;
+        results.map(|result| {
+            pose += 1;
+            let of_pose = |result: PoseResult| {
+                let found = lanes.found(plan, model, pose - 1)?;
+                let slopes = match (found, probes[pose - 1].take().flatten()) {
+                    (Some((states, units, geometry)), Some(probe)) => {
+                        let units: Vec<&Forces> = units.iter().map(|own| &own.forces).collect();
+                        let own = slopes.of(model, geometry, &probe, &units, states.get(state))?;
+                        Some(own)
+                    }
+                    _ => None,
+                };
+                Ok((result, slopes))
+            };
+            result.map(|result| result.and_then(of_pose))
+        })
+    }
+
     /// A pose and buffers for one thread whose poses come one at a time, as those of a program do that
     /// moves the mechanism; the pose is in the model's configuration.
     ///
@@ -265,17 +322,26 @@ impl Prepared {
         pose: usize,
         found: &PoseResult,
     ) -> Result<Option<Carried>, SolveError> {
-        let compliance = found.stiffness.as_ref();
-        let compliance = compliance.and_then(|k| inverse(k, SUSPICIOUS_PIVOT));
         let kept = lanes.found(self.plan()?, &self.model, pose)?;
-        let (Some(compliance), Some((forces, units, geometry))) = (compliance, kept) else {
+        let Some((forces, virtuals, geometry)) = kept else {
             return Ok(None);
         };
-        let influence = Influence::of_forces(&self.model, geometry, &units)?;
+        let gives = match self.gives.get_or_init(|| Gives::of(&self.model)) {
+            Ok(gives) => gives,
+            Err(error) => return Err(error.clone()),
+        };
+        let at = (&self.model, geometry);
         let displacements = found.displacement.iter().chain(&found.cases);
-        let states = displacements.zip(&forces);
-        let budget = |(moved, forces)| influence.pose_budget(moved, forces, &compliance);
-        let budgets = states.map(budget).collect();
+        let states = displacements.zip(&forces).zip(&virtuals);
+        let budget = |(state, own): ((&Vector6<f64>, &Forces), &Virtual)| {
+            let under_it = (&own.wrench, &own.forces);
+            let (displacement, forces) = state;
+            match forces.floor.cleared(displacement) == Vector6::zeros() {
+                false => gives.budget(at, state, under_it),
+                true => gives.compliance_budget(at, &own.displacement, under_it),
+            }
+        };
+        let budgets = states.map(budget).collect::<Result<_, _>>()?;
         Ok(Some(Carried { forces, budgets }))
     }
 

@@ -79,6 +79,11 @@ impl BeamLoad {
         self.intensity.at(xi)
     }
 
+    /// Whether no force acts between the nodes, whatever the strain.
+    pub fn is_forceless(&self) -> bool {
+        self.intensity.0.iter().all(|own| *own == Vector6::zeros())
+    }
+
     /// The strain that no force makes, the same all along.
     pub fn free_strain(&self) -> SectionStrain {
         SectionStrain::from(self.strain)

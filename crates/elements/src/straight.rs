@@ -136,10 +136,18 @@ pub trait StraightBeam {
     ) -> Vector6<f64> {
         let elastic =
             self.elastic_work(end_wrench, load, virtual_wrench, &|_| Vector6::repeat(1.0));
+        elastic + self.free_work(load, virtual_wrench)
+    }
+
+    /// The same work on the strains that no force makes alone, ∫ W̄ᵀ ε₀ dx by parts.
+    fn free_work(&self, load: &BeamLoad, virtual_wrench: &Vector6<f64>) -> Vector6<f64> {
+        if *load.strain() == Vector6::zeros() {
+            return Vector6::zeros();
+        }
         // A free strain is the same all along; the virtual section wrench is linear.
         let virtual_wrenches = BeamLoad::none().section_wrenches(self.length(), virtual_wrench);
         let mean = virtual_wrenches.at(0.5) * self.length();
-        elastic + mean.component_mul(load.strain())
+        mean.component_mul(load.strain())
     }
 
     /// The same work on the elastic strains alone, each of its six parts with a weight along the

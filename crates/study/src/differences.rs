@@ -2,20 +2,25 @@
 //! `solve --why` lists, exactly, and by any other number that `vary` takes, a length, a point's coordinate, an axis, as
 //! differences of designs that go through the lanes.
 //!
+//! The exact ones are found beside the quantity in the lanes, any number of them from a few states
+//! ([`hyperstat_assembly::Slopes`]); where a value changes the weight too, or a pose does not go through the
+//! lanes, from the whole solution of the pose.
+//!
 //! Such a difference is that of four designs around the one that is asked about,
 //! `(f(p − 2h) − 8 f(p − h) + 8 f(p + h) − f(p + 2h)) / 12 h`, in the same pose of the output: the inverse
 //! kinematics, and with it the drives, follow the value.
 
+use std::convert::Infallible;
 use std::ops::Range;
 
-use hyperstat_assembly::Floor;
+use hyperstat_assembly::{Floor, Model, Parameter, Slopes};
 use hyperstat_mechanisms::{Job, Value};
 
 use crate::error::StudyError;
 use crate::gradient::{Quantity, is_named, no_derivative};
 use crate::measures::Pose;
 use crate::study::Study;
-use crate::sweep::{Record, Sweep, Threads, Way};
+use crate::sweep::{Record, Sought, Sweep, Threads, Way};
 
 /// Steps from the value, over h, with the weights of the quantity there.
 const STEPS: [(f64, f64); 4] = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
@@ -23,8 +28,6 @@ const STEPS: [(f64, f64); 4] = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.
 const STEP: f64 = 5e-4;
 /// A value counts as at least this share of the mechanism's size, so that one that is zero has a step.
 const LEAST: f64 = 0.02;
-/// Poses that a thread takes at a time.
-const CHUNK: usize = 256;
 /// Poses that are looked at for one that has a solution.
 const TRIED: usize = 64;
 
@@ -35,11 +38,22 @@ pub struct Gradient {
     quantity: Quantity,
     /// The case by its number.
     case: Option<usize>,
-    /// Paths by which the derivatives are exact, with their places among those asked for.
-    exact: (Vec<usize>, Vec<String>),
+    /// By which the derivatives are exact.
+    exact: Vec<Exact>,
+    /// Parameters of the model that lanes find those of.
+    parameters: Vec<Parameter>,
     /// By which they are differences.
     differences: Vec<Difference>,
     paths: usize,
+}
+
+/// A value by which the derivative is exact.
+#[derive(Debug)]
+struct Exact {
+    place: usize,
+    path: String,
+    /// Numbers of the parameters that it is the sum of, with their weights; none where the lanes do not find it.
+    parts: Vec<(usize, f64)>,
 }
 
 /// Designs around one that is asked about.
@@ -63,7 +77,11 @@ impl Gradient {
         paths: &[String],
         case: Option<&str>,
     ) -> Result<Self, StudyError> {
+        let mut job = job.clone();
+        job.leave_columns();
+        let job = &job;
         let mut known = Vec::new();
+        let mut model = None;
         let mut size = 1.0;
         for pose in 0..job.len().min(TRIED) {
             let Ok(mut study) = Study::of_job(job.clone(), 0, pose) else {
@@ -73,6 +91,7 @@ impl Gradient {
                 Ok(found) => {
                     size = Floor::of(study.model()).map_or(1.0, |floor| floor.size);
                     known = found;
+                    model = Some(study.model().clone());
                     break;
                 }
                 Err(StudyError::Unsolvable { .. } | StudyError::FreeOutput { .. }) => {}
@@ -84,25 +103,25 @@ impl Gradient {
             job: job.clone(),
             quantity,
             case,
-            exact: (Vec::new(), Vec::new()),
+            exact: Vec::new(),
+            parameters: Vec::new(),
             differences: Vec::new(),
             paths: paths.len(),
         };
         for (place, path) in paths.iter().enumerate() {
-            if known
-                .iter()
-                .any(|own| is_named(own, path) && !own.by_differences)
-            {
-                gradient.exact.0.push(place);
-                gradient.exact.1.push(path.clone());
+            let own = known.iter().find(|own| is_named(own, path));
+            if let Some(own) = own.filter(|own| !own.by_differences) {
+                gradient.add_exact(model.as_ref(), place, path, &own.parts);
                 continue;
             }
             let number = job.number_at(0, path);
             let number = number.map_err(|_| no_derivative(&known, path))?;
             let step = STEP * number.abs().max(LEAST * size);
-            let design = |(k, _): (f64, f64)| {
+            let design = |(k, _): (f64, f64)| -> Result<Job, StudyError> {
                 let value = Value::Number(number + k * step);
-                job.with_values(0, &[(path.as_str(), value)])
+                let mut beside = job.with_values(0, &[(path.as_str(), value)])?;
+                beside.leave_columns();
+                Ok(beside)
             };
             let [a, b, c, d] = STEPS.map(design);
             gradient.differences.push(Difference {
@@ -112,6 +131,15 @@ impl Gradient {
             });
         }
         Ok(gradient)
+    }
+
+    /// Number of paths by which the derivatives are exact and found beside the quantity, where the lanes take
+    /// the poses: they cost hardly more than the poses themselves.
+    pub fn beside(&self) -> usize {
+        self.exact
+            .iter()
+            .filter(|own| !own.parts.is_empty())
+            .count()
     }
 
     /// The quantity in some of the poses, and its derivatives pose by pose, as many as there are paths \[SI\];
@@ -125,20 +153,34 @@ impl Gradient {
         poses: Range<usize>,
         threads: &Threads,
     ) -> Result<(Vec<f64>, Vec<f64>), StudyError> {
-        let values = self.values(&self.job, &poses, threads)?;
+        let (values, found) = self.values(&self.job, &poses, threads, self.sought())?;
         let mut slopes = vec![f64::NAN; values.len() * self.paths];
-        if !self.exact.0.is_empty() {
-            let own = threads.each(poses.clone(), |pose| self.exact_at(pose));
-            for (row, own) in slopes.chunks_exact_mut(self.paths).zip(own) {
-                for (place, slope) in self.exact.0.iter().zip(own?) {
-                    row[*place] = slope;
-                }
+        let rows = slopes.chunks_exact_mut(self.paths.max(1));
+        for (row, found) in rows.zip(found.chunks_exact(self.parameters.len().max(1))) {
+            for own in self.exact.iter().filter(|own| !own.parts.is_empty()) {
+                let parts = own.parts.iter();
+                row[own.place] = parts.map(|(part, weight)| weight * found[*part]).sum();
+            }
+        }
+        // What the lanes did not find of a pose that has a result.
+        let open = |pose: usize| {
+            let row = &slopes[(pose - poses.start) * self.paths..];
+            let known = !values[pose - poses.start].is_nan();
+            let open = |own: &&Exact| known && row[own.place].is_nan();
+            let own: Vec<&Exact> = self.exact.iter().filter(open).collect();
+            (!own.is_empty()).then_some((pose, own))
+        };
+        let open: Vec<(usize, Vec<&Exact>)> = poses.clone().filter_map(open).collect();
+        let found = threads.each(0..open.len(), |k| self.exact_at(open[k].0, &open[k].1));
+        for ((pose, own), found) in open.iter().zip(found) {
+            for (own, slope) in own.iter().zip(found?) {
+                slopes[(pose - poses.start) * self.paths + own.place] = slope;
             }
         }
         for own in &self.differences {
             let mut sums = vec![0.0; values.len()];
             for (design, (_, weight)) in own.designs.iter().zip(STEPS) {
-                let beside = self.values(design, &poses, threads)?;
+                let (beside, _) = self.values(design, &poses, threads, None)?;
                 for (sum, value) in sums.iter_mut().zip(beside) {
                     *sum += weight * value;
                 }
@@ -155,29 +197,79 @@ impl Gradient {
         Ok((values, slopes))
     }
 
-    /// The quantity in some poses of a job's first design.
+    /// Adds a path by which there is an exact derivative.
+    fn add_exact(
+        &mut self,
+        model: Option<&Model>,
+        place: usize,
+        path: &str,
+        parts: &[(Parameter, f64)],
+    ) {
+        let mut own = Exact {
+            place,
+            path: path.into(),
+            parts: Vec::new(),
+        };
+        let wanted: Vec<Parameter> = parts.iter().map(|(own, _)| own.clone()).collect();
+        let slopes = model.map(|model| Slopes::new(model, &wanted));
+        if let Some(Ok(Some(_))) = slopes {
+            for (parameter, weight) in parts {
+                let known = self.parameters.iter().position(|own| own == parameter);
+                let number = known.unwrap_or_else(|| {
+                    self.parameters.push(parameter.clone());
+                    self.parameters.len() - 1
+                });
+                own.parts.push((number, *weight));
+            }
+        }
+        self.exact.push(own);
+    }
+
+    fn sought(&self) -> Option<Sought> {
+        (!self.parameters.is_empty()).then(|| Sought {
+            quantity: self.quantity,
+            case: self.case,
+            parameters: self.parameters.clone(),
+        })
+    }
+
+    /// The quantity in some poses of a job's first design, and the derivatives that are sought, NaN where they
+    /// are not found.
     fn values(
         &self,
         job: &Job,
         poses: &Range<usize>,
         threads: &Threads,
-    ) -> Result<Vec<f64>, StudyError> {
-        let sweep = match Sweep::new(job, Way::Lanes) {
-            Ok(sweep) => sweep,
+        sought: Option<Sought>,
+    ) -> Result<(Vec<f64>, Vec<f64>), StudyError> {
+        let count = sought.as_ref().map_or(0, |sought| sought.parameters.len());
+        let (mut values, mut slopes) = (Vec::new(), Vec::new());
+        match Sweep::seeking(job, Way::Lanes, sought) {
+            Ok(sweep) => {
+                let ran = sweep.run(
+                    threads,
+                    poses.clone(),
+                    |_| (),
+                    |chunk| {
+                        for record in &chunk.records {
+                            values.push(self.value(record));
+                            let further = record.known().map_or(&[][..], |(_, further)| further);
+                            let own = &further[further.len().saturating_sub(count)..];
+                            slopes.extend(own.iter().map(|own| own.number().unwrap_or(f64::NAN)));
+                            slopes.resize(values.len() * count, f64::NAN);
+                        }
+                        Ok::<(), Infallible>(())
+                    },
+                );
+                let Ok(()) = ran;
+            }
             Err(StudyError::Unsolvable { .. } | StudyError::FreeOutput { .. }) => {
-                return Ok(vec![f64::NAN; poses.len()]);
+                values.resize(poses.len(), f64::NAN);
+                slopes.resize(poses.len() * count, f64::NAN);
             }
             Err(error) => return Err(error),
-        };
-        let chunks = threads.each(0..poses.len().div_ceil(CHUNK), |chunk| {
-            let first = poses.start + CHUNK * chunk;
-            let records = sweep.records(first..poses.end.min(first + CHUNK));
-            records
-                .iter()
-                .map(|own| self.value(own))
-                .collect::<Vec<_>>()
-        });
-        Ok(chunks.concat())
+        }
+        Ok((values, slopes))
     }
 
     fn value(&self, record: &Record) -> f64 {
@@ -194,11 +286,11 @@ impl Gradient {
     }
 
     /// The exact derivatives in a pose.
-    fn exact_at(&self, pose: usize) -> Result<Vec<f64>, StudyError> {
-        let paths = &self.exact.1;
+    fn exact_at(&self, pose: usize, by: &[&Exact]) -> Result<Vec<f64>, StudyError> {
+        let paths: Vec<String> = by.iter().map(|own| own.path.clone()).collect();
         let case = self.case.map(|case| self.job.cases()[case].as_str());
         let found = Study::of_job(self.job.clone(), 0, pose)
-            .and_then(|mut study| study.value_and_gradient(self.quantity, paths, case));
+            .and_then(|mut study| study.value_and_gradient(self.quantity, &paths, case));
         match found {
             Ok((_, slopes)) => Ok(slopes),
             // A pose without a result raises nothing; what is asked wrongly does.

@@ -1,5 +1,6 @@
 //! What is measured of the output with its derivatives by values of the mechanism, named by their paths.
 
+use hyperstat_assembly::Probe;
 use hyperstat_mechanisms::nearest;
 use nalgebra::{Matrix6, Vector6};
 
@@ -40,18 +41,42 @@ impl Quantity {
         }
     }
 
-    /// Its derivative along a change of stiffness and displacement.
-    fn slope(
-        self,
-        pose: &Pose,
-        displacement: &Vector6<f64>,
-        change: (&Matrix6<f64>, &Vector6<f64>),
-    ) -> Option<f64> {
+    /// What its derivative is of; `None` where it has none.
+    pub(crate) fn probe(self, pose: &Pose, displacement: &Vector6<f64>) -> Option<Probe> {
         match self {
-            Self::Measure(measure) => pose.slope(measure.rule, displacement, change),
-            Self::Stiffness(row, column) => Some(change.0[(row, column)]),
-            Self::Displacement(place) => Some(change.1[place]),
+            Self::Measure(measure) => pose.probe(measure.rule, displacement),
+            Self::Stiffness(row, column) => Some(of_entry(pose.stiffness(), row, column)),
+            Self::Displacement(place) => Some(Probe {
+                wrenches: Vec::new(),
+                along: Some(Vector6::ith(place, 1.0)),
+            }),
         }
+    }
+
+    /// Whether it is of the displacement.
+    pub(crate) fn is_of_loads(self) -> bool {
+        match self {
+            Self::Measure(measure) => measure.rule.is_of_loads(),
+            Self::Stiffness(..) => false,
+            Self::Displacement(_) => true,
+        }
+    }
+}
+
+/// ∂K_rc = −(K e_r)ᵀ (∂C) K e_c, of which what is apart is a difference of two squares.
+fn of_entry(stiffness: &Matrix6<f64>, row: usize, column: usize) -> Probe {
+    let force = |place: usize| stiffness.column(place).into_owned();
+    let wrenches = if row == column {
+        vec![(-1.0, force(row))]
+    } else {
+        let scale = (stiffness[(column, column)] / stiffness[(row, row)]).sqrt();
+        let [first, second] = [force(row) * scale, force(column)];
+        let weight = 0.25 / scale;
+        vec![(-weight, first + second), (weight, first - second)]
+    };
+    Probe {
+        wrenches,
+        along: None,
     }
 }
 
@@ -93,14 +118,15 @@ impl Study {
         let loaded = self.under(&solution, case)?;
         let displacement = loaded.output.displacement;
         let pose = solution.output.stiffness.as_ref().map(Pose::new);
+        let probe = pose.as_ref();
+        let probe = probe.and_then(|pose| quantity.probe(pose, &displacement));
         let mut gradient = Vec::with_capacity(paths.len());
         for path in paths {
             let own = by_path(&found, path)?;
-            let slope = pose.as_ref().and_then(|pose| {
-                let stiffness =
-                    Matrix6::from_fn(|r, c| own.stiffness.map_or(f64::NAN, |k| k[r][c]));
+            let slope = probe.as_ref().map(|probe| {
+                let compliance = Matrix6::from_fn(|r, c| own.compliance[r][c]);
                 let moved = own.displacement.map_or([f64::NAN; 6], |u| u);
-                quantity.slope(pose, &displacement, (&stiffness, &Vector6::from(moved)))
+                probe.along(&compliance, &Vector6::from(moved))
             });
             gradient.push(slope.unwrap_or(f64::NAN));
         }
@@ -177,9 +203,9 @@ mod tests {
         names.extend(["k15", "k66", "dz", "drx"]);
         for name in names {
             let quantity = Quantity::named(name).unwrap();
-            let slope = quantity
-                .slope(&pose, &displacement(0.0), (&change.0, &change.1))
-                .unwrap();
+            let probe = quantity.probe(&pose, &displacement(0.0)).unwrap();
+            let compliance = pose.compliance().unwrap();
+            let slope = probe.along(&-(compliance * change.0 * compliance), &change.1);
             let expected = difference(|h| {
                 quantity
                     .value(&Pose::new(&stiffness(h)), &displacement(h))

@@ -3,6 +3,7 @@
 
 use std::cell::OnceCell;
 
+use hyperstat_assembly::Probe;
 use hyperstat_assembly::measures::principal;
 use nalgebra::{Cholesky, Matrix3, Matrix6, Vector6};
 
@@ -99,52 +100,58 @@ impl Pose {
         &self.stiffness
     }
 
-    /// Derivative of a measure along a change of the stiffness and of the displacement.
-    pub(crate) fn slope(
-        &self,
-        rule: Rule,
-        displacement: &Vector6<f64>,
-        (stiffness, moved): (&Matrix6<f64>, &Vector6<f64>),
-    ) -> Option<f64> {
-        let along = |matrix: &Matrix6<f64>, change: &Matrix6<f64>, block: usize, place: usize| {
-            let part =
-                |of: &Matrix6<f64>| -> Matrix3<f64> { of.fixed_view::<3, 3>(block, block).into() };
-            let found = principal(&part(matrix));
-            let direction = found.directions[place];
-            (
-                found.values[place],
-                direction.dot(&(part(change) * direction)),
-            )
+    /// What its derivative is of a measure; `None` where it has none.
+    pub(crate) fn probe(&self, rule: Rule, displacement: &Vector6<f64>) -> Option<Probe> {
+        let unit = |place: usize| Vector6::ith(place, 1.0);
+        let softest = |matrix: &Matrix6<f64>, block: usize, place: usize| {
+            let part: Matrix3<f64> = matrix.fixed_view::<3, 3>(block, block).into();
+            let found = principal(&part);
+            let mut wrench = Vector6::zeros();
+            wrench
+                .fixed_rows_mut::<3>(block)
+                .copy_from(&found.directions[place]);
+            (found.values[place], wrench)
         };
-        let compliance = || {
-            let compliance = self.compliance()?;
-            Some((compliance, -(compliance * stiffness * compliance)))
-        };
-        let found = match rule {
+        let mut probe = Probe::default();
+        match rule {
             Rule::Length(block) => {
                 let own = displacement.fixed_rows::<3>(block);
-                own.dot(&moved.fixed_rows::<3>(block)) / own.norm()
+                let mut along = Vector6::zeros();
+                along
+                    .fixed_rows_mut::<3>(block)
+                    .copy_from(&(own / own.norm()));
+                probe.along = Some(along);
             }
-            Rule::Compliance(place) => compliance()?.1[(place, place)],
+            Rule::Compliance(place) => probe.wrenches.push((1.0, unit(place))),
             Rule::InverseCompliance(place) => {
-                let (own, change) = compliance()?;
-                -change[(place, place)] / own[(place, place)].powi(2)
+                let own = self.compliance()?[(place, place)];
+                probe.wrenches.push((-1.0 / (own * own), unit(place)));
             }
             Rule::Softest(block) => {
-                let (own, change) = compliance()?;
-                along(own, &change, block, 2).1
+                let (_, wrench) = softest(self.compliance()?, block, 2);
+                probe.wrenches.push((1.0, wrench));
             }
             Rule::Free { block, least } => {
-                let (own, change) = compliance()?;
-                let (value, slope) = along(own, &change, block, if least { 2 } else { 0 });
-                -slope / value.powi(2)
+                let place = if least { 2 } else { 0 };
+                let (value, wrench) = softest(self.compliance()?, block, place);
+                probe.wrenches.push((-1.0 / (value * value), wrench));
             }
             Rule::Held { block, least } => {
-                along(&self.stiffness, stiffness, block, if least { 0 } else { 2 }).1
+                let place = if least { 0 } else { 2 };
+                let (_, moved) = softest(&self.stiffness, block, place);
+                // ∂K = −K (∂C) K.
+                probe.wrenches.push((-1.0, self.stiffness * moved));
             }
-            Rule::Work => compliance()?.1.fixed_view::<3, 3>(0, 0).trace() / 3.0,
-        };
-        Some(found).filter(|slope| slope.is_finite())
+            Rule::Work => {
+                let third = |place| (1.0 / 3.0, unit(place));
+                probe.wrenches.extend([0, 1, 2].map(third));
+            }
+        }
+        let numbers = probe.wrenches.iter();
+        let numbers = numbers.flat_map(|(weight, own)| own.iter().chain([weight]));
+        let along = probe.along.iter().flatten();
+        let finite = numbers.chain(along).all(|number| number.is_finite());
+        finite.then_some(probe)
     }
 
     /// The inverse of the stiffness.

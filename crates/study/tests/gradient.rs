@@ -3,10 +3,11 @@
 
 use std::f64::consts::PI;
 
+use hyperstat_mechanisms::{Disk, batch_from_str};
 use hyperstat_study::sweep::Threads;
 use hyperstat_study::{
-    Gradient, Job, JobMechanism, JobPoses, MemoryFiles, Quantity, Registry, Selection, Study,
-    StudyError, Value,
+    Gradient, Job, JobMechanism, JobPoses, Measure, MemoryFiles, Quantity, Registry, Selection,
+    Study, StudyError, Value,
 };
 
 const CANTILEVER: &str = r#"(
@@ -133,3 +134,108 @@ fn a_path_that_leads_to_no_number_is_told() {
         );
     }
 }
+
+/// Mechanisms with elastic joints, tapered arms, misfits, preloads and cases: what lanes find beside the
+/// quantity is what the whole solution of each pose gives, by every parameter that they are asked for.
+#[test]
+fn lanes_find_what_whole_solutions_find() {
+    let quantities: Vec<&str> = (Measure::all().iter().map(|own| own.name))
+        .chain(["k11", "k15", "k34", "k66", "dx", "drz"])
+        .collect();
+    let threads = Threads::new(1).unwrap();
+    for (number, job) in batch(LANES).iter().enumerate() {
+        for case in [None, Some("push")] {
+            let mut study = Study::of_job(job.clone(), 0, 0).unwrap();
+            let known = study.sensitivities(case).unwrap();
+            let paths: Vec<String> = (known.iter())
+                .filter_map(|own| own.path.clone().or_else(|| Some(own.parameter.clone())))
+                .filter(|path| !path.contains(' '))
+                .collect();
+            assert!(paths.len() > 3, "{paths:?}");
+            for name in &quantities {
+                let quantity = Quantity::named(name).unwrap();
+                let gradient = Gradient::new(job, quantity, &paths, case).unwrap();
+                assert_eq!(gradient.beside(), paths.len(), "{number} {paths:?}");
+                let (values, slopes) = gradient.of(0..job.len(), &threads).unwrap();
+                for (pose, value) in values.iter().enumerate() {
+                    let mut study = Study::of_job(job.clone(), 0, pose).unwrap();
+                    let (expected, own) = study.value_and_gradient(quantity, &paths, case).unwrap();
+                    assert!((value / expected - 1.0).abs() < 1e-9, "{number} {name}");
+                    // Relative change per relative change of each parameter, by the largest of them.
+                    let relative = |slope: f64, path: usize| slope * number_at(job, &paths[path]);
+                    let expected: Vec<f64> = own
+                        .iter()
+                        .enumerate()
+                        .map(|(k, s)| relative(*s, k))
+                        .collect();
+                    let largest = expected
+                        .iter()
+                        .fold(0.0_f64, |most, own| most.max(own.abs()));
+                    for (path, expected) in expected.iter().enumerate() {
+                        let found = relative(slopes[pose * paths.len() + path], path);
+                        assert!(
+                            (found - expected).abs() <= 1e-9 * largest,
+                            "{number} {name} {case:?} {pose} {}: {found} {expected}",
+                            paths[path]
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn number_at(job: &Job, path: &str) -> f64 {
+    job.number_at(0, path).unwrap()
+}
+
+fn batch(text: &str) -> Vec<Job> {
+    batch_from_str(text, "batch.ron".as_ref(), &Disk, &Registry::builtin()).unwrap().jobs
+}
+
+const LANES: &str = r#"(
+    jobs: [
+        (
+            name: "delta",
+            mechanism: Delta(
+                base_radius: 0.25, platform_radius: 0.06, arm_length: 0.30, rod_length: 0.60, rod_spacing: 0.12,
+                arm: (section: Tapered(from: Tube(outer: 0.04, inner: 0.03), to: Tube(outer: 0.03, inner: 0.024)), material: (young: 7e10, poisson: 0.33)),
+                bar: (section: Rectangle(width: 0.02, height: 0.03), material: (young: 2.1e11, poisson: 0.3)),
+                rod: (section: Circle(diameter: 0.014), material: (young: 2.1e11, shear: 8e10)),
+                joint_stiffness: (x: 1e8, y: 1e8, z: 1e8, u: 1e5, w: 1e5),
+            ),
+            loads: [(on: ("platform", "P"), force: (30.0, -20.0, -100.0), moment: (2.0, 1.0, -3.0))],
+            cases: { "push": [(on: ("platform", "P"), force: (0.0, 100.0, 0.0))] },
+            misfits: { "Ba1": (x: 1e-4) },
+            preloads: { "Bb2": (x: 40.0) },
+            poses: List([(0.0, 0.0, 0.5), (0.1, -0.05, 0.52)]),
+        ),
+        (
+            name: "hexapod",
+            mechanism: Hexapod(
+                base_radius: 0.5, base_angle: 0.125, platform_radius: 0.3, platform_angle: 0.9,
+                leg: (
+                    cylinder: (section: Tube(outer: 0.06, inner: 0.045), material: (young: 2.1e11, poisson: 0.3)),
+                    piston: (section: Circle(diameter: 0.04), material: (young: 2.0e11, poisson: 0.3)),
+                    cylinder_length: 0.45, lengths: (0.55, 1.0),
+                ),
+                drive_stiffness: 5e7,
+            ),
+            poses: List([(0.05, 0.0, 0.8, 0.1, 0.0, 0.0), (0.0, -0.02, 0.75, 0.0, 0.1, 0.2)]),
+            loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))],
+            cases: { "push": [(on: ("platform", "P"), force: (0.0, 100.0, 0.0))] },
+        ),
+        (
+            name: "three-prs",
+            mechanism: ThreePrs(
+                rails: (radius: 0.4, tilt: 0.0, travel: 0.8, carriage: Near), platform_radius: 0.25, rod_length: 0.5,
+                rod: (section: Rectangle(width: 0.06, height: 0.04), material: (young: 2.1e11, poisson: 0.3)),
+                joint_stiffness: (x: 3e8, y: 3e8, z: 3e8, u: 5e5, w: 5e5),
+                drive_stiffness: 5e7,
+            ),
+            poses: List([(z: 0.9, rx: 0.1, ry: 0.2)]),
+            loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))],
+            cases: { "push": [(on: ("platform", "P"), force: (0.0, 100.0, 0.0))] },
+        ),
+    ],
+)"#;

@@ -165,6 +165,21 @@ fn axial(skew: &Matrix3<f64>) -> Vector3<f64> {
     Vector3::new(skew[(2, 1)], skew[(0, 2)], skew[(1, 0)])
 }
 
+/// The unit force along the translation of a displacement, or the unit moment along its rotation where it does
+/// not translate; `None` for no displacement.
+pub(crate) fn direction_of(displacement: &Vector6<f64>) -> Option<Vector6<f64>> {
+    for start in [0, 3] {
+        let part: Vector3<f64> = displacement.fixed_rows::<3>(start).into_owned();
+        let size = part.norm();
+        if size > 0.0 {
+            let mut along = Vector6::zeros();
+            along.fixed_rows_mut::<3>(start).copy_from(&(part / size));
+            return Some(along);
+        }
+    }
+    None
+}
+
 /// Principal values of a symmetric matrix.
 pub fn principal(matrix: &Matrix3<f64>) -> Principal {
     let eigen = matrix.symmetric_eigen();

@@ -1,7 +1,9 @@
 //! The worst point of a body: where along its segments and where in their sections the stress is
 //! largest.
 
-use hyperstat_elements::stress::{BeamStress, normal_stress, stress_along, stress_parts};
+use hyperstat_elements::stress::{
+    BeamStress, Peak, normal_stress, stress_along, stress_parts, von_mises_along,
+};
 use hyperstat_elements::{SectionStrain, Taper};
 use hyperstat_model::{BodyId, Model, Segment, SegmentId, segment_beam};
 use nalgebra::Vector6;
@@ -71,18 +73,21 @@ fn worst_of_body(model: &Model, body: BodyId, forces: &[SegmentForces]) -> Optio
 /// The largest stresses along a segment under these forces, each with its place; `None` where its section has
 /// no stresses.
 pub fn worst_stress(segment: &Segment, forces: &SegmentForces) -> Option<BeamStress> {
-    largest(&segment.sections_along().ok()?, forces)
+    let taper = segment.sections_along().ok()?;
+    stress_along(&taper, forces.length, &forces.ends[1], &forces.load)
 }
 
-fn largest(taper: &Taper, forces: &SegmentForces) -> Option<BeamStress> {
-    stress_along(taper, forces.length, &forces.ends[1], &forces.load)
+/// The largest von Mises stress along a segment under these forces, with its place; `sections`: those along it.
+/// `None` where they have no stresses.
+pub fn worst_von_mises(sections: &Taper, forces: &SegmentForces) -> Option<Peak> {
+    von_mises_along(sections, forces.length, &forces.ends[1], &forces.load)
 }
 
 /// The worst point of a segment.
 fn worst_of(model: &Model, id: SegmentId, forces: &SegmentForces) -> Option<WorstPoint> {
     let segment = &model.segments()[id.0];
     let taper = segment.sections_along().ok()?;
-    let peak = largest(&taper, forces)?.von_mises;
+    let peak = worst_von_mises(&taper, forces)?;
     let section_wrench = section_wrench(model, id, forces, peak.xi)?;
     let section_strain = section_strain(model, id, forces, peak.xi)?;
     let section = if taper.is_constant() {

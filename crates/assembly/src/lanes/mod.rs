@@ -12,7 +12,8 @@
 #![allow(clippy::needless_range_loop, clippy::manual_memcpy)]
 
 mod beside;
-mod forces;
+mod carry;
+pub(crate) mod forces;
 mod pass;
 mod program;
 #[cfg(test)]
@@ -20,7 +21,6 @@ mod random_tests;
 pub(crate) mod single;
 #[cfg(test)]
 mod tests;
-mod wrench;
 pub use beside::Beside;
 use hyperstat_model::{Geometry, LANES, Model};
 use nalgebra::{Matrix6, Vector6};
@@ -29,7 +29,8 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::answer::forces::Forces;
 use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
-use crate::lanes::forces::ForceRoom;
+use crate::lanes::carry::room::Room;
+use crate::lanes::forces::{Ask, Beyond, Swept, Virtual};
 use crate::lanes::pass::buffers::Buffers;
 use crate::lanes::pass::reflections::order_chains;
 use crate::lanes::pass::{ERROR, Pass, displacement as place_of_displacement, displacement_error};
@@ -51,23 +52,24 @@ pub struct Lanes {
     workspace: Workspace,
     arch: Arch,
     engine: Option<Engine>,
-    /// By poses: what joints and segments carry, where it is asked for and the lanes found it.
-    forces: [Option<Vec<Forces>>; LANES],
-    /// The same under a unit of each component of a wrench on the output.
-    units: [Option<[Forces; 6]>; LANES],
+    /// By poses: what joints and segments carry, where it is asked for, the lanes found it and it was not
+    /// taken yet.
+    beyond: [Option<Beyond>; LANES],
     /// Poses that went one by one.
     one_by_one: u64,
 }
 
-/// What joints and segments carry at a pose in every state, and under a unit of each component of a wrench on
-/// the output, with the pose's geometry.
-type CarriedAt<'l> = (Vec<Forces>, [Forces; 6], &'l Geometry);
+/// What joints and segments carry at a pose in every state, the same under the wrenches that were asked for, and
+/// the pose's geometry.
+type CarriedAt<'l> = (Vec<Forces>, Vec<Virtual>, &'l Geometry);
 
 #[derive(Debug)]
 struct Engine {
     program: Program,
     buffers: Buffers,
-    room: ForceRoom,
+    /// For forces, where they are asked for and can be found.
+    room: Option<Room>,
+    beside: Beside,
 }
 
 /// Numbers in a register of the machine.
@@ -102,10 +104,12 @@ impl Plan {
             program.inputs.read(model, &[model.geometry()], &mut inputs);
             order_chains(&mut program, &inputs);
             let buffers = Buffers::new(&program, width);
+            let recovery = program.recovery.as_ref();
             Engine {
+                room: recovery.map(|recovery| Room::new(&program, recovery, width)),
+                beside,
                 buffers,
                 program,
-                room: ForceRoom::default(),
             }
         });
         self.lanes_with(model, arch, engine)
@@ -119,8 +123,7 @@ impl Plan {
             workspace: self.workspace(),
             arch,
             engine,
-            forces: [const { None }; LANES],
-            units: [const { None }; LANES],
+            beyond: [const { None }; LANES],
             one_by_one: 0,
         }
     }
@@ -135,6 +138,18 @@ impl Plan {
         model: &Model,
         lanes: &mut Lanes,
         filled: [bool; LANES],
+    ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
+        self.sweep_lanes_asking(model, lanes, filled, None)
+    }
+
+    /// The same with what joints and segments carry under the wrenches that are asked for, in lanes that were
+    /// made for it.
+    pub(crate) fn sweep_lanes_asking(
+        &self,
+        model: &Model,
+        lanes: &mut Lanes,
+        filled: [bool; LANES],
+        mut ask: Option<&mut Ask<'_>>,
     ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
         let mut results = [const { None }; LANES];
         lanes.forget();
@@ -160,14 +175,25 @@ impl Plan {
                     let pose = (first + lane).min(LANES - 1);
                     &lanes.geometries[if taken[pose] { pose } else { other }]
                 });
-                engine.solve(model, &geometries[..range.len()], lanes.arch);
-                for (lane, pose) in range.enumerate() {
+                let geometries = &geometries[..range.len()];
+                engine.solve(model, geometries, lanes.arch);
+                let mut vouched = [false; LANES];
+                for (lane, pose) in range.clone().enumerate() {
                     if taken[pose] && engine.vouches(lane) {
                         results[pose] = Some(Ok(engine.found(lane)));
-                        let geometry = &lanes.geometries[pose];
-                        (lanes.forces[pose], lanes.units[pose]) =
-                            engine.carried(model, geometry, lane);
+                        vouched[lane] = true;
                     }
+                }
+                let swept = Swept {
+                    model,
+                    geometries,
+                    wanted: vouched,
+                    first,
+                    arch: lanes.arch,
+                };
+                let mut beyond = engine.carried(&swept, ask.as_deref_mut());
+                for (lane, pose) in range.enumerate() {
+                    lanes.beyond[pose] = beyond[lane].take();
                 }
             }
         }
@@ -188,7 +214,7 @@ impl Lanes {
     /// # Panics
     /// If `pose` is not below [`LANES`].
     pub fn geometry_mut(&mut self, pose: usize) -> &mut Geometry {
-        (self.forces[pose], self.units[pose]) = (None, None);
+        self.beyond[pose] = None;
         &mut self.geometries[pose]
     }
 
@@ -210,12 +236,11 @@ impl Lanes {
     }
 
     fn forget(&mut self) {
-        self.forces = [const { None }; LANES];
-        self.units = [const { None }; LANES];
+        self.beyond = [const { None }; LANES];
     }
 
-    /// What joints and segments carry at a pose in every state, and under a unit of each component of a wrench
-    /// on the output, with its geometry, where the lanes found both and they were not taken yet.
+    /// What joints and segments carry at a pose in every state, and under the wrenches that were asked for, with
+    /// its geometry, where the lanes found both and they were not taken yet.
     pub(crate) fn found(
         &mut self,
         plan: &Plan,
@@ -223,10 +248,9 @@ impl Lanes {
         pose: usize,
     ) -> Result<Option<CarriedAt<'_>>, SolveError> {
         self.check(plan, model)?;
-        let units = self.units[pose].take();
-        let Some(units) = units else { return Ok(None) };
-        let forces = self.forces[pose].take();
-        Ok(forces.map(|forces| (forces, units, &self.geometries[pose])))
+        let found = self.beyond[pose].take();
+        let found = found.filter(|found| !found.virtuals.is_empty());
+        Ok(found.map(|found| (found.forces, found.virtuals, &self.geometries[pose])))
     }
 
     /// What joints and segments carry at a pose that was swept: as the lanes found it, else by the numeric
@@ -238,8 +262,8 @@ impl Lanes {
         pose: usize,
     ) -> Result<Option<Vec<Forces>>, SolveError> {
         self.check(plan, model)?;
-        match self.forces[pose].take() {
-            Some(found) => Ok(Some(found)),
+        match self.beyond[pose].take() {
+            Some(found) => Ok(Some(found.forces)),
             None => plan.forces(model, &self.geometries[pose], &mut self.workspace),
         }
     }

@@ -548,7 +548,7 @@ fn wherever_the_lanes_answer_all_that_acts_agrees() {
         poses += LANES;
         handed_on += (lanes.one_by_one() - before) as usize;
         for (lane, pose) in chosen.iter().enumerate() {
-            if let Some(found) = lanes.forces[lane].take() {
+            if let Some(found) = lanes.beyond[lane].take().map(|own| own.forces) {
                 let one = match plan.forces(&model, pose, &mut workspace) {
                     Ok(None) => prepared.at(pose).and_then(|here| here.forces()).map(Some),
                     one => one,

@@ -3,6 +3,7 @@
 use hyperstat_model::{Geometry, LANES, Model};
 use pulp::Arch;
 
+use super::forces::Swept;
 use super::{Beside, Lanes};
 use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
@@ -38,9 +39,19 @@ impl Plan {
         if let Some(engine) = &mut lanes.engine {
             // Every lane has the pose; the first is read.
             let width = engine.buffers.width;
-            engine.solve(model, &[geometry; LANES][..width], lanes.arch);
+            let geometries = &[geometry; LANES][..width];
+            engine.solve(model, geometries, lanes.arch);
             if let Some(result) = engine.result(0) {
-                (lanes.forces[0], lanes.units[0]) = engine.carried(model, geometry, 0);
+                let first = std::array::from_fn(|lane| lane == 0);
+                let swept = Swept {
+                    model,
+                    geometries,
+                    wanted: first,
+                    first: 0,
+                    arch: lanes.arch,
+                };
+                let [found, ..] = engine.carried(&swept, None);
+                lanes.beyond[0] = found;
                 return Ok(result);
             }
         }

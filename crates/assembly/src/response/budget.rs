@@ -2,14 +2,16 @@
 
 use std::cmp::Ordering;
 
-use hyperstat_joints::Dof;
-use nalgebra::{Matrix6, Vector3, Vector6};
+use hyperstat_joints::{Dof, DofSet};
+use nalgebra::{Matrix6, Vector6};
 
+use super::gives::Gives;
 use super::influence::{Influence, UnitState};
 use crate::answer::forces::Forces;
-use crate::answer::measures::{compliance_along, principal};
+use crate::answer::measures::{compliance_along, direction_of};
 use crate::answer::solution::Solution;
-use hyperstat_model::{BodyId, JointId};
+use crate::error::SolveError;
+use hyperstat_model::{BodyId, Geometry, JointId, Model};
 
 /// Order by size, the largest first. What is equal to nine digits, as equal parts of a symmetric
 /// mechanism are but for rounding, is equal here, so that a stable sort keeps the order of the file.
@@ -112,124 +114,190 @@ impl Influence<'_> {
     /// output). `along` is taken as it is: with length 1, `total` is a displacement.
     pub fn budget(&self, solution: &Solution, along: &Vector6<f64>) -> Budget {
         let total = solution.output.displacement.dot(along);
-        let misfits = self.misfit_parts(along);
+        let unit = UnitState::combined(&self.units, along);
+        let misfits = self.misfit_parts(&unit);
         let rounding = solution
             .floor
             .rounding_along(&solution.output.displacement, along);
-        self.budget_of(&self.state(solution), total, along, misfits, rounding)
-    }
-
-    /// The budget of a pose's state, which moves the output so, in that way; where it does not move it, that
-    /// of the compliance along the softest force.
-    pub(crate) fn pose_budget(
-        &self,
-        displacement: &Vector6<f64>,
-        forces: &Forces,
-        compliance: &Matrix6<f64>,
-    ) -> Budget {
-        // What is rounding beside what acts is no way to move.
-        let mut displacement = *displacement;
-        forces.floor.clear_displacement(&mut displacement);
-        let Some(along) = Budget::direction_of(&displacement) else {
-            let softest =
-                principal(&compliance.fixed_view::<3, 3>(0, 0).into_owned()).directions[2];
-            let along = Vector6::new(softest.x, softest.y, softest.z, 0.0, 0.0, 0.0);
-            return self.compliance_budget(compliance, &along);
-        };
-        let rounding = forces.floor.rounding_along(&displacement, &along);
-        let loaded = self.state_under(&[], &forces.joint_wrenches, &forces.segments);
-        let total = displacement.dot(&along);
-        self.budget_of(&loaded, total, &along, self.misfit_parts(&along), rounding)
+        let states = (&self.state(solution), &unit);
+        self.budget_of(states, total, along, misfits, rounding)
     }
 
     /// The budget of the compliance along a unit wrench: of the displacement along it that it
     /// causes itself \[m/N, or rad/(N·m) for a moment\].
     pub fn compliance_budget(&self, compliance: &Matrix6<f64>, along: &Vector6<f64>) -> Budget {
         let total = compliance_along(compliance, along);
-        self.budget_of(
-            &UnitState::combined(&self.units, along),
-            total,
-            along,
-            Vec::new(),
-            0.0,
-        )
+        let unit = UnitState::combined(&self.units, along);
+        self.budget_of((&unit, &unit), total, along, Vec::new(), 0.0)
     }
 
-    /// The budget of `total`; what is below `rounding`, it and its parts, is zero.
+    /// The budget of `total` from the state that it is of and the one under a unit of the wrench.
     fn budget_of(
         &self,
-        loaded: &UnitState,
+        (loaded, unit): (&UnitState, &UnitState),
         total: f64,
         along: &Vector6<f64>,
-        mut found: Vec<(PartSource, Deformation, f64)>,
+        mut found: Vec<Found>,
         rounding: f64,
     ) -> Budget {
-        let clean = |value: f64| if value.abs() <= rounding { 0.0 } else { value };
-        let total = clean(total);
-        let virtual_state = UnitState::combined(&self.units, along);
         let model = self.model;
         for (k, body) in model.bodies().iter().enumerate() {
-            let source = PartSource::Body(BodyId(k));
-            let (mut work, mut free) = (Vector6::zeros(), 0.0);
-            for segment in &body.segments {
-                let (elastic, other) = self.segment_parts(*segment, loaded, &virtual_state);
-                work += elastic;
-                free += other;
-            }
-            found.extend([
-                (source, Deformation::Bending, work[4] + work[5]),
-                (source, Deformation::Shear, work[1] + work[2]),
-                (source, Deformation::Torsion, work[3]),
-                (source, Deformation::Tension, work[0]),
-                (source, Deformation::FreeStrain, free),
-            ]);
+            let parts = body.segments.iter();
+            let parts = parts.map(|segment| self.segment_parts(*segment, loaded, unit));
+            add_body(&mut found, BodyId(k), parts);
             if let Some(flexible) = body.flexible {
-                let [force, _] = &virtual_state.flexibles[flexible.0];
+                let [force, _] = &unit.flexibles[flexible.0];
                 let [_, deflection] = &loaded.flexibles[flexible.0];
+                let source = PartSource::Body(BodyId(k));
                 found.push((source, Deformation::Flexible, force.dot(deflection)));
             }
         }
         for (k, joint) in model.joints().iter().enumerate() {
-            let source = PartSource::Joint(JointId(k));
-            let work = virtual_state.joints[k][0].component_mul(&loaded.joints[k][1]);
-            let mut parts = [0.0; 2];
-            for dof in Dof::ALL {
-                let drive = self.joints[k].is_drive(joint.joint.as_ref(), dof);
-                parts[usize::from(drive)] += work[dof.index()];
-            }
-            found.extend([
-                (source, Deformation::Bearing, parts[0]),
-                (source, Deformation::Drive, parts[1]),
-            ]);
+            let work = unit.joints[k][0].component_mul(&loaded.joints[k][1]);
+            add_joint(&mut found, JointId(k), &work, joint.joint.free());
         }
-        let accounted: f64 = found.iter().map(|(_, _, work)| work).sum();
-        found.retain(|(_, _, work)| clean(*work) != 0.0);
-        found.sort_by(|a, b| larger_first(a.2, b.2));
-        let parts = found
-            .into_iter()
-            .map(|(source, deformation, displacement)| Part {
-                source,
-                deformation,
-                displacement,
-                share: (total != 0.0).then(|| displacement / total),
-            });
-        Budget {
-            along: *along,
-            total,
-            parts: parts.collect(),
-            rest: clean(total - accounted),
+        settled(found, total, along, rounding)
+    }
+}
+
+/// A part, how it deforms and its displacement.
+type Found = (PartSource, Deformation, f64);
+
+/// Adds a body's beams, by the work on what each of them gives, elastic and not.
+fn add_body(found: &mut Vec<Found>, id: BodyId, parts: impl Iterator<Item = (Vector6<f64>, f64)>) {
+    let (mut work, mut free) = (Vector6::zeros(), 0.0);
+    for (elastic, other) in parts {
+        work += elastic;
+        free += other;
+    }
+    let source = PartSource::Body(id);
+    found.extend([
+        (source, Deformation::Bending, work[4] + work[5]),
+        (source, Deformation::Shear, work[1] + work[2]),
+        (source, Deformation::Torsion, work[3]),
+        (source, Deformation::Tension, work[0]),
+        (source, Deformation::FreeStrain, free),
+    ]);
+}
+
+/// Adds a joint, by the work on what it gives along its directions, of which these are free by its kind.
+fn add_joint(found: &mut Vec<Found>, id: JointId, work: &Vector6<f64>, free: DofSet) {
+    let source = PartSource::Joint(id);
+    let mut parts = [0.0; 2];
+    for dof in Dof::ALL {
+        parts[usize::from(free.contains(dof))] += work[dof.index()];
+    }
+    found.extend([
+        (source, Deformation::Bearing, parts[0]),
+        (source, Deformation::Drive, parts[1]),
+    ]);
+}
+
+/// The budget of `total`; what is below `rounding`, it and its parts, is zero.
+fn settled(mut found: Vec<Found>, total: f64, along: &Vector6<f64>, rounding: f64) -> Budget {
+    let clean = |value: f64| if value.abs() <= rounding { 0.0 } else { value };
+    let total = clean(total);
+    let accounted: f64 = found.iter().map(|(_, _, work)| work).sum();
+    found.retain(|(_, _, work)| clean(*work) != 0.0);
+    found.sort_by(|a, b| larger_first(a.2, b.2));
+    let parts = found
+        .into_iter()
+        .map(|(source, deformation, displacement)| Part {
+            source,
+            deformation,
+            displacement,
+            share: (total != 0.0).then(|| displacement / total),
+        });
+    Budget {
+        along: *along,
+        total,
+        parts: parts.collect(),
+        rest: clean(total - accounted),
+    }
+}
+
+impl Gives {
+    /// The budget of the displacement of the output in a state of a pose along a unit wrench, from what joints
+    /// and segments carry in the state and under the wrench; of a mechanism of beams, rigid bodies and joints
+    /// whose wrenches are all determined.
+    ///
+    /// # Errors
+    /// As [`Influence::sensitivities`].
+    pub fn budget(
+        &self,
+        at: (&Model, &Geometry),
+        (displacement, forces): (&Vector6<f64>, &Forces),
+        (along, unit): (&Vector6<f64>, &Forces),
+    ) -> Result<Budget, SolveError> {
+        let displacement = forces.floor.cleared(displacement);
+        let rounding = forces.floor.rounding_along(&displacement, along);
+        let mut found = Vec::with_capacity(5 * at.0.bodies().len() + 2 * self.joints.len());
+        self.add_misfits(&mut found, at.0, unit);
+        self.add_parts(&mut found, at, (unit, forces), true)?;
+        Ok(settled(found, displacement.dot(along), along, rounding))
+    }
+
+    /// The same of the displacement that the wrench causes itself.
+    ///
+    /// # Errors
+    /// As [`Influence::sensitivities`].
+    pub fn compliance_budget(
+        &self,
+        at: (&Model, &Geometry),
+        displacement: &Vector6<f64>,
+        (along, unit): (&Vector6<f64>, &Forces),
+    ) -> Result<Budget, SolveError> {
+        let mut found = Vec::new();
+        self.add_parts(&mut found, at, (unit, unit), false)?;
+        Ok(settled(found, displacement.dot(along), along, 0.0))
+    }
+
+    fn add_parts(
+        &self,
+        found: &mut Vec<Found>,
+        at: (&Model, &Geometry),
+        (unit, loaded): (&Forces, &Forces),
+        preloaded: bool,
+    ) -> Result<(), SolveError> {
+        for (k, body) in at.0.bodies().iter().enumerate() {
+            let works = body.segments.iter();
+            let works = works.map(|id| self.segments[id.0].works(at, unit, loaded));
+            let works: Vec<_> = works.collect::<Result<_, _>>()?;
+            add_body(found, BodyId(k), works.into_iter());
+        }
+        for (k, joint) in self.joints.iter().enumerate() {
+            let work = joint.work(unit, loaded, preloaded);
+            add_joint(found, JointId(k), &work, joint.free);
+        }
+        Ok(())
+    }
+
+    /// Adds what the model's misfits give along a wrench, by what joints carry under it.
+    fn add_misfits(&self, found: &mut Vec<Found>, model: &Model, unit: &Forces) {
+        for entry in model.misfits() {
+            let joint = &self.joints[entry.joint.0];
+            let Some(force) = joint.force(unit) else {
+                continue;
+            };
+            let mut sum = None;
+            for direction in joint.directions.free.complement().iter() {
+                let per_unit = -force[direction.index()];
+                *sum.get_or_insert(0.0) += entry.misfit[direction.index()] * per_unit;
+            }
+            let source = PartSource::Joint(entry.joint);
+            found.extend(sum.map(|sum| (source, Deformation::Misfit, sum)));
         }
     }
 }
 
 impl Influence<'_> {
-    /// What the model's misfits give along a unit wrench.
-    fn misfit_parts(&self, along: &Vector6<f64>) -> Vec<(PartSource, Deformation, f64)> {
+    /// What the model's misfits give along a wrench, by the state under it.
+    fn misfit_parts(&self, unit: &UnitState) -> Vec<(PartSource, Deformation, f64)> {
         if self.model.misfits().is_empty() {
             return Vec::new();
         }
         let mut parts: Vec<(PartSource, Deformation, f64)> = Vec::new();
-        for effect in self.misfit_effects(along) {
+        for effect in self.effects_of_misfits(unit) {
             let source = PartSource::Joint(effect.joint);
             let misfit = self.model.misfit(effect.joint).map(|entry| entry.misfit);
             if let (Some(misfit), Some(per_unit)) = (misfit, effect.per_unit) {
@@ -250,7 +318,10 @@ impl Influence<'_> {
     /// causes, reversed: `−f_e` on the second body. So it says which tolerance of a joint, of a
     /// bearing's place or a link's length, matters.
     pub fn misfit_effects(&self, along: &Vector6<f64>) -> Vec<MisfitEffect> {
-        let state = UnitState::combined(&self.units, along);
+        self.effects_of_misfits(&UnitState::combined(&self.units, along))
+    }
+
+    fn effects_of_misfits(&self, state: &UnitState) -> Vec<MisfitEffect> {
         let mut effects = Vec::new();
         for (k, joint) in self.joints.iter().enumerate() {
             let reaction = &state.reactions[k];
@@ -289,16 +360,7 @@ impl Budget {
     /// The unit force along the translation of a displacement, or the unit moment along its
     /// rotation where it does not translate; `None` for no displacement.
     pub fn direction_of(displacement: &Vector6<f64>) -> Option<Vector6<f64>> {
-        for start in [0, 3] {
-            let part: Vector3<f64> = displacement.fixed_rows::<3>(start).into_owned();
-            let size = part.norm();
-            if size > 0.0 {
-                let mut along = Vector6::zeros();
-                along.fixed_rows_mut::<3>(start).copy_from(&(part / size));
-                return Some(along);
-            }
-        }
-        None
+        direction_of(displacement)
     }
 
     /// The share of each way to deform, largest size first.

@@ -4,11 +4,10 @@
 use std::sync::Arc;
 
 use hyperstat_elements::{BeamLoad, rotate_vector6};
-use hyperstat_joints::{Dof, DofSet};
+use hyperstat_joints::DofSet;
 use hyperstat_model::{Directions, Geometry, JointId, LoadSet, Model, NodeId, SegmentId};
 use nalgebra::{DVector, Matrix6, Vector6};
 
-use crate::answer::forces::Forces;
 use crate::answer::solution::{SegmentForces, Solution, State as Displaced};
 use crate::error::SolveError;
 use crate::posture::{PlacedBeam, Posture};
@@ -93,35 +92,11 @@ impl<'m> Influence<'m> {
         Ok(influence)
     }
 
-    /// From what joints and segments carry under those loads, of a mechanism whose joints' wrenches are all
-    /// determined and whose bodies are all of beams or rigid.
-    pub(crate) fn of_forces(
-        model: &'m Model,
-        geometry: &'m Geometry,
-        units: &[Forces; 6],
-    ) -> Result<Self, SolveError> {
-        let mut influence = Self::new(model, geometry, &Posture::new(model, geometry), Vec::new())?;
-        for (k, unit) in units.iter().enumerate() {
-            influence.units[k] = influence.state_of(&[], &unit.joint_wrenches, &unit.segments);
-        }
-        Ok(influence)
-    }
-
     /// The state of a solution of this model, under any loads: what the springs of its joints
     /// themselves take and give, apart from preloads and misfits.
     pub(crate) fn state(&self, solution: &Solution) -> UnitState {
         let wrenches = &solution.joint_wrenches;
-        self.state_under(&solution.displacements, wrenches, &solution.segments)
-    }
-
-    /// The same from what is known of it; without displacements as [`Influence::of_forces`].
-    pub(crate) fn state_under(
-        &self,
-        displacements: &[Vector6<f64>],
-        wrenches: &[Option<Vector6<f64>>],
-        segments: &[SegmentForces],
-    ) -> UnitState {
-        let mut state = self.state_of(displacements, wrenches, segments);
+        let mut state = self.state_of(&solution.displacements, wrenches, &solution.segments);
         for entry in self.model.misfits() {
             let JointId(k) = entry.joint;
             let directions = &self.joints[k].directions;
@@ -242,20 +217,13 @@ impl<'m> Influence<'m> {
         unit: &UnitState,
     ) -> (Vector6<f64>, f64) {
         let elastic = self.segment_work(segment, state, unit, &|_| Vector6::repeat(1.0));
-        let load = state.load(segment);
-        let (end, virtual_end) = (&state.ends[segment.0], &unit.ends[segment.0]);
         let beam = self.beams[segment.0].beam.straight();
-        let whole = beam.virtual_work(end, &load, virtual_end);
-        (elastic, (whole - elastic).sum())
+        let free = beam.free_work(&state.load(segment), &unit.ends[segment.0]);
+        (elastic, free.sum())
     }
 }
 
 impl ElasticDirections {
-    /// Whether a direction is that of a drive: free by the joint's kind, held by a spring.
-    pub fn is_drive(&self, joint: &dyn hyperstat_joints::Joint, dof: Dof) -> bool {
-        joint.free().contains(dof)
-    }
-
     /// The rigid and elastic directions.
     pub fn held(&self) -> DofSet {
         self.directions.free.complement()

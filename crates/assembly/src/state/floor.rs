@@ -70,6 +70,12 @@ impl Floor {
         }
     }
 
+    /// With a wrench on a node.
+    pub(crate) fn under_wrench(mut self, wrench: &Vector6<f64>) -> Self {
+        self.add_force(self.as_force(wrench));
+        self
+    }
+
     /// With what acts in a state.
     pub(crate) fn under(mut self, at: &Posture<'_>, acting: &Acting) -> Self {
         let Posture {
@@ -175,6 +181,13 @@ impl Floor {
     /// Sets what is rounding in a displacement to zero.
     pub(crate) fn clear_displacement(&self, displacement: &mut Vector6<f64>) {
         clear(displacement, self.rounding());
+    }
+
+    /// A displacement without what is rounding in it.
+    pub(crate) fn cleared(&self, displacement: &Vector6<f64>) -> Vector6<f64> {
+        let mut own = *displacement;
+        self.clear_displacement(&mut own);
+        own
     }
 
     /// Sets what is rounding in a wrench to zero.

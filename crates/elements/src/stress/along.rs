@@ -4,8 +4,11 @@ use nalgebra::Vector6;
 
 use super::parts::{StressParts, stress_parts};
 use super::search::{convex_maximum, maximum};
+use super::section_stress;
+use crate::bernstein::Bernstein;
 use crate::load::BeamLoad;
 use crate::material::Material;
+use crate::section::Section;
 use crate::taper::Taper;
 
 /// The largest of a stress along a beam.
@@ -73,12 +76,9 @@ pub fn stress_along(
     // A section without its outline has no stresses anywhere.
     let sample = stress_parts(taper.from(), end_wrench)?;
     let find = |stress: fn(&StressParts) -> f64| {
-        let value = |parts: Option<StressParts>| parts.map_or(0.0, |parts| stress(&parts));
-        if taper.is_constant() {
-            convex_maximum(&wrenches, |w| value(stress_parts(taper.from(), w)))
-        } else {
-            maximum(|xi| value(stress_parts(&taper.at(xi), &wrenches.at(xi))))
-        }
+        largest(taper, &wrenches, |section, wrench| {
+            stress_parts(section, wrench).map_or(0.0, |parts| stress(&parts))
+        })
     };
     let find_optional = |stress: fn(&StressParts) -> f64| sample.transverse.map(|_| find(stress));
     Some(BeamStress {
@@ -90,4 +90,42 @@ pub fn stress_along(
         von_mises: find(|s| s.von_mises),
         von_mises_bound: find_optional(|s| s.von_mises_bound.unwrap_or(0.0)),
     })
+}
+
+/// The largest von Mises stress of normal and torsional stress along a beam: that of [`stress_along`], without
+/// the others.
+pub fn von_mises_along(
+    taper: &Taper,
+    length: f64,
+    end_wrench: &Vector6<f64>,
+    load: &BeamLoad,
+) -> Option<Peak> {
+    let value = |section: &Section, wrench: &Vector6<f64>| {
+        section_stress(section, wrench).map_or(0.0, |stress| stress.von_mises)
+    };
+    section_stress(taper.from(), end_wrench)?;
+    let wrenches = load.section_wrenches(length, end_wrench);
+    if load.is_forceless() && taper.is_constant() {
+        // A convex function of what is linear is largest at an end.
+        let [first, .., last] = wrenches.0;
+        let mut peak = Peak {
+            value: value(taper.from(), &first),
+            xi: 0.0,
+        };
+        peak.improve(value(taper.from(), &last), 1.0);
+        return Some(peak);
+    }
+    Some(largest(taper, &wrenches, value))
+}
+
+/// The largest value along a beam of a stress of a section, a convex function of the section wrench.
+fn largest(
+    taper: &Taper,
+    wrenches: &Bernstein<5>,
+    stress: impl Fn(&Section, &Vector6<f64>) -> f64,
+) -> Peak {
+    match taper.is_constant() {
+        true => convex_maximum(wrenches, |wrench| stress(taper.from(), wrench)),
+        false => maximum(|xi| stress(&taper.at(xi), &wrenches.at(xi))),
+    }
 }

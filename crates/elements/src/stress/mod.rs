@@ -22,7 +22,7 @@ mod along;
 mod parts;
 mod search;
 
-pub use along::{BeamStress, Peak, stress_along};
+pub use along::{BeamStress, Peak, stress_along, von_mises_along};
 pub use parts::{StressParts, stress_parts};
 
 use nalgebra::Vector6;

@@ -222,6 +222,12 @@ impl Job {
         &self.cases
     }
 
+    /// Asks for no columns.
+    pub fn leave_columns(&mut self) {
+        self.columns.clear();
+        self.column_places.clear();
+    }
+
     /// Columns of its table that it asks for, in their order.
     pub fn columns(&self) -> &[Column] {
         &self.columns

@@ -18,7 +18,9 @@ const STEP: f64 = 1e-4;
 /// How the output answers to a parameter.
 pub(super) struct ByParameter {
     pub(super) sensitivity: Sensitivity,
-    pub(super) by_differences: bool,
+    /// The parameters of the model that it is the sum of, by number, with their weights; `None` where it is
+    /// by differences.
+    pub(super) parts: Option<Vec<(usize, f64)>>,
 }
 
 /// How the output answers to all parameters that change anything, from how it answers to the values of
@@ -34,14 +36,13 @@ pub(super) fn of_output(
         .collect();
     let of = |dependence: Dependence| {
         let weights = weights(&dependence, &paths);
-        let by_differences = weights.is_none();
-        let sensitivity = match weights {
-            Some(weights) => summed(&dependence, found, &weights),
+        let sensitivity = match &weights {
+            Some(weights) => summed(&dependence, found, weights),
             None => differences(study, &dependence, case)?,
         };
         Some(ByParameter {
             sensitivity,
-            by_differences,
+            parts: weights,
         })
     };
     study.dependences().into_iter().filter_map(of).collect()

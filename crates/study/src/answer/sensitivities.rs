@@ -1,8 +1,8 @@
 //! What 1 % more of every parameter would change: of the deflection, and of natural frequencies.
 
 use hyperstat_assembly::{
-    FrequencySensitivity, Influence, ModalOptions, ModalSensitivities, Sensitivity, Solution,
-    SolveError, larger_first,
+    FrequencySensitivity, Influence, ModalOptions, ModalSensitivities, Parameter, Sensitivity,
+    Solution, SolveError, larger_first,
 };
 use serde::Serialize;
 
@@ -31,6 +31,9 @@ pub struct SensitivityReport {
     pub compliance: Rows,
     /// Derivative of the output's stiffness, where it has one.
     pub stiffness: Option<Rows>,
+    /// The parameters of the model that it is the sum of, with their weights; none by differences.
+    #[serde(skip)]
+    pub(crate) parts: Vec<(Parameter, f64)>,
 }
 
 /// How frequencies that are equal, mostly one, answer to the parameters.
@@ -76,16 +79,20 @@ impl SensitivityReport {
         let mut found = influence.sensitivities(solution)?;
         let known = found.len();
         let parameters = by_parameter::of_output(study, &found, case);
-        let differences: Vec<bool> = parameters.iter().map(|own| own.by_differences).collect();
-        found.extend(parameters.into_iter().map(|own| own.sensitivity));
+        let mut parts: Vec<_> = (0..known).map(|own| Some(vec![(own, 1.0)])).collect();
+        for own in parameters {
+            parts.push(own.parts);
+            found.push(own.sensitivity);
+        }
         let named = found.iter().map(|s| (s.name.as_deref(), &s.parameter));
         let names = parameters::names(study.model(), named);
-        let by_differences = std::iter::repeat_n(false, known).chain(differences);
-        let mut all: Vec<Self> = (found.iter().zip(names).zip(by_differences))
-            .map(|((s, parameter), by_differences)| Self {
-                parameter,
+        let parameter = |(own, weight): &(usize, f64)| (found[*own].parameter.clone(), *weight);
+        let mut all: Vec<Self> = (found.iter().zip(names).zip(parts))
+            .map(|((s, name), parts)| Self {
+                parameter: name,
                 path: parameters::path(study, s.name.as_deref(), &s.parameter),
-                by_differences,
+                by_differences: parts.is_none(),
+                parts: parts.iter().flatten().map(parameter).collect(),
                 value: s.value,
                 relative: relative(s),
                 displacement: s.displacement.as_ref().map(numbers),

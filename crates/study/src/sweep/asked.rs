@@ -1,12 +1,14 @@
 //! What a job's `columns` ask for, found at one pose.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use hyperstat_assembly::{
-    Beside, Budget, Carried, Configuration, Geometry, JointId, Model, MovingMass, PartSource,
-    Prepared, SegmentForces, Solution, SolveError, worst_stress,
+    Beside, BodyId, Budget, Carried, Configuration, Geometry, JointId, Model, MovingMass,
+    PartSource, Prepared, SegmentForces, Solution, SolveError, worst_von_mises,
 };
+use hyperstat_elements::Taper;
 use hyperstat_joints::Dof;
 use hyperstat_mechanisms::Job;
 use nalgebra::{Matrix6, Vector6};
@@ -24,6 +26,10 @@ pub(super) struct Asked {
     cases: usize,
     /// Names of the segments.
     segments: Vec<Arc<str>>,
+    /// Their sections; of one that has none along it, nothing is asked.
+    sections: Vec<Option<Taper>>,
+    /// Of the parts whose shares are asked for: their columns.
+    parts: HashMap<PartSource, usize>,
     /// Names of the drives of this design, and which they are.
     drives: Vec<(String, (JointId, Dof))>,
     /// Where it is asked for.
@@ -60,8 +66,11 @@ impl Asked {
         }
         let asks = groups.contains(&Group::Mass);
         let mass = asks.then(|| MovingMass::new(model)).transpose()?;
+        let sections = model.segments().iter();
         Ok(Some(Self {
             cases: job.cases().len(),
+            sections: sections.map(|own| own.sections_along().ok()).collect(),
+            parts: columns_of_parts(&groups, model),
             segments: segment_names(model).into_iter().map(Arc::from).collect(),
             drives: drives(model).into_iter().zip(model.drives()).collect(),
             mass,
@@ -133,7 +142,7 @@ impl Asked {
                         (None, Some((here, solution))) => Cow::Owned(budgets(here, solution)?),
                         (None, None) => continue,
                     };
-                    self.add_shares(parts, found.prepared.model(), &budgets, cells);
+                    self.add_shares(parts.len(), &budgets, cells);
                 }
                 _ => self.add_forces(group, found.prepared.model(), &states, cells),
             }
@@ -180,7 +189,8 @@ impl Asked {
     fn worst(&self, worst: Worst, model: &Model, forces: &[SegmentForces]) -> [Cell; 3] {
         let mut largest: Option<(f64, usize, f64)> = None;
         for (k, (segment, forces)) in model.segments().iter().zip(forces).enumerate() {
-            let Some(peak) = worst_stress(segment, forces).map(|stress| stress.von_mises) else {
+            let sections = self.sections[k].as_ref();
+            let Some(peak) = sections.and_then(|own| worst_von_mises(own, forces)) else {
                 continue;
             };
             let value = match worst {
@@ -207,36 +217,53 @@ impl Asked {
 
     /// Adds the shares in the deflection under the loads, then in every case; empty where the output moves
     /// freely and there are no `budgets`.
-    fn add_shares(
-        &self,
-        parts: &[String],
-        model: &Model,
-        budgets: &[Budget],
-        cells: &mut Vec<Cell>,
-    ) {
-        let name = |source: PartSource| match source {
-            PartSource::Body(id) => format!("body {}", model.bodies()[id.0].name),
-            PartSource::Joint(id) => format!("joint {}", model.joints()[id.0].name),
-        };
+    fn add_shares(&self, parts: usize, budgets: &[Budget], cells: &mut Vec<Cell>) {
+        let width = parts + DEFORMATIONS.len();
         for budget in budgets {
+            let mut sums = vec![0.0; width];
+            for part in &budget.parts {
+                if let Some(column) = self.parts.get(&part.source) {
+                    sums[*column] += part.displacement;
+                }
+                let kinds = DEFORMATIONS.iter();
+                let kind = kinds
+                    .map(|(kind, _)| *kind)
+                    .position(|k| k == part.deformation);
+                if let Some(kind) = kind {
+                    sums[parts + kind] += part.displacement;
+                }
+            }
             let total = Some(budget.total).filter(|total| *total != 0.0);
             let share = |sum: f64| Cell::from(total.map(|total| sum / total));
-            let by_part = budget.by_source().into_iter();
-            let by_part: Vec<_> = by_part.map(|(part, sum)| (name(part), sum)).collect();
-            let by_deformation = budget.by_deformation();
-            cells.extend(parts.iter().map(|part| {
-                let own = by_part.iter().find(|(name, _)| name == part);
-                share(own.map_or(0.0, |(_, sum)| *sum))
-            }));
-            cells.extend(DEFORMATIONS.iter().map(|(kind, _)| {
-                let own = by_deformation.iter().find(|(own, _)| own == kind);
-                share(own.map_or(0.0, |(_, sum)| *sum))
-            }));
+            cells.extend(sums.into_iter().map(share));
         }
         let missing = (1 + self.cases).saturating_sub(budgets.len());
-        let count = missing * (parts.len() + DEFORMATIONS.len());
-        cells.extend(std::iter::repeat_n(Cell::Empty, count));
+        cells.extend(std::iter::repeat_n(Cell::Empty, missing * width));
     }
+}
+
+/// Of the parts of a model whose shares are asked for: their columns.
+fn columns_of_parts(groups: &[Group], model: &Model) -> HashMap<PartSource, usize> {
+    let names = groups.iter().find_map(|group| match group {
+        Group::Budget(names) => Some(names),
+        _ => None,
+    });
+    let bodies = model.bodies().iter().enumerate();
+    let bodies = bodies.map(|(k, body)| {
+        let source = PartSource::Body(BodyId(k));
+        (source, format!("body {}", body.name))
+    });
+    let joints = model.joints().iter().enumerate();
+    let joints = joints.map(|(k, joint)| {
+        let source = PartSource::Joint(JointId(k));
+        (source, format!("joint {}", joint.name))
+    });
+    let columns: HashMap<&str, usize> = (names.into_iter().flatten().enumerate())
+        .map(|(column, name)| (name.as_str(), column))
+        .collect();
+    let own = bodies.chain(joints);
+    own.filter_map(|(source, name)| Some((source, *columns.get(name.as_str())?)))
+        .collect()
 }
 
 /// The budgets of the deflection under the loads, then in every case; none where the output moves freely.

@@ -5,6 +5,7 @@ mod chunk;
 mod poser;
 mod record;
 mod share;
+mod slopes;
 mod statistics;
 mod summary;
 mod threads;
@@ -27,6 +28,8 @@ use asked::Asked;
 pub use chunk::{Chunk, Row};
 pub use poser::Poser;
 pub use record::{Cell, Failure, Found, Held, NUMBERS, Record, UPPER};
+pub(crate) use slopes::Sought;
+use slopes::{Slope, cells};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
@@ -35,7 +38,9 @@ pub use wide::placing;
 /// Rows that a thread solves at a time.
 const CHUNK: usize = 32 * LANES;
 
-/// The same where natural frequencies or full solutions make a row take long.
+/// The same where forces are asked for, which some mechanisms have from a full solution alone.
+const MIDDLE_CHUNK: usize = 8 * LANES;
+/// The same where natural frequencies make a row take long.
 const SHORT_CHUNK: usize = LANES;
 
 /// Designs after the first among which one has a topology, where the first has none.
@@ -49,6 +54,7 @@ pub struct Sweep<'a> {
     /// Number of a design that the others share with what they can, and why no pose of it is reached,
     /// where none is.
     first: (usize, Result<Arc<Planned>, Failure>),
+    sought: Option<Sought>,
 }
 
 /// The way that poses go.
@@ -70,6 +76,8 @@ struct Planned {
     modes: bool,
     /// Columns on request, where there are some.
     asked: Option<Asked>,
+    /// Derivatives, where the lanes find them.
+    slope: Option<Slope>,
 }
 
 impl<'a> Sweep<'a> {
@@ -79,6 +87,15 @@ impl<'a> Sweep<'a> {
     /// Why the first design that can be has none, where none of the next 1000 has one; columns on request
     /// whose names others have.
     pub fn new(job: &'a Job, way: Way) -> Result<Self, StudyError> {
+        Self::seeking(job, way, None)
+    }
+
+    /// The same with derivatives, which stand last among what a row has further.
+    pub(crate) fn seeking(
+        job: &'a Job,
+        way: Way,
+        sought: Option<Sought>,
+    ) -> Result<Self, StudyError> {
         check(job)?;
         let planned = |number| -> Result<_, StudyError> {
             let design = job.design(number)?;
@@ -88,7 +105,7 @@ impl<'a> Sweep<'a> {
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
             let prepared = Prepared::new(model);
-            let planned = Planned::of(prepared, Some(job)).map_err(|failed| {
+            let planned = Planned::of(prepared, Some(job), sought.as_ref()).map_err(|failed| {
                 let (prepared, error) = *failed;
                 Written::Design(job, &design).unsolvable(&prepared.here(), error)
             });
@@ -98,7 +115,12 @@ impl<'a> Sweep<'a> {
         let mut others = (first + 1..job.designs()).take(TRIED);
         let first = planned(first)
             .or_else(|error| others.find_map(|number| planned(number).ok()).ok_or(error))?;
-        Ok(Self { job, way, first })
+        Ok(Self {
+            job,
+            way,
+            first,
+            sought,
+        })
     }
 
     /// The job.
@@ -141,9 +163,13 @@ impl<'a> Sweep<'a> {
             further,
             ..Chunk::default()
         };
-        let is_long =
-            self.job.frequencies().is_some() || Group::all(self.job).iter().any(Group::is_solved);
-        let size = if is_long { SHORT_CHUNK } else { CHUNK };
+        let size = if self.job.frequencies().is_some() {
+            SHORT_CHUNK
+        } else if Group::all(self.job).iter().any(Group::is_solved) {
+            MIDDLE_CHUNK
+        } else {
+            CHUNK
+        };
         let rows = rows.start.min(self.len())..rows.end.min(self.len());
         let end = rows.end;
         let ranges = rows.step_by(size);
@@ -196,13 +222,14 @@ impl<'a> Sweep<'a> {
                     design: None,
                     ready: Err(Failure::Design(Arc::new(error))),
                     placing: placing(),
+                    sought: None,
                 };
             }
         };
         let (first, planned) = &self.first;
         let planned = match number == *first {
             true => planned.clone(),
-            false => Planned::new(&design, self.job, planned).map(Arc::new),
+            false => Planned::new(&design, self.job, planned, self.sought.as_ref()).map(Arc::new),
         };
         let ready = planned.and_then(|planned| {
             let lanes = match self.way {
@@ -220,6 +247,7 @@ impl<'a> Sweep<'a> {
             design: Some(design),
             ready,
             placing,
+            sought: self.sought.as_ref().map(|own| own.parameters.len()),
         }
     }
 }
@@ -251,30 +279,38 @@ impl Planned {
         design: &Design,
         job: &Job,
         first: &Result<Arc<Self>, Failure>,
+        sought: Option<&Sought>,
     ) -> Result<Self, Failure> {
         let model = design.model()?;
         let prepared = match first {
             Ok(first) => first.prepared.for_design(model)?,
             Err(_) => Prepared::new(model),
         };
-        Self::of(prepared, Some(job)).map_err(|failed| Failure::from(failed.1))
+        Self::of(prepared, Some(job), sought).map_err(|failed| Failure::from(failed.1))
     }
 
     /// What is needed for a job's rows, of a mechanism that has a plan; without a job for a pose alone. An
     /// error comes with the mechanism.
-    fn of(prepared: Prepared, job: Option<&Job>) -> Result<Self, Box<(Prepared, SolveError)>> {
+    fn of(
+        prepared: Prepared,
+        job: Option<&Job>,
+        sought: Option<&Sought>,
+    ) -> Result<Self, Box<(Prepared, SolveError)>> {
         let found = || {
             prepared.unknowns()?;
             let Some(job) = job else {
-                return Ok((None, None));
+                return Ok((None, None, None));
             };
+            let slope = sought.map(|sought| Slope::of(sought, prepared.model()));
             let modal = job.frequencies();
             let modal = modal.map(|options| prepared.modal(options)).transpose()?;
-            Ok((modal, Asked::of(job, prepared.model())?))
+            let asked = Asked::of(job, prepared.model())?;
+            Ok((modal, asked, slope.transpose()?.flatten()))
         };
         match found() {
-            Ok((modal, asked)) => Ok(Self {
+            Ok((modal, asked, slope)) => Ok(Self {
                 prepared,
+                slope,
                 modal,
                 modes: job.is_some_and(|job| job.modes.is_some()),
                 asked,
@@ -292,7 +328,9 @@ impl Planned {
 
     /// What lanes have to find beside the output.
     fn beside(&self) -> Beside {
-        self.asked.as_ref().map_or(Beside::Nothing, Asked::beside)
+        let asked = self.asked.as_ref().map(Asked::beside);
+        let slope = self.slope.as_ref().map(Slope::beside);
+        asked.max(slope).unwrap_or_default()
     }
 
     /// What joints and segments carry at a pose of this result, with the budgets where these are asked for;
@@ -305,7 +343,7 @@ impl Planned {
     ) -> Option<Result<Carried, SolveError>> {
         let found = result.as_ref().ok()?;
         found.displacement?;
-        match self.beside() {
+        match self.asked.as_ref()?.beside() {
             Beside::Forces => {
                 let forces = self.prepared.forces(lanes, pose);
                 Some(forces.map(Carried::from))
@@ -389,6 +427,8 @@ struct Solver {
     /// Why no pose of it can be solved, where none can.
     ready: Result<(Arc<Planned>, Lanes), Failure>,
     placing: Placing,
+    /// Number of derivatives, where these are sought.
+    sought: Option<usize>,
 }
 
 impl Solver {
@@ -421,14 +461,23 @@ impl Solver {
             let poses = first..poses.end.min(first + LANES);
             let placed = design.place_lanes(poses, lanes.geometries_mut(), &mut self.placing);
             let filled = placed.each_ref().map(|pose| matches!(pose, Some(Ok(_))));
-            let mut found = planned.prepared.sweep_lanes(lanes, filled);
+            let (mut found, mut slopes) = match &planned.slope {
+                Some(slope) => slope.sweep(&planned.prepared, lanes, filled),
+                None => {
+                    let found = planned.prepared.sweep_lanes(lanes, filled);
+                    (found, [const { None }; LANES])
+                }
+            };
             for (lane, placed) in placed.into_iter().enumerate() {
                 match (placed, found[lane].take()) {
                     (Some(Ok(pose)), Some(result)) => {
                         let carried = planned.carried(lanes, lane, &result);
                         let drives = self.placing.drives(lane);
                         let geometry = lanes.geometry_mut(lane);
-                        let result = planned.found(result, geometry, drives, carried);
+                        let mut result = planned.found(result, geometry, drives, carried);
+                        if let (Ok(found), Some(count)) = (&mut result, self.sought) {
+                            found.further.extend(cells(slopes[lane].take(), count));
+                        }
                         records.push(Record::reached(pose, result));
                     }
                     (Some(Err(error)), _) => records.push(unreached(first + lane, error.into())),

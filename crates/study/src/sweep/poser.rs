@@ -56,7 +56,7 @@ impl Study {
         // The model that a sweep starts from, so that the numbers are the sweep's.
         let model = design.model().unwrap_or_else(|_| self.model().clone());
         let failed = |prepared: &Prepared, error| self.source().unsolvable(&prepared.here(), error);
-        let planned = Planned::of(Prepared::new(model), self.whole_job());
+        let planned = Planned::of(Prepared::new(model), self.whole_job(), None);
         let planned = planned.map_err(|made| failed(&made.0, made.1))?;
         let single = planned.prepared.single_beside(planned.beside());
         let single = single.map_err(|error| failed(&planned.prepared, error))?;

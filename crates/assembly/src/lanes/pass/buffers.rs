@@ -74,12 +74,6 @@ impl Buffers {
         }
     }
 
-    /// What a pose has in one of these buffers.
-    pub fn of<'a>(&self, numbers: &'a Numbers, lane: usize) -> impl Fn(usize) -> f64 + Copy + 'a {
-        let width = self.width;
-        move |k| numbers[k * width + lane]
-    }
-
     /// Entry `k` of a pose's results.
     pub fn result(&self, k: usize, lane: usize) -> f64 {
         self.results[k * self.width + lane]

@@ -93,12 +93,18 @@ impl<'m> Columns<'m> {
         for (column, sources) in self.sources.iter().enumerate() {
             let wrenches = &mut brought.wrenches;
             let mut add_load = |node, act, inputs: &mut Inputs| {
-                wrenches.push(NodeWrench { node, act, column });
+                let point = inputs.point(node);
+                wrenches.push(NodeWrench {
+                    node,
+                    point,
+                    act,
+                    column,
+                });
                 let motion = parts.motion(node, inputs)?;
                 if motion.moves() {
                     loads.push(NodeLoad {
                         node: motion,
-                        point: inputs.point(node),
+                        point,
                         act,
                         column,
                     });

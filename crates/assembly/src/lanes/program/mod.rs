@@ -230,11 +230,9 @@ impl Program {
             front.scatter = Scatter::new(front, &elements);
         }
         let seen = (&elements[..], &screws[..], &fronts);
-        let recovery = || Recovery::new(model, geometry, &topology, seen, wrenches);
         let recovery = match beside {
             Beside::Nothing => None,
-            Beside::Forces => recovery(),
-            Beside::Budgets => recovery().and_then(|own| own.with_units(model, geometry)),
+            _ => Recovery::new(model, geometry, &topology, seen, wrenches, &mut inputs),
         };
         let blocks = elements.iter().map(Element::blocks);
         let ends = elements.iter().map(Element::ends);

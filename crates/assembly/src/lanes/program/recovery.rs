@@ -6,13 +6,14 @@
 
 use std::ops::Range;
 
-use hyperstat_model::{Geometry, JointId, LoadSet, Misfit, Model, NodeId, SegmentId};
+use hyperstat_model::{Geometry, JointId, Misfit, Model, NodeId, SegmentId};
 use nalgebra::Vector6;
 
 use super::acts::Act;
 use super::chain::{Chain, Item, LinkSource};
 use super::element::{Element, Kind, NodeMotion, Screw};
 use super::fronts::{FrontPart, Fronts};
+use super::inputs::{Inputs, Point};
 use crate::plan::roles::JointRole;
 use crate::plan::topology::Topology;
 use crate::posture::Posture;
@@ -43,8 +44,8 @@ pub(crate) struct Recovery {
     pub along: bool,
     /// By states: what acts, in the plan's configuration.
     pub floors: Vec<Floor>,
-    /// Of a unit of each component of a wrench on the output, where these states are asked for.
-    pub units: Option<[Floor; 6]>,
+    /// Of nothing that acts.
+    pub at_rest: Floor,
     /// By coordinates: whether it is a translation.
     pub slides: Vec<bool>,
 }
@@ -114,11 +115,17 @@ pub(crate) struct SegmentAt {
     pub cut: usize,
     /// Whether its second node is towards the chain's end 0.
     pub flipped: bool,
+    pub points: [Point; 2],
+    /// Direction of local y.
+    pub y_axis: usize,
 }
 
 /// What a joint's wrench is the sum of.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct JointAt {
+    pub point: Point,
+    /// Columns of its frame.
+    pub frame: [usize; 3],
     /// Elements and cuts, with the sign by which they count on the joint's second body.
     pub cuts: Vec<(usize, usize, f64)>,
     /// Loads, likewise.
@@ -129,6 +136,7 @@ pub(crate) struct JointAt {
 #[derive(Debug, Clone)]
 pub(crate) struct NodeWrench {
     pub node: NodeId,
+    pub point: Point,
     pub act: Act,
     pub column: usize,
 }
@@ -150,6 +158,7 @@ impl Recovery {
         topology: &Topology,
         (elements, screws, fronts): (&[Element], &[Screw], &Fronts),
         loads: Vec<NodeWrench>,
+        inputs: &mut Inputs,
     ) -> Option<Self> {
         let is_singular = |joint: &JointRole| {
             !joint.directions.elastic.is_empty() && joint.directions.compliance.is_none()
@@ -173,7 +182,7 @@ impl Recovery {
             preloads: preloads(model),
             along: acting.iter().any(|a| !a.segments().is_empty()),
             floors: acting.iter().map(|a| at_rest.under(&at, a)).collect(),
-            units: None,
+            at_rest,
             slides: vec![false; topology.coordinates],
         };
         for component in &topology.components {
@@ -196,24 +205,8 @@ impl Recovery {
             };
             recovery.add_chain(k, element, chain, fronts);
         }
-        recovery.place(model, topology, elements)?;
+        recovery.place(model, topology, elements, inputs)?;
         Some(recovery)
-    }
-
-    /// With the states of units of a wrench on the output.
-    pub fn with_units(mut self, model: &Model, geometry: &Geometry) -> Option<Self> {
-        let at = Posture::new(model, geometry);
-        let at_rest = Floor::at_rest(&at);
-        let mut floors = [at_rest; 6];
-        let output = model.output()?;
-        for (floor, unit) in floors
-            .iter_mut()
-            .zip((0..6).map(|k| LoadSet::on(output, Vector6::ith(k, 1.0))))
-        {
-            *floor = at_rest.under(&at, &Acting::new(&at, &unit).ok()?);
-        }
-        self.units = Some(floors);
-        Some(self)
     }
 
     fn add_chain(&mut self, k: usize, element: &Element, chain: &Chain, fronts: &Fronts) {
@@ -246,7 +239,13 @@ impl Recovery {
     }
 
     /// Finds every segment and joint; `None` where one has no place.
-    fn place(&mut self, model: &Model, topology: &Topology, elements: &[Element]) -> Option<()> {
+    fn place(
+        &mut self,
+        model: &Model,
+        topology: &Topology,
+        elements: &[Element],
+        inputs: &mut Inputs,
+    ) -> Option<()> {
         let mut segments: Vec<Option<SegmentAt>> = vec![None; model.segments().len()];
         let mut links: Vec<Option<(usize, usize, f64)>> = vec![None; model.joints().len()];
         let mut placed = Vec::new();
@@ -260,12 +259,15 @@ impl Recovery {
                 let link = &chain.links[*k];
                 let mut carriers = match link.source {
                     LinkSource::Segment(SegmentId(id)) => {
+                        let ends = model.segments()[id].ends;
                         segments[id] = Some(SegmentAt {
                             element,
                             cut: place,
                             flipped: link.flipped,
+                            points: ends.map(|node| inputs.point(node)),
+                            y_axis: inputs.y_axis(SegmentId(id), ends),
                         });
-                        model.segments()[id].ends.map(|node| Some(carrier(node)))
+                        ends.map(|node| Some(carrier(node)))
                     }
                     LinkSource::Joint(JointId(id)) => {
                         let between = model.joints()[id].between;
@@ -295,33 +297,38 @@ impl Recovery {
         for (joint, link) in links.into_iter().enumerate() {
             let ties = topology.components.iter().flat_map(|c| &c.ties);
             let tie = ties.into_iter().find(|tie| tie.joint.0 == joint);
-            let own = match (tie, link) {
+            let node = model.joints()[joint].between.into_iter().flatten().next()?;
+            let mut own = JointAt {
+                point: inputs.point(node),
+                frame: [0, 1, 2].map(|c| inputs.frame_column(JointId(joint), c)),
+                cuts: Vec::new(),
+                loads: Vec::new(),
+            };
+            match (tie, link) {
                 (Some(tie), _) => {
                     let is_second = model.joints()[joint].between[1] == Some(tie.child_node);
                     let sign = if is_second { 1.0 } else { -1.0 };
-                    self.beyond(&subtree(topology, tie.child), sign, &placed, carrier)
+                    let beyond = subtree(topology, tie.child);
+                    self.add_beyond(&mut own, &beyond, sign, &placed, carrier);
                 }
-                (None, Some(link)) => JointAt {
-                    cuts: vec![link],
-                    loads: Vec::new(),
-                },
-                (None, None) if topology.joints[joint].springs.is_empty() => JointAt::default(),
+                (None, Some(link)) => own.cuts.push(link),
+                (None, None) if topology.joints[joint].springs.is_empty() => {}
                 (None, None) => return None,
-            };
+            }
             self.joints.push(own);
         }
         Some(())
     }
 
-    /// What the links and loads at some carriers ask of what holds these.
-    fn beyond(
+    /// Adds what the links and loads at some carriers ask of what holds these.
+    fn add_beyond(
         &self,
+        own: &mut JointAt,
         carriers: &[usize],
         sign: f64,
         links: &[Placed],
         carrier: impl Fn(NodeId) -> usize,
-    ) -> JointAt {
-        let mut own = JointAt::default();
+    ) {
         for link in links {
             let [first, second] = link
                 .carriers
@@ -336,7 +343,6 @@ impl Recovery {
         let loads = self.loads.iter().enumerate();
         let held = loads.filter(|(_, load)| carriers.contains(&carrier(load.node)));
         own.loads = held.map(|(k, _)| (k, -sign)).collect();
-        own
     }
 }
 
