@@ -106,7 +106,8 @@ class Information:
     def _lines(self) -> Iterator[str]:
         wide = max(map(len, self.paths), default=0)
         for path, value, error in zip(self.paths, self.values, self.standard_errors):
-            known = f"± {error:.2g} ({error / abs(value):.1%})" if np.isfinite(error) else "cannot be told"
+            share = 100.0 * error / abs(value)
+            known = f"± {error:.2g} ({share:.2g} %)" if np.isfinite(error) else "cannot be told"
             yield f"  {path:{wide}}  {value:.6g} {known}"
         for own in self.indistinct:
             yield f"  {own}"
