@@ -105,6 +105,9 @@ def test_stiffnesses_with_noise_are_recovered_within_their_errors() -> None:
     assert abs(known.reduced_chi_square - 1.0) < 4.0 * np.sqrt(2.0 / 33.0)
     assert "drive_stiffness" in repr(known) and "±" in repr(known)
     assert np.allclose(np.diag(known.correlation), 1.0)
+    with pytest.raises(hs.SelectionError, match="drive_stifness") as caught:
+        known["drive_stifness"]
+    assert caught.value.help == "did you mean `drive_stiffness`?"
 
 
 def test_standard_errors_are_those_of_repeated_measurements() -> None:

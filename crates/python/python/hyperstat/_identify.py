@@ -9,7 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._errors import ArgumentError, MissingError
+from ._errors import ArgumentError, MissingError, unknown
 from ._information import Information, Problem, known, loaded, named, spread_of
 from ._mechanism import Mechanism
 from ._poses import Poses
@@ -63,7 +63,7 @@ class Identification(Information):
     def __getitem__(self, path: str) -> float:
         """The value at a path, SI."""
         if path not in self.paths:
-            raise KeyError(path)
+            raise unknown("path", path, self.paths, "unknown-path")
         return float(self.values[self.paths.index(path)])
 
     def __repr__(self) -> str:
