@@ -248,7 +248,8 @@ impl Prepared {
                 let slopes = match (found, probes[pose - 1].take().flatten()) {
                     (Some((states, units, geometry)), Some(probe)) => {
                         let units: Vec<&Forces> = units.iter().map(|own| &own.forces).collect();
-                        let own = slopes.of(model, geometry, &probe, &units, states.get(state))?;
+                        let seen = (&result, states.get(state));
+                        let own = slopes.of(model, geometry, &probe, &units, seen)?;
                         Some(own)
                     }
                     _ => None,

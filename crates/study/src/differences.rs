@@ -6,9 +6,8 @@
 //! ([`hyperstat_assembly::Slopes`]); where a value changes the weight too, or a pose does not go through the
 //! lanes, from the whole solution of the pose.
 //!
-//! Such a difference is that of four designs around the one that is asked about,
-//! `(f(p − 2h) − 8 f(p − h) + 8 f(p + h) − f(p + 2h)) / 12 h`, in the same pose of the output: the inverse
-//! kinematics, and with it the drives, follow the value.
+//! Such a difference is that of four designs around the one that is asked about ([`crate::steps`]), in the same
+//! pose of the output: the inverse kinematics, and with it the drives, follow the value.
 
 use std::convert::Infallible;
 use std::ops::Range;
@@ -19,15 +18,10 @@ use hyperstat_mechanisms::{Job, Value};
 use crate::error::StudyError;
 use crate::gradient::{Quantity, is_named, no_derivative};
 use crate::measures::Pose;
+use crate::steps::{STEPS, step_of};
 use crate::study::Study;
 use crate::sweep::{Record, Sought, Sweep, Threads, Way};
 
-/// Steps from the value, over h, with the weights of the quantity there.
-const STEPS: [(f64, f64); 4] = [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)];
-/// The step h over the value: what it leaves out goes with its fourth power, rounding with its inverse.
-const STEP: f64 = 5e-4;
-/// A value counts as at least this share of the mechanism's size, so that one that is zero has a step.
-const LEAST: f64 = 0.02;
 /// Poses that are looked at for one that has a solution.
 const TRIED: usize = 64;
 
@@ -87,7 +81,7 @@ impl Gradient {
             let Ok(mut study) = Study::of_job(job.clone(), 0, pose) else {
                 continue;
             };
-            match study.sensitivities(case) {
+            match study.exact_sensitivities(case) {
                 Ok(found) => {
                     size = Floor::of(study.model()).map_or(1.0, |floor| floor.size);
                     known = found;
@@ -116,7 +110,7 @@ impl Gradient {
             }
             let number = job.number_at(0, path);
             let number = number.map_err(|_| no_derivative(&known, path))?;
-            let step = STEP * number.abs().max(LEAST * size);
+            let step = step_of(number, size);
             let design = |(k, _): (f64, f64)| -> Result<Job, StudyError> {
                 let value = Value::Number(number + k * step);
                 let mut beside = job.with_values(0, &[(path.as_str(), value)])?;
@@ -153,7 +147,11 @@ impl Gradient {
         poses: Range<usize>,
         threads: &Threads,
     ) -> Result<(Vec<f64>, Vec<f64>), StudyError> {
-        let (values, found) = self.values(&self.job, &poses, threads, self.sought())?;
+        let (mut values, found) = self.values(&self.job, &poses, threads, self.sought())?;
+        if values.iter().any(|value| value.is_nan()) && !self.parameters.is_empty() {
+            // Weight that changes may move what the weight itself does not.
+            (values, _) = self.values(&self.job, &poses, threads, None)?;
+        }
         let mut slopes = vec![f64::NAN; values.len() * self.paths];
         let rows = slopes.chunks_exact_mut(self.paths.max(1));
         for (row, found) in rows.zip(found.chunks_exact(self.parameters.len().max(1))) {
@@ -211,7 +209,12 @@ impl Gradient {
             parts: Vec::new(),
         };
         let wanted: Vec<Parameter> = parts.iter().map(|(own, _)| own.clone()).collect();
-        let slopes = model.map(|model| Slopes::new(model, &wanted));
+        let of_loads = self.quantity.is_of_loads();
+        let slopes = model.map(|model| {
+            let mut model = model.clone();
+            Slopes::add_cases(&mut model, &wanted)?;
+            Slopes::new(&model, &wanted, of_loads)
+        });
         if let Some(Ok(Some(_))) = slopes {
             for (parameter, weight) in parts {
                 let known = self.parameters.iter().position(|own| own == parameter);

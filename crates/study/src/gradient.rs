@@ -90,12 +90,27 @@ impl Study {
         &mut self,
         case: Option<&str>,
     ) -> Result<Vec<SensitivityReport>, StudyError> {
+        self.sensitivities_by((case, true))
+    }
+
+    /// The same without those by lengths, coordinates and axes.
+    pub(crate) fn exact_sensitivities(
+        &mut self,
+        case: Option<&str>,
+    ) -> Result<Vec<SensitivityReport>, StudyError> {
+        self.sensitivities_by((case, false))
+    }
+
+    fn sensitivities_by(
+        &mut self,
+        (case, lengths): (Option<&str>, bool),
+    ) -> Result<Vec<SensitivityReport>, StudyError> {
         self.name_values();
         let solution = self.solve_held()?;
         let loaded = self.under(&solution, case)?;
         let here = self.here();
         let found = here.influence().and_then(|influence| {
-            SensitivityReport::all(self, &influence, &loaded, case, |_| None)
+            SensitivityReport::all(self, &influence, &loaded, (case, lengths), |_| None)
         });
         found.map_err(|error| self.unsolvable(error))
     }
@@ -113,7 +128,7 @@ impl Study {
         paths: &[String],
         case: Option<&str>,
     ) -> Result<(f64, Vec<f64>), StudyError> {
-        let found = self.sensitivities(case)?;
+        let found = self.exact_sensitivities(case)?;
         let solution = self.solve_held()?;
         let loaded = self.under(&solution, case)?;
         let displacement = loaded.output.displacement;

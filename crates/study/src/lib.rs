@@ -30,6 +30,7 @@ mod ran;
 mod schema;
 mod selection;
 mod source;
+mod steps;
 mod study;
 pub mod sweep;
 pub mod table;

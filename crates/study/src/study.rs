@@ -207,6 +207,14 @@ impl Study {
         }
     }
 
+    /// The numbers that say where its parts stand and how long they are, by their paths as `vary` takes them, SI.
+    pub(crate) fn placing(&self) -> Vec<(String, f64)> {
+        match &self.origin {
+            Origin::Mechanism(mechanism) => mechanism.placing(),
+            Origin::Job { job, design, .. } => job.placing(design),
+        }
+    }
+
     /// What its job varies, by its path, and its value in this design.
     pub(crate) fn varied_values(&self) -> Vec<(String, Value)> {
         match &self.origin {

@@ -185,12 +185,54 @@ fn lanes_find_what_whole_solutions_find() {
     }
 }
 
+/// `--why` lists lengths as the poses of a job have them, and the coordinates of a file.
+#[test]
+fn lengths_are_among_what_is_listed() {
+    let job = delta();
+    let mut study = Study::of_job(job.clone(), 0, 1).unwrap();
+    let listed = study.sensitivities(None).unwrap();
+    let lengths = [
+        "base_radius",
+        "platform_radius",
+        "arm_length",
+        "rod_length",
+        "rod_spacing",
+    ];
+    let (_, slopes) = found(&job, "k33", &lengths);
+    for (k, path) in lengths.iter().enumerate() {
+        let own = listed.iter().find(|own| own.parameter == *path).unwrap();
+        assert!(own.by_differences);
+        let (listed, slope) = (own.stiffness.unwrap()[2][2], slopes[lengths.len() + k]);
+        assert!(
+            (listed / slope - 1.0).abs() < 1e-8,
+            "{path}: {listed} {slope}"
+        );
+    }
+    // w = F L³ / (3 E I), by the place of the end and by that of the wall.
+    let files = MemoryFiles::from_iter([("cantilever.ron", CANTILEVER)]);
+    let registry = Registry::builtin();
+    let selection = Selection::default();
+    let path = "cantilever.ron".as_ref();
+    let mut study = Study::open(path, &selection, &files, &registry).unwrap();
+    let listed = study.sensitivities(None).unwrap();
+    let slope = |name: &str| {
+        let own = listed.iter().find(|own| own.parameter == name).unwrap();
+        own.displacement.unwrap()[2]
+    };
+    let per_length = -3.0 * 0.5_f64.powi(2) / (3.0 * 2e11 * PI * 0.02_f64.powi(4) / 64.0);
+    for (name, expected) in [("points.A.0", -per_length), ("parameters.L", per_length)] {
+        assert!((slope(name) / expected - 1.0).abs() < 1e-8, "{name}");
+    }
+}
+
 fn number_at(job: &Job, path: &str) -> f64 {
     job.number_at(0, path).unwrap()
 }
 
 fn batch(text: &str) -> Vec<Job> {
-    batch_from_str(text, "batch.ron".as_ref(), &Disk, &Registry::builtin()).unwrap().jobs
+    batch_from_str(text, "batch.ron".as_ref(), &Disk, &Registry::builtin())
+        .unwrap()
+        .jobs
 }
 
 const LANES: &str = r#"(
@@ -229,11 +271,13 @@ const LANES: &str = r#"(
             name: "three-prs",
             mechanism: ThreePrs(
                 rails: (radius: 0.4, tilt: 0.0, travel: 0.8, carriage: Near), platform_radius: 0.25, rod_length: 0.5,
-                rod: (section: Rectangle(width: 0.06, height: 0.04), material: (young: 2.1e11, poisson: 0.3)),
+                rod: (section: Rectangle(width: 0.06, height: 0.04), material: (young: 2.1e11, poisson: 0.3, density: 7850.0)),
                 joint_stiffness: (x: 3e8, y: 3e8, z: 3e8, u: 5e5, w: 5e5),
                 drive_stiffness: 5e7,
             ),
             poses: List([(z: 0.9, rx: 0.1, ry: 0.2)]),
+            gravity: (0.5, 0.0, -9.81),
+            masses: [(on: ("platform", "P"), mass: 12.0)],
             loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))],
             cases: { "push": [(on: ("platform", "P"), force: (0.0, 100.0, 0.0))] },
         ),

@@ -1,18 +1,22 @@
-//! Derivatives of quantities of the output at the poses of a sweep, by parameters that change no load.
+//! Derivatives of quantities of the output at the poses of a sweep.
 //!
 //! Any quantity of the output's compliance and displacement has a derivative of the form
 //! `Σ g wᵀ (∂C) w + eᵀ (∂u)`, with a few wrenches w and e on the output. What a parameter does to it is the
 //! work of the forces under these on the change that it makes of what gives
-//! ([`sensitivity`](super::sensitivity)): so a few states answer for any number of parameters.
+//! ([`sensitivity`](super::sensitivity)): so a few states answer for any number of parameters. Weight that changes
+//! with a parameter is a load case beside the others.
 
 use hyperstat_elements::StraightBeam;
 use hyperstat_joints::Dof;
-use hyperstat_model::{Geometry, JointId, Model, SegmentId, segment_beam};
+use hyperstat_model::{
+    Axes, Geometry, JointId, LineLoad, LoadCase, LoadSet, Model, SegmentId, segment_beam,
+};
 use nalgebra::{Matrix6, Vector6};
 
 use super::gives::{JointGive, SegmentGive};
 use super::parameters::{Parameter, SegmentChange, Varied, parameters};
 use crate::answer::forces::Forces;
+use crate::answer::pose_result::PoseResult;
 use crate::error::SolveError;
 
 /// The derivative of a quantity of the output: `Σ weight · wᵀ (∂C) w + eᵀ (∂u)`.
@@ -49,7 +53,12 @@ pub struct Slopes {
     segments: Vec<(SegmentId, SegmentGive)>,
     /// The joints, likewise.
     joints: Vec<(JointId, JointGive)>,
+    /// By parameters: the case of the weight that changes with it, and that of what acts in every state.
+    weights: Vec<Option<[usize; 2]>>,
 }
+
+/// Name of the case of what acts in every state alone.
+const ALWAYS: &str = "\u{2202}";
 
 /// Two states of a pose, the first of them under a wrench on the output alone, and the weight of their work.
 struct Pair<'a> {
@@ -61,30 +70,74 @@ struct Pair<'a> {
 }
 
 impl Slopes {
-    /// Those of the model's that these are; `None` where one of them is none of the model's, changes what acts
-    /// or nothing that gives.
+    /// Adds to a model the cases that derivatives of its displacements by these parameters are found from.
     ///
     /// # Errors
-    /// As [`Influence::sensitivities`](crate::Influence::sensitivities).
-    pub fn new(model: &Model, wanted: &[Parameter]) -> Result<Option<Self>, SolveError> {
+    /// As [`Slopes::new`].
+    pub fn add_cases(model: &mut Model, wanted: &[Parameter]) -> Result<(), SolveError> {
+        let known = parameters(model)?;
+        let mut cases = vec![(ALWAYS.to_owned(), LoadSet::default())];
+        for (number, wanted) in wanted.iter().enumerate() {
+            let own = known.iter().find(|own| own.parameter == *wanted);
+            if let Some(Some(loads)) = own.and_then(|own| weight_change(model, own)) {
+                cases.push((format!("{ALWAYS}{number}"), loads));
+            }
+        }
+        if cases.len() > 1 {
+            for (name, loads) in cases {
+                model.add_case(LoadCase { name, loads })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Those of the model's that these are; `None` where one of them is none of the model's, or changes what
+    /// acts otherwise than as a case. `of_loads`: whether a displacement is differentiated, in a model with
+    /// [those cases](Slopes::add_cases).
+    ///
+    /// # Errors
+    /// A section that cannot be formed, which no segment of a model has.
+    pub fn new(
+        model: &Model,
+        wanted: &[Parameter],
+        of_loads: bool,
+    ) -> Result<Option<Self>, SolveError> {
         let mut known: Vec<_> = parameters(model)?.into_iter().map(Some).collect();
         let mut found = Vec::with_capacity(wanted.len());
-        for wanted in wanted {
+        let mut weights = Vec::with_capacity(wanted.len());
+        let case = |name: &str| model.cases().iter().position(|own| own.name == name);
+        for (number, wanted) in wanted.iter().enumerate() {
             let own = known
                 .iter_mut()
                 .find(|own| own.as_ref().is_some_and(|own| own.parameter == *wanted));
-            match own.and_then(Option::take) {
-                Some(own) if wanted.is_elastic() && !changes_loads(model, &own) => found.push(own),
-                _ => return Ok(None),
-            }
+            let Some(own) = own.and_then(Option::take) else {
+                return Ok(None);
+            };
+            weights.push(match weight_change(model, &own) {
+                Some(Some(_)) if of_loads => {
+                    let own = case(&format!("{ALWAYS}{number}"));
+                    let Some(own) = own.zip(case(ALWAYS)) else {
+                        return Ok(None);
+                    };
+                    Some(own.into())
+                }
+                None if of_loads => return Ok(None),
+                _ => None,
+            });
+            found.push(own);
         }
         let mut own = Self {
             segments: Vec::new(),
             joints: Vec::new(),
             parameters: found,
+            weights,
         };
         let changes = |id: &SegmentId| {
-            let mut all = own.parameters.iter().flat_map(|own| &own.segments);
+            let elastic = own
+                .parameters
+                .iter()
+                .filter(|own| own.parameter.is_elastic());
+            let mut all = elastic.flat_map(|own| &own.segments);
             all.any(|(changed, _)| changed == id)
         };
         let segments = (0..model.segments().len()).map(SegmentId).filter(changes);
@@ -117,7 +170,7 @@ impl Slopes {
         geometry: &Geometry,
         probe: &Probe,
         units: &[&Forces],
-        loaded: Option<&Forces>,
+        (result, loaded): (&PoseResult, Option<&Forces>),
     ) -> Result<Vec<f64>, SolveError> {
         let (weights, along) = units.split_at(probe.wrenches.len().min(units.len()));
         let own = probe.wrenches.iter().zip(weights);
@@ -182,22 +235,64 @@ impl Slopes {
                 *slope -= direction.map_or(works[place].sum(), part) / varied.value;
             }
         }
+        for (slope, cases) in slopes.iter_mut().zip(&self.weights) {
+            let (Some([own, always]), Some(along)) = (cases, probe.along) else {
+                continue;
+            };
+            let [own, always] = [own, always].map(|case| result.cases.get(*case));
+            *slope += match own.zip(always) {
+                Some((own, always)) => along.dot(&(own - always)),
+                None => f64::NAN,
+            };
+        }
         Ok(slopes)
     }
 }
 
-/// Whether weight or free strains change with a parameter.
-fn changes_loads(model: &Model, varied: &Varied) -> bool {
-    let weighs = model.gravity().norm_squared() > 0.0;
-    let loads = |(id, change): &(SegmentId, SegmentChange)| match change {
-        SegmentChange::Elastic(_) => false,
-        SegmentChange::Expansion => {
-            let segment = &model.segments()[id.0];
-            model.bodies()[segment.body.0].temperature != 0.0
+/// How the weight changes with a parameter, `Some(None)` where it does not; `None` where what acts changes in a
+/// way that is no case.
+fn weight_change(model: &Model, varied: &Varied) -> Option<Option<LoadSet>> {
+    let gravity = model.gravity();
+    let per_mass = Vector6::new(gravity.x, gravity.y, gravity.z, 0.0, 0.0, 0.0);
+    let mut loads = LoadSet::default();
+    if let Parameter::Mass {
+        mass,
+        inertia: false,
+    } = varied.parameter
+    {
+        loads = LoadSet::on(model.masses()[mass].node, per_mass);
+    }
+    for (id, change) in &varied.segments {
+        let segment = &model.segments()[id.0];
+        if let SegmentChange::Expansion = change {
+            if model.bodies()[segment.body.0].temperature != 0.0 {
+                return None;
+            }
+            continue;
         }
-        _ => weighs,
-    };
-    varied.segments.iter().any(loads)
+        if matches!(change, SegmentChange::Elastic(_)) || per_mass == Vector6::zeros() {
+            continue;
+        }
+        if segment.taper.is_some() {
+            return None;
+        }
+        let area = segment.section.area();
+        let per_length = match change {
+            SegmentChange::Density => area,
+            _ => segment.material.density().unwrap_or(0.0) * area * change.sections(0.0)[0],
+        };
+        let weight = per_mass * per_length;
+        if weight != Vector6::zeros() {
+            loads.lines.push(LineLoad {
+                segment: *id,
+                ends: [weight; 2],
+                axes: Axes::Global,
+            });
+        }
+    }
+    loads.nodes.retain(|load| load.wrench != Vector6::zeros());
+    let changes = !loads.nodes.is_empty() || !loads.lines.is_empty();
+    Some(changes.then_some(loads))
 }
 
 /// Work of the pairs on what a segment gives, where its rigidities change so along it: all parts together.

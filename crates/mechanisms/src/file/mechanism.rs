@@ -189,6 +189,12 @@ impl Mechanism {
         dependence::dependences(&self.root, &beside)
     }
 
+    /// The numbers that say where its parts stand and how long they are, such as `points.A.0`, by their paths as
+    /// `vary` names them, SI; without those that expressions give.
+    pub fn placing(&self) -> Vec<(String, f64)> {
+        dependence::placing(&self.root)
+    }
+
     /// The same mechanism with other values in some places, named by their paths as `vary` names them,
     /// such as `sections.rod.diameter`, in the file's units. Its text is not read again.
     ///

@@ -19,7 +19,7 @@ use crate::file::registry::Registry;
 use crate::job::{figures, modes, value_names};
 use crate::prebuilt::PoseError;
 use crate::terms::job::{BATCH, JOB};
-use crate::text::dependence::Dependence;
+use crate::text::dependence::{self, Dependence};
 use crate::text::fields::Fields;
 use crate::text::fragment::{Fragment, first_at};
 use crate::text::scope::PARAMETERS;
@@ -318,6 +318,15 @@ impl Job {
                 .recipe
                 .dependences(&designs.tree(design.number, &self.recipe)),
             None => self.recipe.dependences(self.recipe.root()),
+        }
+    }
+
+    /// The numbers that say where the parts of a design's mechanism stand and how long they are, such as
+    /// `arm_length` and `points.A.0`, by their paths as `vary` names them, SI; without those that expressions give.
+    pub fn placing(&self, design: &Design) -> Vec<(String, f64)> {
+        match &self.designs {
+            Some(designs) => dependence::placing(&designs.tree(design.number, &self.recipe)),
+            None => dependence::placing(self.recipe.root()),
         }
     }
 

@@ -1,8 +1,8 @@
 //! What in a mechanism depends on its parameters, and how much.
 
 use super::expression::{Dual, Operand};
-use super::scope::{Scope, parameters};
-use super::tree::Node;
+use super::scope::{PARAMETERS, Scope, parameters};
+use super::tree::{Content, Node};
 
 /// A parameter of a mechanism, and the values that its expressions give.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,4 +37,52 @@ pub(crate) fn dependences(root: &Node, beside: &[(&str, &Node)]) -> Vec<Dependen
         })
     };
     parameters(root).filter_map(of).collect()
+}
+
+/// Parts of a mechanism as it is written that say nothing of where it stands and how long it is.
+const ELSEWHERE: [&str; 18] = [
+    PARAMETERS,
+    "materials",
+    "material",
+    "sections",
+    "section",
+    "stiffness",
+    "compliance",
+    "joint_compliance",
+    "loads",
+    "cases",
+    "gravity",
+    "masses",
+    "mass",
+    "misfits",
+    "preloads",
+    "temperature",
+    "elements",
+    "include",
+];
+
+/// The numbers of a mechanism that say where its parts stand and how long they are, such as `arm_length`,
+/// `points.A.0` and `joints.A.kind.axis.2`, by their paths as `vary` names them, SI; those that stand there as
+/// numbers, not as expressions.
+pub(crate) fn placing(root: &Node) -> Vec<(String, f64)> {
+    let mut found = Vec::new();
+    each_number(root, "", &mut found);
+    found
+}
+
+fn each_number(node: &Node, path: &str, found: &mut Vec<(String, f64)>) {
+    if let Content::Number(value) | Content::Measured(value, _) = node.content {
+        found.push((path.into(), value));
+        return;
+    }
+    for (name, part) in node.parts() {
+        if ELSEWHERE.contains(&name.as_str()) || name.ends_with("_stiffness") {
+            continue;
+        }
+        let path = match path {
+            "" => name,
+            path => format!("{path}.{name}"),
+        };
+        each_number(part, &path, found);
+    }
 }

@@ -4,16 +4,21 @@
 use std::collections::HashMap;
 
 use hyperstat_assembly::{
-    FrequencySensitivity, ModalOptions, ModalSensitivities, Model, Parameter, Sensitivity,
+    Floor, FrequencySensitivity, ModalOptions, ModalSensitivities, Model, Parameter, Sensitivity,
 };
 use hyperstat_mechanisms::Dependence;
+use nalgebra::{Matrix6, Vector6};
 
 use super::parameters::letter;
+use crate::steps::{STEPS, step_of};
 use crate::study::Study;
 
-/// Step of differences, relative to the value: their error is about its square, and that of rounding
-/// divided by it.
+/// Step of differences of frequencies, relative to the value: their error is about its square, and that of
+/// rounding divided by it.
 const STEP: f64 = 1e-4;
+
+/// Lengths and coordinates that are looked at: each takes four solutions.
+const MOST_LENGTHS: usize = 150;
 
 /// How the output answers to a parameter.
 pub(super) struct ByParameter {
@@ -38,7 +43,8 @@ pub(super) fn of_output(
         let weights = weights(&dependence, &paths);
         let sensitivity = match &weights {
             Some(weights) => summed(&dependence, found, weights),
-            None => differences(study, &dependence, case)?,
+            None if dependence.slopes.is_empty() => return None,
+            None => differences(study, &dependence.path, dependence.value, case)?,
         };
         Some(ByParameter {
             sensitivity,
@@ -46,6 +52,25 @@ pub(super) fn of_output(
         })
     };
     study.dependences().into_iter().filter_map(of).collect()
+}
+
+/// How the output answers to the lengths, coordinates and axes that are written as numbers, in the same pose
+/// of the output; none where there are too many of them.
+pub(super) fn of_lengths(study: &Study, case: Option<&str>) -> Vec<ByParameter> {
+    let placing = study.placing();
+    if placing.len() > MOST_LENGTHS {
+        return Vec::new();
+    }
+    let of = |(path, value): (String, f64)| {
+        let sensitivity = differences(study, &path, value, case)?;
+        let moved = sensitivity.displacement.map_or(0.0, |own| own.amax());
+        let changes = sensitivity.compliance.amax() != 0.0 || moved != 0.0;
+        changes.then_some(ByParameter {
+            sensitivity,
+            parts: None,
+        })
+    };
+    placing.into_iter().filter_map(of).collect()
 }
 
 /// How natural frequencies answer to all parameters that change anything, each with whether that is by
@@ -172,26 +197,30 @@ fn beside(study: &Study, dependence: &Dependence) -> Option<([Study; 2], f64)> {
     Some(([with(more)?, with(less)?], more - less))
 }
 
-/// Central differences of the whole answer; `None` where there is none beside it.
-fn differences(study: &Study, dependence: &Dependence, case: Option<&str>) -> Option<Sensitivity> {
-    if dependence.slopes.is_empty() {
-        return None;
+/// Differences of the whole answer by four designs; `None` where there is none beside it.
+fn differences(study: &Study, path: &str, value: f64, case: Option<&str>) -> Option<Sensitivity> {
+    let size = Floor::of(study.model()).map_or(1.0, |floor| floor.size);
+    let step = step_of(value, size);
+    let mut sums = (Matrix6::zeros(), Some(Matrix6::zeros()), Vector6::zeros());
+    for (k, weight) in STEPS {
+        let beside = study.with_values(&[(path, value + k * step)]).ok()?;
+        let solution = beside.solve().ok()?;
+        let output = &beside.under(&solution, case).ok()?.output;
+        let weight = weight / (12.0 * step);
+        sums.0 += output.compliance? * weight;
+        sums.1 = sums
+            .1
+            .zip(output.stiffness)
+            .map(|(sum, own)| sum + own * weight);
+        sums.2 += output.displacement * weight;
     }
-    let (studies, between) = beside(study, dependence)?;
-    let mut outputs = Vec::with_capacity(2);
-    for study in &studies {
-        let solution = study.solve().ok()?;
-        outputs.push(study.under(&solution, case).ok()?.output.clone());
-    }
-    let [more, less] = [&outputs[0], &outputs[1]];
-    let stiffness = more.stiffness.zip(less.stiffness);
     Some(Sensitivity {
         parameter: PART_OF_NOTHING,
-        name: Some(dependence.path.clone()),
-        value: dependence.value,
-        compliance: (more.compliance? - less.compliance?) / between,
-        stiffness: stiffness.map(|(more, less)| (more - less) / between),
-        displacement: Some((more.displacement - less.displacement) / between),
+        name: Some(path.into()),
+        value,
+        compliance: sums.0,
+        stiffness: sums.1,
+        displacement: Some(sums.2),
     })
 }
 

@@ -68,17 +68,21 @@ pub struct FrequencySensitivityReport {
 }
 
 impl SensitivityReport {
-    /// Sensitivities of a solution, largest first by `relative`.
+    /// Sensitivities of a solution, largest first by `relative`: with those by lengths, coordinates and axes,
+    /// which take four solutions each, where these are asked for.
     pub(crate) fn all(
         study: &Study,
         influence: &Influence<'_>,
         solution: &Solution,
-        case: Option<&str>,
+        (case, lengths): (Option<&str>, bool),
         relative: impl Fn(&Sensitivity) -> Option<f64>,
     ) -> Result<Vec<Self>, SolveError> {
         let mut found = influence.sensitivities(solution)?;
         let known = found.len();
-        let parameters = by_parameter::of_output(study, &found, case);
+        let mut parameters = by_parameter::of_output(study, &found, case);
+        if lengths {
+            parameters.extend(by_parameter::of_lengths(study, case));
+        }
         let mut parts: Vec<_> = (0..known).map(|own| Some(vec![(own, 1.0)])).collect();
         for own in parameters {
             parts.push(own.parts);

@@ -262,8 +262,8 @@ impl Why {
         let here = study.here();
         let influence = here.influence()?;
         let relative = |s: &Sensitivity| inquiry.relative(s);
-        let sensitivities =
-            SensitivityReport::all(study, &influence, solution, asked.case.as_deref(), relative)?;
+        let by = (asked.case.as_deref(), true);
+        let sensitivities = SensitivityReport::all(study, &influence, solution, by, relative)?;
         Ok(Self {
             budget: Some(inquiry.budget(&influence)),
             measures: inquiry.measures.as_ref().map(MeasuresReport::new),

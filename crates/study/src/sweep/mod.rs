@@ -99,11 +99,14 @@ impl<'a> Sweep<'a> {
         check(job)?;
         let planned = |number| -> Result<_, StudyError> {
             let design = job.design(number)?;
-            let model = match design.model() {
+            let mut model = match design.model() {
                 Ok(model) => model,
                 // No pose in reach is told of its rows.
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
+            if let Some(Err(error)) = sought.as_ref().map(|own| own.prepare(&mut model)) {
+                return Ok((number, Err(error.into())));
+            }
             let prepared = Prepared::new(model);
             let planned = Planned::of(prepared, Some(job), sought.as_ref()).map_err(|failed| {
                 let (prepared, error) = *failed;
@@ -281,7 +284,10 @@ impl Planned {
         first: &Result<Arc<Self>, Failure>,
         sought: Option<&Sought>,
     ) -> Result<Self, Failure> {
-        let model = design.model()?;
+        let mut model = design.model()?;
+        if let Some(sought) = sought {
+            sought.prepare(&mut model)?;
+        }
         let prepared = match first {
             Ok(first) => first.prepared.for_design(model)?,
             Err(_) => Prepared::new(model),

@@ -29,10 +29,21 @@ pub(super) struct Slope {
 /// What lanes find of a pose.
 type FoundThere = Option<Result<PoseResult, SolveError>>;
 
+impl Sought {
+    /// Adds to a model what the derivatives are found from.
+    pub(super) fn prepare(&self, model: &mut Model) -> Result<(), SolveError> {
+        match self.quantity.is_of_loads() {
+            true => Slopes::add_cases(model, &self.parameters),
+            false => Ok(()),
+        }
+    }
+}
+
 impl Slope {
-    /// Of a model; `None` where the lanes do not find it.
+    /// Of a model that is prepared for it; `None` where the lanes do not find it.
     pub(super) fn of(sought: &Sought, model: &Model) -> Result<Option<Self>, SolveError> {
-        let slopes = Slopes::new(model, &sought.parameters)?;
+        let of_loads = sought.quantity.is_of_loads();
+        let slopes = Slopes::new(model, &sought.parameters, of_loads)?;
         Ok(slopes.map(|slopes| Self {
             quantity: sought.quantity,
             state: sought.case.map_or(0, |case| case + 1),
