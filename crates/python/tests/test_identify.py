@@ -117,7 +117,7 @@ def test_standard_errors_are_those_of_repeated_measurements() -> None:
     sigma = np.array([1e-6, 1e-6, 1e-6, 3e-5, 3e-5, 3e-5])
     paths = WALL[:2]
     rng = np.random.default_rng(11)
-    repeats = 100
+    repeats = 60
     found, chi = [], []
     for _ in range(repeats):
         r = hs.identify(m, paths, None, exact + sigma * rng.normal(size=(1, 6)), sigma=sigma)
