@@ -1,5 +1,6 @@
 //! Errors on their way to Python: each becomes a subclass of `hyperstat.Error`; no panic comes through.
 
+use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use hyperstat_study::{LoadError, StudyError};
@@ -11,8 +12,10 @@ pub(crate) enum Ended {
     Study(Box<StudyError>),
     /// An argument that is none.
     Argument(String, Option<String>),
-    /// An exception of Python: an interrupt, or one of a callback.
+    /// An exception of Python.
     Python(PyErr),
+    /// What called it has ended.
+    Stopped,
 }
 
 impl From<StudyError> for Ended {
@@ -45,6 +48,7 @@ impl Ended {
             Self::Study(error) => raised(py, &error),
             Self::Argument(message, help) => made(py, "argument", &message, help, None),
             Self::Python(error) => error,
+            Self::Stopped => pyo3::exceptions::PyKeyboardInterrupt::new_err(()),
         }
     }
 }
@@ -85,15 +89,18 @@ pub(crate) fn apart<T: Send>(
     // Nothing of what a panic may leave half done is used again.
     match py.detach(|| catch_unwind(AssertUnwindSafe(compute))) {
         Ok(outcome) => outcome.map_err(|ended| ended.raised(py)),
-        Err(panic) => {
-            let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
-            let said = said.or_else(|| panic.downcast_ref::<String>().cloned());
-            let message = format!(
-                "this is a bug in hyperstat; it is not your fault: {}",
-                said.unwrap_or_default()
-            );
-            let help = "please report it with the file and the call".to_owned();
-            Err(made(py, "internal", &message, Some(help), None))
-        }
+        Err(panic) => Err(burst(py, &*panic)),
     }
+}
+
+/// The exception of a panic.
+pub(crate) fn burst(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
+    let said = panic.downcast_ref::<&str>().map(|said| (*said).to_owned());
+    let said = said.or_else(|| panic.downcast_ref::<String>().cloned());
+    let message = format!(
+        "this is a bug in hyperstat; it is not your fault: {}",
+        said.unwrap_or_default()
+    );
+    let help = "please report it with the file and the call".to_owned();
+    made(py, "internal", &message, Some(help), None)
 }

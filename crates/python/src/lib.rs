@@ -5,10 +5,13 @@ mod arrays;
 mod error;
 mod given;
 mod gradient;
+mod joint;
+mod kept;
 mod mechanism;
 mod pool;
 mod pose;
 mod sweep;
+mod watched;
 
 use hyperstat_study::{Measure, Registry, files};
 use pyo3::prelude::*;
@@ -38,11 +41,15 @@ mod _hyperstat {
     #[pymodule_export]
     use super::column;
     #[pymodule_export]
+    use super::joint::JointKind;
+    #[pymodule_export]
+    use super::kept::{after_fork, before_fork};
+    #[pymodule_export]
     use super::measures;
     #[pymodule_export]
     use super::mechanism::{Core, load, parse, prebuilt};
     #[pymodule_export]
-    use super::pose::Pose;
+    use super::pose::{Pose, pose_again};
     #[pymodule_export]
     use super::schema;
     #[pymodule_export]

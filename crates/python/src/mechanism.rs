@@ -1,7 +1,6 @@
 //! A mechanism as Python holds it: of a file, or of a job in one of its designs.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use hyperstat_study::{
     Asked, Disk, Input, Job, JobMechanism, JobPoses, Mechanism, Question, Registry, Selection,
@@ -14,8 +13,11 @@ use crate::arrays::array;
 use crate::error::{Ended, apart};
 use crate::given::{self, Given};
 use crate::gradient;
+use crate::joint::{self, JointKind};
+use crate::kept::{Kept, unforked};
 use crate::pose::{Pose, PoseGiven, Ready};
-use crate::sweep::{Asking, Found};
+use crate::sweep::{Asking, Found, Varied};
+use crate::watched::watched;
 
 /// A mechanism.
 #[pyclass(frozen, module = "hyperstat._hyperstat")]
@@ -23,9 +25,13 @@ pub(crate) struct Core {
     subject: Subject,
     /// The file that it is from, in messages.
     path: PathBuf,
+    /// Kinds of joints and mechanisms that it may be of.
+    registry: Registry,
+    /// Whether it is a design of a job as it was read.
+    design_of_job: bool,
     /// What was worked out of it.
-    study: Mutex<Option<Study>>,
-    ready: Mutex<Option<Ready>>,
+    study: Kept<Study>,
+    ready: Kept<Ready>,
 }
 
 enum Subject {
@@ -46,10 +52,12 @@ pub(crate) fn load(
     job: Option<String>,
     design: Option<usize>,
     pose: Option<usize>,
+    joints: Vec<Bound<'_, JointKind>>,
 ) -> PyResult<Core> {
+    let registry = joint::registry(&joints);
     apart(py, || {
-        let read = hyperstat_study::load(&path, &Disk, &Registry::builtin())?;
-        Core::of(read, path, Selection { job, design, pose })
+        let read = hyperstat_study::load(&path, &Disk, &registry)?;
+        Core::of(read, path, Selection { job, design, pose }, registry)
     })
 }
 
@@ -62,10 +70,12 @@ pub(crate) fn parse(
     job: Option<String>,
     design: Option<usize>,
     pose: Option<usize>,
+    joints: Vec<Bound<'_, JointKind>>,
 ) -> PyResult<Core> {
+    let registry = joint::registry(&joints);
     apart(py, || {
-        let read = hyperstat_study::load_str(text, &path, &Disk, &Registry::builtin())?;
-        Core::of(read, path, Selection { job, design, pose })
+        let read = hyperstat_study::load_str(text, &path, &Disk, &registry)?;
+        Core::of(read, path, Selection { job, design, pose }, registry)
     })
 }
 
@@ -74,9 +84,10 @@ pub(crate) fn parse(
 pub(crate) fn prebuilt(py: Python<'_>, text: String, name: String) -> PyResult<Core> {
     apart(py, || {
         let written = JobMechanism::Written(text);
-        let job = Job::new(&name, written, JobPoses::Later, &Registry::builtin())?;
+        let registry = Registry::builtin();
+        let job = Job::new(&name, written, JobPoses::Later, &registry)?;
         let own = job.commanded().is_empty().then_some(0);
-        Ok(Core::of_job(job, 0, own, name.into()))
+        Ok(Core::of_job(job, 0, own, name.into(), registry))
     })
 }
 
@@ -85,8 +96,7 @@ impl Core {
     /// The JSON of `solve`.
     #[allow(clippy::too_many_arguments)]
     fn solve(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         verify: bool,
         all_nodes: bool,
         modes: Option<usize>,
@@ -97,9 +107,11 @@ impl Core {
         direction: Option<[f64; 3]>,
         allow_free: bool,
     ) -> PyResult<String> {
-        apart(py, || {
-            let along = given::along(along, direction)?;
-            let mass = mass.map(given::mass).transpose()?;
+        let (own, py) = (slf.clone().unbind(), slf.py());
+        let along = given::along(along, direction).map_err(|error| error.raised(py))?;
+        let mass = mass.map(given::mass).transpose();
+        let mass = mass.map_err(|error| error.raised(py))?;
+        watched(py, None, move |_| {
             let question = Question {
                 verify,
                 all_nodes,
@@ -107,7 +119,7 @@ impl Core {
                 mass,
                 why: why.then_some(Asked { case, along }),
             };
-            self.asked(|study| {
+            own.get().asked(|study| {
                 let answered = study.answer(&question)?;
                 let free = study.free_output(&answered.solution);
                 if let Some(error) = free.filter(|_| !allow_free) {
@@ -119,14 +131,18 @@ impl Core {
     }
 
     /// The JSON of `check`.
-    fn check(&self, py: Python<'_>) -> PyResult<String> {
-        apart(py, || self.asked(|study| json(&study.check().0)))
+    fn check(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let own = slf.clone().unbind();
+        watched(slf.py(), None, move |_| {
+            own.get().asked(|study| json(&study.check().0))
+        })
     }
 
     /// VTU, for ParaView and pyvista.
-    fn vtu(&self, py: Python<'_>) -> PyResult<String> {
-        apart(py, || {
-            self.asked(|study| {
+    fn vtu(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let own = slf.clone().unbind();
+        watched(slf.py(), None, move |_| {
+            own.get().asked(|study| {
                 let solution = study.solve()?;
                 Ok(study.vtu(&solution, None)?)
             })
@@ -135,12 +151,11 @@ impl Core {
 
     /// As a mechanism file, in RON or JSON.
     fn written(&self, py: Python<'_>, as_json: bool) -> PyResult<String> {
-        let registry = Registry::builtin();
         apart(py, || {
             self.asked(|study| {
                 Ok(match as_json {
-                    true => study.mechanism_file_json(&registry)?,
-                    false => study.mechanism_file(&registry)?,
+                    true => study.mechanism_file_json(&self.registry)?,
+                    false => study.mechanism_file(&self.registry)?,
                 })
             })
         })
@@ -157,7 +172,7 @@ impl Core {
                 ),
                 Subject::Job { job, design, pose } => {
                     let job = job.with_values(*design, &values)?;
-                    Self::of_job(job, 0, *pose, self.path.clone())
+                    self.with_job(job, *pose)
                 }
             })
         })
@@ -167,7 +182,7 @@ impl Core {
     fn with_fields(&self, py: Python<'_>, fields: Vec<(String, String)>) -> PyResult<Self> {
         apart(py, || {
             let job = self.job_with(&fields)?;
-            Ok(Self::of_job(job, 0, self.pose(), self.path.clone()))
+            Ok(self.with_job(job, self.pose()))
         })
     }
 
@@ -178,7 +193,7 @@ impl Core {
             pose.check()?;
             let mut job = self.job()?;
             job.set_poses(pose.poses())?;
-            Ok(Self::of_job(job, 0, Some(0), self.path.clone()))
+            Ok(self.with_job(job, Some(0)))
         })
     }
 
@@ -187,20 +202,19 @@ impl Core {
         let pose = pose.owned();
         apart(py, || {
             pose.check()?;
-            let mut ready = lock(&self.ready);
-            // A panic leaves nothing half done behind.
-            let mut own = match ready.take() {
+            let mut own = match self.ready.take() {
                 Some(own) => own,
                 None => {
                     let of_file = matches!(self.subject, Subject::File(_));
-                    match Ready::new(self.job()?, &pose, of_file)? {
+                    let job = self.job()?;
+                    match unforked(|| Ready::new(job, &pose, of_file))? {
                         Ok(own) => own,
                         Err(unreached) => return Ok(unreached),
                     }
                 }
             };
             let found = own.at(&pose);
-            *ready = Some(own);
+            self.ready.put(own);
             found
         })
     }
@@ -208,8 +222,7 @@ impl Core {
     /// A sweep over these poses, or over its own, of these designs.
     #[allow(clippy::too_many_arguments)]
     fn sweep(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         poses: Option<(Vec<String>, PyReadonlyArray2<'_, f64>)>,
         fields: Vec<(String, String)>,
         designs: Option<Vec<(String, Vec<Given>)>>,
@@ -224,70 +237,85 @@ impl Core {
             };
             designs.into_iter().map(each).collect::<Vec<_>>()
         });
-        let found = apart(py, move || {
-            let (job, rows) = match (&self.subject, poses, &designs) {
-                (Subject::Job { job, design, pose }, None, None) if fields.is_empty() => {
-                    pose.ok_or_else(unposed)?;
-                    let first = design * job.len();
-                    ((**job).clone(), first..first + job.len())
-                }
-                (_, poses, designs) => {
-                    let mut job = self.job_with(&fields)?;
-                    match poses {
-                        Some(poses) => job.set_poses(poses)?,
-                        None => {
-                            self.posed()?;
-                        }
-                    }
-                    if let Some(designs) = designs {
-                        let designs: Vec<_> = (designs.iter())
-                            .map(|(path, values): &(String, Vec<_>)| (&**path, values.clone()))
-                            .collect();
-                        job.set_vary(&designs, true)?;
-                    }
-                    let rows = 0..job.designs() * job.len();
-                    (job, rows)
-                }
-            };
+        let own = slf.clone().unbind();
+        let found = watched(slf.py(), progress.as_ref(), move |watch| {
+            let own = own.get();
             let asking = Asking {
                 threads,
                 one_by_one,
-                progress,
             };
-            asking.run(&job, rows)
+            match (&own.subject, poses, &designs) {
+                (Subject::Job { job, design, pose }, None, None) if fields.is_empty() => {
+                    pose.ok_or_else(unposed)?;
+                    let first = design * job.len();
+                    asking.run(job, first..first + job.len(), own.varied(), watch)
+                }
+                (_, poses, designs) => {
+                    let mut job = own.job_with(&fields)?;
+                    match poses {
+                        Some(poses) => job.set_poses(poses)?,
+                        None => {
+                            own.posed()?;
+                        }
+                    }
+                    let varied = match designs {
+                        Some(designs) => {
+                            let designs: Vec<_> = (designs.iter())
+                                .map(|(path, values): &(String, Vec<_>)| (&**path, values.clone()))
+                                .collect();
+                            job.set_vary(&designs, true)?;
+                            Varied::of(&job, 0..job.designs())
+                        }
+                        None => own.varied(),
+                    };
+                    let rows = 0..job.designs() * job.len();
+                    asking.run(&job, rows, varied, watch)
+                }
+            }
         })?;
-        found.handed_over(py)
+        found.handed_over(slf.py())
     }
 
     /// A quantity and its derivatives by the values at these paths, in these poses or in its own; NaN where
     /// a pose has no result.
     #[allow(clippy::type_complexity)]
     fn value_and_gradient<'py>(
-        &self,
-        py: Python<'py>,
-        quantity: &str,
+        slf: &Bound<'py, Self>,
+        quantity: String,
         paths: Vec<String>,
         poses: Option<(Vec<String>, PyReadonlyArray2<'_, f64>)>,
         case: Option<String>,
         threads: usize,
     ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, Bound<'py, PyArrayDyn<f64>>)> {
         let poses = poses.map(|(columns, rows)| given::poses(columns, &rows));
-        let (values, slopes) = apart(py, || {
+        let (own, py) = (slf.clone().unbind(), slf.py());
+        let count = paths.len();
+        let (values, slopes) = watched(py, None, move |watch| {
+            let own = own.get();
             let job = match poses {
                 Some(poses) => {
-                    let mut job = self.job()?;
+                    let mut job = own.job()?;
                     job.set_poses(poses)?;
                     job
                 }
                 None => {
-                    self.posed()?;
-                    self.job()?
+                    own.posed()?;
+                    own.job()?
                 }
             };
-            gradient::of(&job, quantity, &paths, case.as_deref(), threads)
+            gradient::of(&job, &quantity, &paths, case.as_deref(), threads, watch)
         })?;
-        let shape = [values.len(), paths.len()];
+        let shape = [values.len(), count];
         Ok((array(py, values, &shape[..1])?, array(py, slopes, &shape)?))
+    }
+
+    /// The numbers at these paths, as `vary` names them.
+    fn numbers(&self, py: Python<'_>, paths: Vec<String>) -> PyResult<Vec<f64>> {
+        apart(py, || {
+            let job = self.job()?;
+            let number = |path: &String| Ok(job.number_at(0, path)?);
+            paths.iter().map(number).collect()
+        })
     }
 
     /// Name, job, design and pose.
@@ -324,7 +352,12 @@ impl Core {
 }
 
 impl Core {
-    fn of(read: Input, path: PathBuf, selection: Selection) -> Result<Self, Ended> {
+    fn of(
+        read: Input,
+        path: PathBuf,
+        selection: Selection,
+        registry: Registry,
+    ) -> Result<Self, Ended> {
         match read {
             Input::Batch(batch) => {
                 let job = selection.job_of(batch, &path)?;
@@ -333,7 +366,10 @@ impl Core {
                 if design >= job.designs() || pose >= job.len() {
                     Study::of_job(job.clone(), design, pose)?;
                 }
-                Ok(Self::of_job(job, design, Some(pose), path))
+                Ok(Self {
+                    design_of_job: true,
+                    ..Self::of_job(job, design, Some(pose), path, registry)
+                })
             }
             // It says what of a selection a mechanism file does not have.
             mechanism => {
@@ -342,20 +378,30 @@ impl Core {
                 Ok(Self {
                     subject: Subject::File(Box::new(own)),
                     path,
-                    study: Mutex::new(Some(study)),
-                    ready: Mutex::new(None),
+                    registry,
+                    design_of_job: false,
+                    study: Kept::of(study),
+                    ready: Kept::none(),
                 })
             }
         }
     }
 
-    fn of_job(job: Job, design: usize, pose: Option<usize>, path: PathBuf) -> Self {
+    fn of_job(
+        job: Job,
+        design: usize,
+        pose: Option<usize>,
+        path: PathBuf,
+        registry: Registry,
+    ) -> Self {
         let job = Box::new(job);
         Self {
             subject: Subject::Job { job, design, pose },
             path,
-            study: Mutex::new(None),
-            ready: Mutex::new(None),
+            registry,
+            design_of_job: false,
+            study: Kept::none(),
+            ready: Kept::none(),
         }
     }
 
@@ -363,8 +409,26 @@ impl Core {
         Self {
             subject,
             path: like.path.clone(),
-            study: Mutex::new(None),
-            ready: Mutex::new(None),
+            registry: like.registry.clone(),
+            design_of_job: false,
+            study: Kept::none(),
+            ready: Kept::none(),
+        }
+    }
+
+    /// The first design of a job that was made of it.
+    fn with_job(&self, job: Job, pose: Option<usize>) -> Self {
+        let (path, registry) = (self.path.clone(), self.registry.clone());
+        Self::of_job(job, 0, pose, path, registry)
+    }
+
+    /// What its job varies, in its design.
+    fn varied(&self) -> Varied {
+        match &self.subject {
+            Subject::Job { job, design, .. } if self.design_of_job => {
+                Varied::of(job, *design..*design + 1)
+            }
+            _ => Varied::default(),
         }
     }
 
@@ -384,7 +448,7 @@ impl Core {
         Ok(match &self.subject {
             Subject::File(mechanism) => {
                 let own = JobMechanism::Loaded(mechanism.clone());
-                Job::new("mechanism", own, JobPoses::Own, &Registry::builtin())?
+                Job::new("mechanism", own, JobPoses::Own, &self.registry)?
             }
             Subject::Job { job, design, .. } => match job.varied() {
                 [] => (**job).clone(),
@@ -403,28 +467,23 @@ impl Core {
 
     /// Asks the study of it, which is made when it is first asked.
     fn asked<T>(&self, ask: impl FnOnce(&mut Study) -> Result<T, Ended>) -> Result<T, Ended> {
-        let mut kept = lock(&self.study);
-        // A panic leaves nothing half done behind.
-        let mut study = match kept.take() {
+        let mut study = match self.study.take() {
             Some(study) => study,
-            None => match &self.subject {
+            None => unforked(|| match &self.subject {
                 Subject::File(mechanism) => {
                     let mechanism = Input::Mechanism((**mechanism).clone());
-                    Study::of(mechanism, &self.path, &Selection::default())?
+                    Ok(Study::of(mechanism, &self.path, &Selection::default())?)
                 }
                 Subject::Job { job, design, .. } => {
-                    Study::of_job((**job).clone(), *design, self.posed()?)?
+                    let study = Study::of_job((**job).clone(), *design, self.posed()?)?;
+                    Ok::<_, Ended>(study)
                 }
-            },
+            })?,
         };
         let answer = ask(&mut study);
-        *kept = Some(study);
+        self.study.put(study);
         answer
     }
-}
-
-fn lock<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
-    of.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn unposed() -> Ended {

@@ -1,9 +1,11 @@
 //! The threads that sweeps run on: one pool, kept for the next sweep.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use hyperstat_study::StudyError;
 use hyperstat_study::sweep::Threads;
+
+use crate::kept::unforked;
 
 /// A pool, the process that it is of, and how many threads were asked for.
 type Kept = (u32, usize, Arc<Threads>);
@@ -14,18 +16,34 @@ static POOL: Mutex<Option<Kept>> = Mutex::new(None);
 /// none of its parent's.
 pub(crate) fn threads(asked: usize) -> Result<Arc<Threads>, StudyError> {
     let process = std::process::id();
-    let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((of, count, threads)) = &*pool
-        && (*of, *count) == (process, asked)
+    unforked(|| {
+        let mut pool = pool();
+        if let Some((of, count, threads)) = &*pool
+            && (*of, *count) == (process, asked)
+        {
+            return Ok(Arc::clone(threads));
+        }
+        let threads = Arc::new(Threads::new(asked)?);
+        if let Some((of, _, old)) = pool.replace((process, asked, Arc::clone(&threads)))
+            && of != process
+        {
+            // Its threads are not there to be waited for.
+            std::mem::forget(old);
+        }
+        Ok(threads)
+    })
+}
+
+/// Leaves the threads to what they are still at: the next sweep has others.
+pub(crate) fn leave() {
+    let left = unforked(|| pool().take());
+    if let Some((of, _, old)) = left
+        && of != std::process::id()
     {
-        return Ok(Arc::clone(threads));
-    }
-    let threads = Arc::new(Threads::new(asked)?);
-    if let Some((of, _, old)) = pool.replace((process, asked, Arc::clone(&threads)))
-        && of != process
-    {
-        // Its threads are not there to be waited for.
         std::mem::forget(old);
     }
-    Ok(threads)
+}
+
+fn pool() -> MutexGuard<'static, Option<Kept>> {
+    POOL.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -2,27 +2,23 @@
 
 use std::ops::Range;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use hyperstat_study::sweep::{Cell, Chunk, Columns, Record, Sweep, Way};
-use hyperstat_study::{Job, Measure};
+use hyperstat_study::{Job, Measure, Value};
 use numpy::{PyArray1, PyArrayDyn, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::arrays::{array, known};
 use crate::error::{Ended, apart};
+use crate::kept::unforked;
 use crate::pool;
-
-/// Time between two looks at the interpreter: an interrupt, progress.
-const GLANCE: Duration = Duration::from_millis(50);
+use crate::watched::Watch;
 
 /// How a sweep is run.
 pub(crate) struct Asking {
     pub(crate) threads: usize,
     pub(crate) one_by_one: bool,
-    /// Is called with the rows that are done, and with all.
-    pub(crate) progress: Option<Py<PyAny>>,
 }
 
 /// A further column.
@@ -46,21 +42,54 @@ pub(crate) struct Rows {
     cases: Vec<String>,
     drives: (Vec<String>, Vec<f64>),
     designs: usize,
+    varied: Varied,
+}
+
+/// Of designs that a job varies: the number of the first, and path by path the values of each.
+#[derive(Default)]
+pub(crate) struct Varied {
+    first: usize,
+    paths: Vec<(String, Vec<Value>)>,
+}
+
+impl Varied {
+    /// Of these designs of a job.
+    pub(crate) fn of(job: &Job, designs: Range<usize>) -> Self {
+        let first = designs.start;
+        let mut paths: Vec<(String, Vec<Value>)> = (job.varied().iter())
+            .map(|varied| (varied.path.clone(), Vec::new()))
+            .collect();
+        for design in designs {
+            for ((_, own), value) in paths.iter_mut().zip(job.values(design)) {
+                own.push(value);
+            }
+        }
+        Self { first, paths }
+    }
 }
 
 impl Asking {
     /// Solves these rows of a job.
-    pub(crate) fn run(&self, job: &Job, rows: Range<usize>) -> Result<Rows, Ended> {
+    pub(crate) fn run(
+        &self,
+        job: &Job,
+        rows: Range<usize>,
+        varied: Varied,
+        watch: &Watch,
+    ) -> Result<Rows, Ended> {
         let way = match self.one_by_one {
             true => Way::OneByOne,
             false => Way::Lanes,
         };
-        let sweep = Sweep::new(job, way)?;
+        let sweep = unforked(|| Sweep::new(job, way))?;
         let threads = pool::threads(self.threads)?;
-        let mut found = Rows::new(job, &rows);
+        let mut found = Rows {
+            varied,
+            ..Rows::new(job, &rows)
+        };
         let total = rows.len();
-        let mut seen = Instant::now();
         let mut done = 0;
+        watch.at(done, total)?;
         sweep.run(
             &threads,
             rows,
@@ -68,25 +97,10 @@ impl Asking {
             |chunk: &mut Chunk| {
                 found.add(chunk);
                 done += chunk.records.len();
-                if seen.elapsed() >= GLANCE || done == total && self.progress.is_some() {
-                    seen = Instant::now();
-                    self.glance(done, total)?;
-                }
-                Ok::<(), Ended>(())
+                watch.at(done, total)
             },
         )?;
         Ok(found)
-    }
-
-    /// Has the interpreter say whether to go on.
-    fn glance(&self, done: usize, total: usize) -> PyResult<()> {
-        Python::attach(|py| {
-            py.check_signals()?;
-            match &self.progress {
-                Some(progress) => progress.call1(py, (done, total)).map(drop),
-                None => Ok(()),
-            }
-        })
     }
 }
 
@@ -107,6 +121,7 @@ impl Rows {
             cases: job.cases().to_vec(),
             drives: (job.drives().to_vec(), Vec::new()),
             designs: rows.len() / job.len().max(1),
+            varied: Varied::default(),
         }
     }
 
@@ -169,6 +184,15 @@ impl Rows {
             };
             further.push((name, column.unbind()));
         }
+        let mut varied = Vec::with_capacity(self.varied.paths.len());
+        for (path, values) in self.varied.paths {
+            let each = values.into_iter().map(|value| match value {
+                Value::Number(number) => Ok(number.into_pyobject(py)?.into_any()),
+                Value::Text(text) => Ok(text.into_pyobject(py)?.into_any()),
+            });
+            let each = each.collect::<PyResult<Vec<_>>>()?;
+            varied.push((path, PyList::new(py, each)?.unbind()));
+        }
         let (drives, values) = self.drives;
         let values = array(py, values, &[n, drives.len()])?;
         Ok(Found {
@@ -183,6 +207,7 @@ impl Rows {
             further,
             drives: (drives, values.unbind()),
             designs: self.designs,
+            varied: (self.varied.first, varied),
         })
     }
 }
@@ -214,6 +239,7 @@ pub(crate) struct Found {
     further: Vec<(String, Py<PyAny>)>,
     drives: (Vec<String>, Py<PyArrayDyn<f64>>),
     designs: usize,
+    varied: (usize, Vec<(String, Py<PyList>)>),
 }
 
 /// The measure of this name.

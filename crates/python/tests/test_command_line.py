@@ -130,6 +130,18 @@ def test_designs_are_those_of_the_command_line(
                 else:
                     numbers = np.array([float(cell) if cell else np.nan for cell in wanted])
                     assert np.array_equal(t[name], numbers, equal_nan=True)
+            assert list(expected)[1:] == t.columns
+            for name, values in t.varied.items():
+                wanted = [expected[name][k] for k in rows]
+                assert [read(cell) for cell in wanted] == list(values), name
+
+
+def read(cell: str) -> float | str:
+    """What a cell of a column of designs holds."""
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
 
 
 def test_numbers_do_not_depend_on_threads(examples: Path) -> None:

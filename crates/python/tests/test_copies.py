@@ -69,6 +69,41 @@ def test_results_are_pickled(examples: Path) -> None:
         assert np.array_equal(table.cases["push"].displacement, t.cases["push"].displacement)
 
 
+def test_poses_are_pickled(examples: Path) -> None:
+    m = hs.load(examples / "paper.ron", "delta-elastic-trajectory")
+    load = hs.Load(on=("platform", "P"), force=(1, 2, 3))
+    m = m.with_loads(cases={"push": [load]}, columns=["Stress", "Mass"])
+    for pose in (POSE, (3.0, 0.0, 0.5)):
+        one = m.at(pose)
+        for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
+            assert repr(again) == repr(one) and (again.status, again.why) == (one.status, one.why)
+            assert again.keys() == one.keys() and len(again.keys()) > 6
+            for name in ("pose", "stiffness", "displacement"):
+                assert np.array_equal(getattr(again, name), getattr(one, name), equal_nan=True)
+            for name in one.keys():
+                assert again[name] == one[name] or (again[name] != again[name] and one[name] != one[name])
+            assert np.array_equal(again.cases["push"], one.cases["push"], equal_nan=True)
+            for name in ("deflection", "softest_force"):
+                assert np.array_equal(again.measure(name), one.measure(name), equal_nan=True)
+
+
+def test_a_pose_whose_output_is_rigid_is_pickled() -> None:
+    text = """(
+        name: "held",
+        points: { "A": (0.0, 0.0, 0.0) },
+        bodies: { "block": Rigid(points: ["A"]) },
+        joints: { "J": (at: "A", between: ("ground", "block"), kind: Revolute(axis: (0.0, 0.0, 1.0)),
+            stiffness: (v: 100.0)) },
+        loads: [(on: ("block", "A"), moment: (0.0, 0.0, 2.0))],
+        output: ("block", "A"),
+    )"""
+    one = hs.Mechanism(text).at((0.0, 0.0, 0.0))
+    again = pickle.loads(pickle.dumps(one))
+    assert again.status == one.status == "rigid" and again.why == one.why is not None
+    assert np.array_equal(again.displacement, one.displacement) and np.isclose(one.displacement[5], 0.02)
+    assert np.isnan(again.stiffness).all()
+
+
 def _solved(m: hs.Mechanism) -> float:
     return float(m.solve().stiffness[0, 0])
 

@@ -23,10 +23,11 @@ def versions(lock: Path) -> dict[str, set[str]]:
 def test_versions_are_those_of_the_workspace() -> None:
     """Else what the workspace has built is built again: `cp Cargo.lock crates/python`, `cargo update -w`."""
     workspace = versions(ROOT / "Cargo.lock")
-    own = versions(ROOT / "crates/python/Cargo.lock")
-    shared = own.keys() & workspace.keys()
-    assert len(shared) > 50
-    assert [name for name in sorted(shared) if not own[name] <= workspace[name]] == []
+    for lock in ("crates/python/Cargo.lock", "benches/python/core/Cargo.lock"):
+        own = versions(ROOT / lock)
+        shared = own.keys() & workspace.keys()
+        assert len(shared) > 50
+        assert [name for name in sorted(shared) if not own[name] <= workspace[name]] == [], lock
 
 
 def test_the_version_is_the_workspaces() -> None:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import gc
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +113,27 @@ def test_designs_are_columns(delta: hs.Mechanism) -> None:
     assert list(t.to_pandas().groupby("design")["k33"].count()) == [8, 8]
 
 
+def test_a_design_of_a_job_has_its_columns(examples: Path) -> None:
+    """Those that the command line's table has: number and values of the design."""
+    path = examples / "designs.ron"
+    m = hs.load(path, "delta-rods-and-arms", 3)
+    t = m.sweep()
+    assert t.columns[-3:] == ["design", *list(t.varied)[1:]] and set(t["design"]) == {3}
+    first = hs.load(path, "delta-rods-and-arms").sweep()
+    assert set(first["design"]) == {0} and first.columns == t.columns
+    # The values are those that the mechanism has.
+    paths = list(t.varied)[1:]
+    for name in paths:
+        own = hs.load(path, "delta-rods-and-arms").with_values({p: t[p][0] for p in paths}).sweep()
+        assert np.array_equal(own.stiffness, t.stiffness, equal_nan=True) and "design" not in own.columns
+        assert t.measure(name)[0] == t[name][0]
+    # Other poses and loads are of the same design.
+    other = m.sweep(t.pose[:2, :3], loads=[])
+    assert other.varied["design"].tolist() == [3, 3] and other[paths[0]][0] == t[paths[0]][0]
+    assert "design" not in m.evaluate({paths[0]: [t[paths[0]][0]]}).columns[:-2]
+    assert list(m.evaluate({paths[0]: [0.01, 0.02]}, t.pose[:1, :3])["design"]) == [0, 1]
+
+
 def test_columns_of_words_are_so_without_a_result(delta: hs.Mechanism) -> None:
     columns = ["Stress", "Utilisation"]
     strong = hs.Material(young=2.1e11, poisson=0.3, yield_=3.55e8)
@@ -198,14 +222,39 @@ def test_progress_and_what_ends_a_sweep(delta: hs.Mechanism) -> None:
     assert delta.sweep(poses[:3]).ok.all()
 
 
-def test_an_interrupt_ends_a_sweep(delta: hs.Mechanism) -> None:
-    poses = np.tile(grid(20), (100, 1))
-    begun = time.perf_counter()
-    timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+def _interrupted(call: Callable[[], object]) -> float:
+    """Seconds from an interrupt to its exception."""
+    sent: list[float] = []
+
+    def send() -> None:
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.2, send)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        delta.sweep(poses, one_by_one=True)
-    assert time.perf_counter() - begun < 5.0
+        call()
+    return time.perf_counter() - sent[0]
+
+
+def test_an_interrupt_ends_what_takes_long(delta: hs.Mechanism) -> None:
+    """Within half a second: it is looked for twenty times a second, however long a pose takes."""
+    poses = np.tile(grid(20), (100, 1))
+    paths = ["rod.section.diameter", "joint_stiffness.x", "arm_length"]
+    assert _interrupted(lambda: delta.sweep(poses, one_by_one=True)) < 0.5
+    assert _interrupted(lambda: delta.sweep(poses[:20000], columns=["Budget"], one_by_one=True)) < 0.5
+    assert _interrupted(lambda: delta.value_and_gradient("deflection", paths, poses)) < 0.5
+    # And what comes next goes as ever.
+    assert delta.sweep(poses[:3]).ok.all()
+
+
+def test_progress_of_what_is_called_from_another_thread(delta: hs.Mechanism) -> None:
+    told: list[int] = []
+    poses = np.tile(grid(16), (20, 1))
+    thread = threading.Thread(target=lambda: delta.sweep(poses, progress=lambda done, _: told.append(done)))
+    thread.start()
+    thread.join()
+    assert told[-1] == len(poses)
 
 
 def test_a_forked_process_has_threads_of_its_own(delta: hs.Mechanism) -> None:
@@ -216,6 +265,56 @@ def test_a_forked_process_has_threads_of_its_own(delta: hs.Mechanism) -> None:
         signal.alarm(60)
         os._exit(0 if np.array_equal(delta.sweep(poses).stiffness, expected) else 1)
     assert os.waitpid(child, 0)[1] == 0
+
+
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
+def test_a_process_that_is_forked_while_others_compute(examples: Path, delta: hs.Mechanism) -> None:
+    """What other threads are at in a call of the same mechanism is not there in the child."""
+    poses = grid(3)
+    expected = delta.sweep(poses).stiffness
+    portal = hs.load(examples / "portal.ron")
+    solution = portal.solve().to_dict()
+    ended = threading.Event()
+
+    def work(call: Callable[[], object]) -> None:
+        while not ended.is_set():
+            call()
+
+    calls: list[Callable[[], object]] = [
+        lambda: delta.sweep(poses),
+        lambda: delta.at(poses[5]),
+        lambda: portal.solve(),
+        lambda: hs.load(examples / "portal.ron").solve(),
+        lambda: delta.value_and_gradient("k11", ["joint_stiffness.x"], poses[:2]),
+    ]
+    threads = [threading.Thread(target=work, args=(call,)) for call in calls]
+    for thread in threads:
+        thread.start()
+    try:
+        for _ in range(40):
+            child = os.fork()
+            if child == 0:
+                signal.alarm(60)
+                same = np.array_equal(delta.sweep(poses).stiffness, expected)
+                same = same and np.array_equal(delta.at(poses[7]).stiffness, expected[7])
+                os._exit(0 if same and portal.solve().to_dict() == solution else 1)
+            assert os.waitpid(child, 0)[1] == 0
+    finally:
+        ended.set()
+        for thread in threads:
+            thread.join()
+
+
+def test_a_fork_of_what_was_imported_twice() -> None:
+    code = (
+        "import importlib, os, signal, hyperstat\n"
+        "importlib.reload(hyperstat)\n"
+        "signal.alarm(30)\n"
+        "child = os.fork()\n"
+        "child or os._exit(0)\n"
+        "assert os.waitpid(child, 0)[1] == 0\n"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 def resident() -> int:

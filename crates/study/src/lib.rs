@@ -59,11 +59,13 @@ pub use entries::Entries;
 pub use error::{Problem, StudyError};
 pub use gradient::Quantity;
 pub use hyperstat_assembly::BeamMass;
+pub use hyperstat_joints::{Dof, DofSet, Joint};
 #[cfg(feature = "fs")]
 pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
-    Along, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses, LoadError,
-    Location, Mechanism, MemoryFiles, PoseError, Registry, Target, Value, load, load_str,
+    Along, Arguments, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses,
+    LoadError, Location, Mechanism, MemoryFiles, Orientation, ParsedJoint, PoseError, Registry,
+    Target, Value, load, load_str,
 };
 pub use measures::Measure;
 pub use number::{ROUNDING, Rounding, number, without_rounding};

@@ -15,32 +15,50 @@ Whatever is wrong is an `Error` with `.message`, `.place`, `.help` and `.code`.
 (6, 6)
 """
 
+import os as _os
+
 from . import parts
+from ._choose import Choice, choose_poses
 from ._errors import (
     ArgumentError,
     Error,
     InputError,
     InternalError,
+    MissingError,
     Place,
     PoseError,
     SelectionError,
     UnsolvableError,
 )
-from ._hyperstat import Pose, __version__
+from ._hyperstat import Pose, __version__, after_fork, before_fork
+from ._identify import Identification, identify
+from ._information import Indistinct, Information, information
+from ._joints import JointKind
 from ._mechanism import Mechanism, load, measures, schema
 from ._solution import CaseResult, JointResult, Solution
 from ._table import CaseTable, Table
 from .parts import *  # noqa: F403
 
+# A process that is forked while other threads compute finds nothing half made.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(before=before_fork, after_in_parent=after_fork, after_in_child=after_fork)
+del after_fork, before_fork
+
 __all__ = [
     "ArgumentError",
     "CaseResult",
     "CaseTable",
+    "Choice",
     "Error",
+    "Identification",
+    "Indistinct",
+    "Information",
     "InputError",
     "InternalError",
+    "JointKind",
     "JointResult",
     "Mechanism",
+    "MissingError",
     "Place",
     "Pose",
     "PoseError",
@@ -49,6 +67,9 @@ __all__ = [
     "Table",
     "UnsolvableError",
     "__version__",
+    "choose_poses",
+    "identify",
+    "information",
     "load",
     "measures",
     "parts",

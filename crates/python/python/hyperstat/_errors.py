@@ -108,6 +108,20 @@ class UnsolvableError(Error, ArithmeticError):
     """A mechanism that has no solution: it is not held, a load acts on a free motion, ..."""
 
 
+class MissingError(Error, ImportError):
+    """A package that is not installed."""
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        code: str = "missing-package",
+        help: Optional[str] = None,
+        place: Optional[Place] = None,
+    ) -> None:
+        super().__init__(message, code=code, help=help, place=place)
+
+
 class InternalError(Error, RuntimeError):
     """A bug in hyperstat."""
 

@@ -12,7 +12,23 @@ _Array = npt.NDArray[np.float64]
 _Pose = Union[_Array, Sequence[float], dict[str, float]]
 _Value = Union[float, str]
 
-__all__ = ["Core", "Found", "Pose", "__version__", "column", "load", "measure", "measures", "parse", "prebuilt", "schema"]
+__all__ = [
+    "Core",
+    "Found",
+    "JointKind",
+    "Pose",
+    "__version__",
+    "after_fork",
+    "before_fork",
+    "column",
+    "load",
+    "measure",
+    "measures",
+    "parse",
+    "pose_again",
+    "prebuilt",
+    "schema",
+]
 
 __version__: str
 
@@ -54,6 +70,7 @@ class Core:
         case: Optional[str],
         threads: int,
     ) -> tuple[_Array, _Array]: ...
+    def numbers(self, paths: Sequence[str]) -> list[float]: ...
     def called(self) -> tuple[str, Optional[str], Optional[int], Optional[int]]: ...
     def counts(self) -> tuple[int, int, list[str]]: ...
     def path(self) -> Path: ...
@@ -78,6 +95,19 @@ class Found:
     def drives(self) -> tuple[list[str], _Array]: ...
     @property
     def designs(self) -> int: ...
+    @property
+    def varied(self) -> tuple[int, list[tuple[str, list[_Value]]]]: ...
+
+@final
+class JointKind:
+    def __new__(
+        cls,
+        name: str,
+        free: Sequence[str],
+        frame: str,
+        arguments: Sequence[str],
+        make: Callable[[list[float]], tuple[Optional[list[float]], Optional[list[float]]]],
+    ) -> JointKind: ...
 
 @final
 class Pose:
@@ -98,7 +128,11 @@ class Pose:
     def measure(self, name: str) -> float: ...
 
 def load(
-    path: Union[str, PathLike[str]], job: Optional[str], design: Optional[int], pose: Optional[int]
+    path: Union[str, PathLike[str]],
+    job: Optional[str],
+    design: Optional[int],
+    pose: Optional[int],
+    joints: Sequence[JointKind],
 ) -> Core: ...
 def parse(
     text: str,
@@ -106,8 +140,12 @@ def parse(
     job: Optional[str],
     design: Optional[int],
     pose: Optional[int],
+    joints: Sequence[JointKind],
 ) -> Core: ...
 def prebuilt(text: str, name: str) -> Core: ...
+def pose_again(made: tuple[Any, ...]) -> Pose: ...
+def before_fork() -> None: ...
+def after_fork() -> None: ...
 def measure(name: str, stiffness: _Array, displacement: _Array) -> _Array: ...
 def measures() -> list[tuple[str, str, str]]: ...
 def column(name: str) -> tuple[str, str]: ...

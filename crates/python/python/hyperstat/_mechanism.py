@@ -15,20 +15,18 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _hyperstat
-from ._data import Part, data, dumps, is_masked, ron, with_names
+from ._data import Part, data, dumps, ron, with_names
 from ._errors import ArgumentError, Error, SelectionError
 from ._hyperstat import Core, Pose
+from ._joints import JointKind
+from ._poses import OnePose, Poses, columns_of, one_pose
 from ._solution import Solution
 from ._table import Table
 
 Array = npt.NDArray[np.float64]
-Poses = Union[npt.ArrayLike, Mapping[str, npt.ArrayLike]]
-"""Rows of x, y, z [m] or of x, y, z, rx, ry, rz [m, rad]; or columns by name."""
-OnePose = Union[npt.ArrayLike, Mapping[str, float]]
 Along = Union[Literal["displacement", "x", "y", "z", "rx", "ry", "rz"], Sequence[float]]
 Progress = Union[bool, Callable[[int, int], object]]
 
-_COORDINATES = ("x", "y", "z", "rx", "ry", "rz")
 # As the command line has it.
 _MOST_MODES = 1000
 
@@ -47,6 +45,8 @@ class Mechanism:
         Numbers, from 0, of the design and of the pose of a job.
     path : path, optional
         What messages call the text; files that it names are found beside it.
+    joints : sequence of JointKind
+        Kinds of joints of one's own that it names.
 
     Raises
     ------
@@ -70,6 +70,7 @@ class Mechanism:
         design: int = 0,
         pose: int = 0,
         path: Optional[Union[str, PathLike[str]]] = None,
+        joints: Sequence[JointKind] = (),
     ) -> None:
         if not isinstance(source, (str, Mapping)):
             raise ArgumentError(
@@ -79,10 +80,12 @@ class Mechanism:
         name = "text" if isinstance(source, str) else "data"
         text = source if isinstance(source, str) else dumps(with_names(source))
         at = name if path is None else _path(path)
-        self._make("parse", text, at, _job(job), *_chosen(design, pose))
+        self._make("parse", text, at, _job(job), *_chosen(design, pose), _kinds(joints))
 
     def _make(self, by: str, *arguments: Any) -> None:
-        self._core = getattr(_hyperstat, by)(*arguments)
+        # Kinds of joints as the core has them.
+        given = ([kind._core for kind in own] if isinstance(own, _Kinds) else own for own in arguments)
+        self._core = getattr(_hyperstat, by)(*given)
         self._made = (by, arguments)
         self._posed = set()
 
@@ -222,7 +225,7 @@ class Mechanism:
 
     def _one(self, pose: OnePose) -> Union[list[float], dict[str, float]]:
         """A pose that `sweep` takes too: what a pose must be does not depend on those before it."""
-        names, numbers = _one_pose(pose)
+        names, numbers = one_pose(pose)
         given = numbers if names is None else dict(zip(names, numbers))
         # What is right with a pose depends on its names and on what is zero of it alone.
         like = (names, len(numbers), *(number == 0.0 for number in numbers))
@@ -283,7 +286,7 @@ class Mechanism:
 
     def evaluate(
         self,
-        designs: Mapping[str, Sequence[Union[float, str]]],
+        designs: Mapping[str, Union[Sequence[Union[float, str, Part]], npt.NDArray[np.float64]]],
         poses: Optional[Poses] = None,
         *,
         columns: Optional[Sequence[Any]] = None,
@@ -318,14 +321,14 @@ class Mechanism:
         one_by_one: bool,
         progress: Progress,
     ) -> Table:
-        table = None if poses is None else _columns(poses)
-        threads = _threads(threads)
+        table = None if poses is None else columns_of(poses)
+        threads = threads_of(threads)
         call, close = _reporter(progress)
         try:
             found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
         finally:
             close()
-        return Table(found, designs or ())
+        return Table(found)
 
     def value_and_gradient(
         self,
@@ -364,18 +367,18 @@ class Mechanism:
         ArgumentError
             A measure that there is not; a path that leads to no number.
         """
-        table = None if poses is None else _columns(poses)
+        table = None if poses is None else columns_of(poses)
         if isinstance(paths, str):
             raise ArgumentError(f"`{paths}` is one path", help=f'give a list of paths, `["{paths}"]`')
         each = list(paths)
         for what, word in (("measure", measure), *(("path", path) for path in each)):
             if not isinstance(word, str):
                 raise ArgumentError(f"`{word!r}` is no {what}", help="give a text")
-        return self._core.value_and_gradient(measure, each, table, case, _threads(threads))
+        return self._core.value_and_gradient(measure, each, table, case, threads_of(threads))
 
     # What it becomes.
 
-    def with_values(self, values: Mapping[str, Union[float, str]]) -> Mechanism:
+    def with_values(self, values: Mapping[str, Union[float, str, Part]]) -> Mechanism:
         """The same with other values in some places.
 
         Parameters
@@ -428,7 +431,7 @@ class Mechanism:
         pose
             As of `at`.
         """
-        names, numbers = _one_pose(pose)
+        names, numbers = one_pose(pose)
         return self._changed("in_pose", numbers if names is None else dict(zip(names, numbers)))
 
     def to_ron(self) -> str:
@@ -502,6 +505,7 @@ def load(
     design: int = 0,
     *,
     pose: int = 0,
+    joints: Sequence[JointKind] = (),
 ) -> Mechanism:
     """Reads a mechanism file, or one job of a batch file (RON or JSON).
 
@@ -512,6 +516,8 @@ def load(
         Job of a batch; may be left out where there is only one.
     design, pose : int
         Numbers, from 0, of the design and of the pose of a job.
+    joints : sequence of JointKind
+        Kinds of joints of one's own that the file names.
 
     Returns
     -------
@@ -526,7 +532,7 @@ def load(
     """
     at = _path(path)
     new = Mechanism.__new__(Mechanism)
-    chosen = (_job(job), *_chosen(design, pose))
+    chosen = (_job(job), *_chosen(design, pose), _kinds(joints))
     new._make("load", at, *chosen)
     try:
         # A pickle has the text: the file may change or be elsewhere.
@@ -554,13 +560,6 @@ def _chosen(design: int, pose: int) -> tuple[Optional[int], Optional[int]]:
                 f"there is no {what} {number}", code=f"unknown-{what}", help="they are counted from 0"
             )
     return design or None, pose or None
-
-
-def _no_pose(pose: object) -> ArgumentError:
-    return ArgumentError(
-        f"`{pose!r}` is no pose",
-        help="give x, y, z [m], or x, y, z, rx, ry, rz [m, rad], or a mapping of names to numbers",
-    )
 
 
 def _value(value: Any) -> Union[float, str]:
@@ -592,7 +591,7 @@ def _whole(number: Any, what: str) -> int:
         raise ArgumentError(f"`{number!r}` {what}", help="give a whole number") from None
 
 
-def _threads(threads: Any) -> int:
+def threads_of(threads: Any) -> int:
     if _whole(threads, "threads") < 0:
         raise ArgumentError(f"{threads} threads", help="0 is one a core")
     return index(threads)
@@ -608,6 +607,20 @@ def _direction(along: Any) -> list[float]:
             f"`{along!r}` is no direction", help="give three numbers, or a word such as `displacement`"
         )
     return direction
+
+
+class _Kinds(tuple[JointKind, ...]):
+    """Kinds of joints that a mechanism is read with."""
+
+
+def _kinds(joints: Any) -> _Kinds:
+    kinds = _Kinds(joints) if hasattr(joints, "__iter__") else _Kinds((joints,))
+    for kind in kinds:
+        if not isinstance(kind, JointKind):
+            raise ArgumentError(
+                f"`{kind!r}` is no kind of joint", help="give a list of `hyperstat.JointKind`"
+            )
+    return kinds
 
 
 def _path(path: Any) -> str:
@@ -639,79 +652,6 @@ def _json(fields: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [(name, dumps(data(own))) for name, own in fields.items() if own is not None]
 
 
-def _numbers(given: Any) -> Array:
-    """An array of real numbers, all of them there."""
-    rows = given if isinstance(given, (list, tuple)) else ()
-    if any(is_masked(own) for own in (given, *rows)):
-        raise ArgumentError("a pose with masked entries", help="leave masked rows out")
-    try:
-        own = np.asarray(given)
-        if own.dtype.kind not in "fiubO":
-            raise ArgumentError(
-                f"poses of the type {own.dtype}", help="give real numbers: x, y, z [m], rx, ry, rz [rad]"
-            )
-        return np.asarray(own, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, ArgumentError):
-            raise
-        raise ArgumentError(f"poses that are no numbers: {error}") from None
-
-
-def _one_pose(pose: Any) -> tuple[Optional[tuple[str, ...]], list[float]]:
-    """Names, where it has them, and numbers."""
-    names: Optional[tuple[str, ...]] = None
-    given = pose
-    if isinstance(pose, Mapping):
-        names, given = tuple(map(str, pose)), list(pose.values())
-    elif hasattr(pose, "to_dict") and all(isinstance(name, str) for name in getattr(pose, "index", (0,))):
-        # A row of a DataFrame.
-        names = tuple(pose.index)
-    if isinstance(given, (list, tuple)) and all(type(own) in (float, int) for own in given):
-        return names, [float(own) for own in given]
-    try:
-        numbers = _numbers(given)
-    except ArgumentError:
-        raise _no_pose(pose) from None
-    if numbers.ndim != 1:
-        raise _no_pose(pose)
-    own: list[float] = numbers.tolist()
-    return names, own
-
-
-def _named(poses: Any) -> Optional[list[tuple[str, Any]]]:
-    """Columns of what has them by names: mappings, data frames, tables of Arrow."""
-    if isinstance(poses, Mapping):
-        return [(str(name), own) for name, own in poses.items()]
-    names = getattr(poses, "column_names", None) or getattr(poses, "columns", None)
-    if names is None or callable(names) or not any(isinstance(name, str) for name in names):
-        return None
-    return [(str(name), poses[name]) for name in names]
-
-
-def _columns(poses: Poses) -> tuple[list[str], Array]:
-    """Names of columns, and rows."""
-    named = _named(poses)
-    if named is not None:
-        if not named:
-            raise ArgumentError("poses without columns", help="give coordinates or drives by name")
-        each = [_numbers(own).reshape(-1) for _, own in named]
-        try:
-            return [name for name, _ in named], np.stack(np.broadcast_arrays(*each), axis=1)
-        except ValueError:
-            lengths = ", ".join(f"{name} {len(own)}" for (name, _), own in zip(named, each))
-            raise ArgumentError(
-                f"columns of different lengths: {lengths}", help="give every pose a number in each"
-            ) from None
-    rows = _numbers(poses)
-    if rows.ndim != 2 or rows.shape[1] not in (3, 6):
-        raise ArgumentError(
-            f"poses of the shape {rows.shape}",
-            code="argument",
-            help="give (n, 3): x, y, z [m]; (n, 6): and rx, ry, rz [rad]; or a mapping of columns",
-        )
-    return list(_COORDINATES[: rows.shape[1]]), rows
-
-
 def _reporter(
     progress: Progress,
 ) -> tuple[Optional[Callable[[int, int], object]], Callable[[], object]]:
@@ -731,5 +671,3 @@ def _reporter(
         bar.update(done - bar.n)
 
     return show, bar.close
-
-

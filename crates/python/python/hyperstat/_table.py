@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
-from typing import Any, Optional, Union
+from typing import Any, Optional
 
 import numpy as np
 import numpy.typing as npt
@@ -68,14 +68,13 @@ class Table:
     further : dict
         Columns that were asked for, by name.
     varied : dict
-        Of `Mechanism.evaluate`: `design`, the number of the design from 0, and its values by path.
+        Of `Mechanism.evaluate` and of a job that varies: `design`, the number of the design from 0, and its
+        values by path.
     why : dict of str
         Of every status but `ok` why its first row has no result.
     """
 
-    def __init__(
-        self, found: Found, varied: Sequence[tuple[str, Sequence[Union[float, str]]]] = ()
-    ) -> None:
+    def __init__(self, found: Found) -> None:
         self.pose: Array = found.pose
         self.stiffness: Array = found.stiffness
         self.displacement: Array = found.displacement
@@ -97,11 +96,12 @@ class Table:
         self._all = dict(columns)
         each = len(self) // max(self.designs, 1)
         self.varied: dict[str, Any] = {}
+        first, varied = found.varied
         if varied:
-            self.varied["design"] = np.repeat(np.arange(self.designs), each)
+            self.varied["design"] = np.repeat(np.arange(first, first + self.designs), each)
         for path, given in varied:
             texts = any(isinstance(value, str) for value in given)
-            own = np.array(list(given), dtype=object if texts else np.float64)
+            own = np.array(given, dtype=object if texts else np.float64)
             self.varied[path] = np.repeat(own, each)
 
     @cached_property
