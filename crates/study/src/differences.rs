@@ -11,6 +11,8 @@
 
 use std::convert::Infallible;
 use std::ops::Range;
+use std::sync::atomic::AtomicU64;
+use std::sync::atomic::Ordering::Relaxed;
 
 use hyperstat_assembly::{Floor, Model, Parameter, Slopes};
 use hyperstat_mechanisms::{Job, Value};
@@ -39,6 +41,8 @@ pub struct Gradient {
     /// By which they are differences.
     differences: Vec<Difference>,
     paths: usize,
+    /// Poses so far whose exact derivatives the lanes did not find.
+    one_by_one: AtomicU64,
 }
 
 /// A value by which the derivative is exact.
@@ -77,7 +81,8 @@ impl Gradient {
         let mut known = Vec::new();
         let mut model = None;
         let mut size = 1.0;
-        for pose in 0..job.len().min(TRIED) {
+        let tried = if paths.is_empty() { 0 } else { TRIED };
+        for pose in 0..job.len().min(tried) {
             let Ok(mut study) = Study::of_job(job.clone(), 0, pose) else {
                 continue;
             };
@@ -101,6 +106,7 @@ impl Gradient {
             parameters: Vec::new(),
             differences: Vec::new(),
             paths: paths.len(),
+            one_by_one: AtomicU64::new(0),
         };
         for (place, path) in paths.iter().enumerate() {
             let own = known.iter().find(|own| is_named(own, path));
@@ -136,6 +142,11 @@ impl Gradient {
             .count()
     }
 
+    /// Poses so far whose exact derivatives the lanes did not find: each of them was solved by itself.
+    pub fn one_by_one(&self) -> u64 {
+        self.one_by_one.load(Relaxed)
+    }
+
     /// The quantity in some of the poses, and its derivatives pose by pose, as many as there are paths \[SI\];
     /// NaN of a pose without a result, and of a quantity that it does not have. Near the border of the
     /// workspace a design beside may be out of reach: its derivative is NaN then.
@@ -169,6 +180,7 @@ impl Gradient {
             (!own.is_empty()).then_some((pose, own))
         };
         let open: Vec<(usize, Vec<&Exact>)> = poses.clone().filter_map(open).collect();
+        self.one_by_one.fetch_add(open.len() as u64, Relaxed);
         let found = threads.each(0..open.len(), |k| self.exact_at(open[k].0, &open[k].1));
         for ((pose, own), found) in open.iter().zip(found) {
             for (own, slope) in own.iter().zip(found?) {

@@ -104,7 +104,9 @@ impl<'a> Sweep<'a> {
                 // No pose in reach is told of its rows.
                 Err(error) => return Ok((number, Err(Failure::from(error)))),
             };
-            if let Some(Err(error)) = sought.as_ref().map(|own| own.prepare(&mut model)) {
+            let seeking = sought.as_ref();
+            let ready = seeking.map(|own| own.prepare(job, &design, &mut model));
+            if let Some(Err(error)) = ready {
                 return Ok((number, Err(error.into())));
             }
             let prepared = Prepared::new(model);
@@ -286,7 +288,7 @@ impl Planned {
     ) -> Result<Self, Failure> {
         let mut model = design.model()?;
         if let Some(sought) = sought {
-            sought.prepare(&mut model)?;
+            sought.prepare(job, design, &mut model)?;
         }
         let prepared = match first {
             Ok(first) => first.prepared.for_design(model)?,

@@ -3,6 +3,7 @@
 use hyperstat_assembly::{
     Beside, LANES, Lanes, Model, Parameter, PoseResult, Prepared, Slopes, SolveError,
 };
+use hyperstat_mechanisms::{Design, Job};
 
 use super::record::Cell;
 use crate::gradient::Quantity;
@@ -30,8 +31,15 @@ pub(super) struct Slope {
 type FoundThere = Option<Result<PoseResult, SolveError>>;
 
 impl Sought {
-    /// Adds to a model what the derivatives are found from.
-    pub(super) fn prepare(&self, model: &mut Model) -> Result<(), SolveError> {
+    /// Adds to the model of a job's design what the derivatives are found from, and the names by which its
+    /// values are told apart.
+    pub(super) fn prepare(
+        &self,
+        job: &Job,
+        design: &Design,
+        model: &mut Model,
+    ) -> Result<(), SolveError> {
+        job.name_values(design, model);
         match self.quantity.is_of_loads() {
             true => Slopes::add_cases(model, &self.parameters),
             false => Ok(()),
