@@ -81,7 +81,11 @@ impl Gradient {
         let mut known = Vec::new();
         let mut model = None;
         let mut size = 1.0;
-        let tried = if paths.is_empty() { 0 } else { TRIED };
+        let tried = if paths.is_empty() && case.is_none() {
+            0
+        } else {
+            TRIED
+        };
         for pose in 0..job.len().min(tried) {
             let Ok(mut study) = Study::of_job(job.clone(), 0, pose) else {
                 continue;
