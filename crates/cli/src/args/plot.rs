@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{ArgGroup, Args};
 use hyperstat_figures::Extreme;
 use hyperstat_mechanisms::{Along, Noted, View};
 
@@ -11,6 +11,7 @@ use super::input::along;
 
 /// `hyperstat plot`
 #[derive(Debug, Args)]
+#[command(group = ArgGroup::new("second").multiple(true))]
 pub(crate) struct Plot {
     /// What to draw: a table of `run` (CSV, Parquet), a mechanism or batch file (RON or JSON), or the JSON
     /// of `solve --why`
@@ -41,10 +42,13 @@ pub(crate) struct Plot {
     #[arg(long, value_name = "WHAT,…", value_delimiter = ',', value_parser = mark, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) mark: Vec<Extreme>,
     /// Map: another table, drawn beside the first in the same colours
-    #[arg(long, value_name = "TABLE", requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
+    #[arg(long, value_name = "TABLE", group = "second", requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) beside: Option<PathBuf>,
-    /// Map: in place of both tables the ratio of the one beside to the first
-    #[arg(long, requires = "beside", conflicts_with = "scale")]
+    /// Map: the design of what is drawn beside the first, of the same table where there is no other
+    #[arg(long, value_name = "N", group = "second", requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"], allow_negative_numbers = true)]
+    pub(crate) with_design: Option<usize>,
+    /// Map: in place of both the ratio of the one beside to the first
+    #[arg(long, requires = "second", conflicts_with = "scale")]
     pub(crate) ratio: bool,
     /// Lines: the column along the lower axis [default: pose]
     #[arg(long, value_name = "COLUMN", requires = "lines", conflicts_with_all = ["map", "trajectory", "deformed", "mode", "budget"])]

@@ -51,9 +51,10 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
             title,
             labels,
         };
-        Drawing::Map(match &args.beside {
-            None => figure::map(table, &map)?,
-            Some(_) => of_two(args, table, &map)?,
+        let two = args.beside.is_some() || args.with_design.is_some();
+        Drawing::Map(match two {
+            false => figure::map(table, &map)?,
+            true => of_two(args, table, &map)?,
         })
     } else if let Some(values) = &args.kind.lines {
         let over = args.over.clone().unwrap_or_else(|| "pose".into());
@@ -88,14 +89,16 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
 fn kind(args: &args::Plot) -> String {
     match (&args.kind.map, &args.kind.lines) {
         (Some(value), _) if args.ratio => format!("{value}-ratio"),
-        (Some(value), _) if args.beside.is_some() => format!("{value}-beside"),
+        (Some(value), _) if args.beside.is_some() || args.with_design.is_some() => {
+            format!("{value}-beside")
+        }
         (Some(value), _) => value.clone(),
         (None, Some(values)) => values.join("-"),
         (None, None) => "trajectory".into(),
     }
 }
 
-/// The map of two tables, or of their ratio.
+/// The map of two tables, or of two designs of one, or of their ratio.
 fn of_two(args: &args::Plot, table: &TableReader, map: &Map) -> Result<MapFigure, CliError> {
     let path = args.beside.as_ref().unwrap_or(&args.file);
     let other = &TableReader::open(path)?;
@@ -105,12 +108,14 @@ fn of_two(args: &args::Plot, table: &TableReader, map: &Map) -> Result<MapFigure
     let paths = [&args.file, path].map(|path| path.display().to_string());
     let names = [jobs, stems, paths.clone()].into_iter();
     let names = names.into_iter().find(|[a, b]| a != b).unwrap_or(paths);
-    let named = |k: usize, table| NamedTable {
+    let named = |k: usize, table, design| NamedTable {
         name: &names[k],
         table,
-        design: None,
+        design,
     };
-    let tables = [named(0, table), named(1, other)];
+    // Where both are of one table, their designs tell them apart.
+    let own = args.beside.is_none().then_some(map.choice.design).flatten();
+    let tables = [named(0, table, own), named(1, other, args.with_design)];
     Ok(match args.ratio {
         true => figure::ratio(tables, map)?,
         false => figure::beside(tables, map)?,
