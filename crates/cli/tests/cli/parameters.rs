@@ -63,7 +63,9 @@ fn parameters(report: &Value) -> Vec<(String, f64, [f64; 3])> {
         assert!(own.next().is_none(), "{name} twice");
         first["relative"][0].as_f64().unwrap()
     };
+    // Lengths and coordinates, of which frequencies have none, are told so.
     let all = report["sensitivities"].as_array().unwrap().iter();
+    let all = all.filter(|s| s["by_differences"] != true);
     all.map(|s| {
         let name = s["parameter"].as_str().unwrap().to_owned();
         let relative = s["relative"].as_f64().unwrap();
