@@ -62,7 +62,9 @@ impl Trajectory {
     pub(crate) fn merge(&mut self, later: &Path) {
         self.path.poses.extend_from_slice(&later.poses);
         self.path.commanded.extend_from_slice(&later.commanded);
-        self.path.displacement.extend_from_slice(&later.displacement);
+        self.path
+            .displacement
+            .extend_from_slice(&later.displacement);
     }
 
     /// Adds records of rows of the job from `first_row` on, in the order of the rows; those of other

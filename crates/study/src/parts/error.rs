@@ -73,15 +73,20 @@ impl PartsError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::NoOrigin { .. } => Some(
-                "`hyperstat run` with the files and options of one of the parts writes it again".into(),
+                "`hyperstat run` with the files and options of one of the parts writes it again"
+                    .into(),
             ),
             Self::Other { .. } => Some(
-                "write to another folder, or give `--fresh`, which removes them and begins anew".into(),
+                "write to another folder, or give `--fresh`, which removes them and begins anew"
+                    .into(),
             ),
             Self::Several { .. } => Some(
-                "run the parts that are not wanted again with `--fresh`, or remove their files".into(),
+                "run the parts that are not wanted again with `--fresh`, or remove their files"
+                    .into(),
             ),
-            Self::Nothing => Some("`hyperstat run BATCH --out DIR --shard 0/4` writes the first of four".into()),
+            Self::Nothing => {
+                Some("`hyperstat run BATCH --out DIR --shard 0/4` writes the first of four".into())
+            }
             Self::Twice { .. } => Some("remove it, or merge without `--dataset`".into()),
             _ => None,
         }

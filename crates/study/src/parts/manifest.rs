@@ -128,7 +128,9 @@ impl Table {
         let content = shelf.open(&self.name).map_err(told)?;
         if content.length() != self.bytes {
             let (now, then) = (content.length(), self.bytes);
-            return Err(format!("it has {now} bytes, and had {then} when it was written"));
+            return Err(format!(
+                "it has {now} bytes, and had {then} when it was written"
+            ));
         }
         let mut hasher = blake3::Hasher::new();
         io::copy(&mut Reader::new(content, 0), &mut hasher).map_err(told)?;

@@ -47,7 +47,9 @@ impl Missing {
             let rows = self.jobs.iter().flat_map(|(_, rows)| rows);
             let rows: BTreeSet<(usize, usize)> = rows.map(|rows| (rows.start, rows.end)).collect();
             let rows = rows.into_iter();
-            return rows.map(|(start, end)| format!("--rows {start}..{end}")).collect();
+            return rows
+                .map(|(start, end)| format!("--rows {start}..{end}"))
+                .collect();
         };
         let is_missing = |share: &Share| {
             self.jobs.iter().any(|(of, missing)| {
@@ -68,11 +70,19 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_told_as_arguments() {
-        let shares = |all: &[&str]| all.iter().map(|text| text.parse::<Share>().unwrap()).collect::<Vec<_>>();
+        let shares = |all: &[&str]| {
+            all.iter()
+                .map(|text| text.parse::<Share>().unwrap())
+                .collect::<Vec<_>>()
+        };
         let mut missing = Missing::default();
         missing.add(100, vec![], shares(&["0/4", "1/4", "2/4", "3/4"]));
         assert!(missing.is_empty() && missing.arguments().is_empty());
-        missing.add(1000, vec![250..500, 900..901], shares(&["0/4", "2/4", "0/7"]));
+        missing.add(
+            1000,
+            vec![250..500, 900..901],
+            shares(&["0/4", "2/4", "0/7"]),
+        );
         assert_eq!(missing.arguments(), ["--shard 1/4", "--shard 3/4"]);
         assert_eq!(missing.rows(), 251);
         let mut missing = Missing::default();

@@ -188,7 +188,10 @@ impl Origin {
                 ("--one-by-one", of.one_by_one),
             ]
         };
-        for ((name, own), (_, other)) in options(&own.options).into_iter().zip(options(&other.options)) {
+        for ((name, own), (_, other)) in options(&own.options)
+            .into_iter()
+            .zip(options(&other.options))
+        {
             match (own, other) {
                 (true, false) => told.push(format!("it was without `{name}`")),
                 (false, true) => told.push(format!("it was with `{name}`")),

@@ -108,7 +108,9 @@ impl Share {
             "task {id} is none of {count} tasks from {first} on in steps of {step}: give the array as one \
              range, such as `--array=0-9`"
         );
-        let place = id.checked_sub(first).filter(|from| step > 0 && from % step == 0);
+        let place = id
+            .checked_sub(first)
+            .filter(|from| step > 0 && from % step == 0);
         let place = place.ok_or(irregular.clone())?;
         Self::new(place / step, count).map_err(|_| irregular)
     }
@@ -161,13 +163,19 @@ mod tests {
                     assert_eq!(rows.start, next);
                     assert!(rows.start <= rows.end);
                     let even = of as f64 / count as f64;
-                    assert!((rows.len() as f64 - even).abs() <= 1.0 + even / 8.0, "{of} {count}");
+                    assert!(
+                        (rows.len() as f64 - even).abs() <= 1.0 + even / 8.0,
+                        "{of} {count}"
+                    );
                     next = rows.end;
                 }
                 assert_eq!(next, of);
             }
         }
-        assert_eq!(Share::new(1, 4).unwrap().rows(10_000_000), 2_490_368..4_980_736);
+        assert_eq!(
+            Share::new(1, 4).unwrap().rows(10_000_000),
+            2_490_368..4_980_736
+        );
     }
 
     #[test]
@@ -191,7 +199,9 @@ mod tests {
         let of = |variables: [&str; 4]| {
             let names = ["ID", "MIN", "STEP", "COUNT"];
             Share::of_slurm(|name| {
-                let place = names.iter().position(|end| name.ends_with(&format!("_{end}")));
+                let place = names
+                    .iter()
+                    .position(|end| name.ends_with(&format!("_{end}")));
                 let text = variables[place.unwrap()];
                 (!text.is_empty()).then(|| text.to_string())
             })

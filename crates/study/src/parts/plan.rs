@@ -18,7 +18,9 @@ pub(super) fn plan(rows: &Range<usize>, pieces: &[Range<usize>]) -> Vec<Step> {
     };
     let pieces = pieces.iter().enumerate().filter(|(_, piece)| within(piece));
     let pieces: Vec<(usize, &Range<usize>)> = pieces.collect();
-    let ends = pieces.iter().flat_map(|(_, piece)| [piece.start, piece.end]);
+    let ends = pieces
+        .iter()
+        .flat_map(|(_, piece)| [piece.start, piece.end]);
     let mut bounds: Vec<usize> = ends.chain([rows.start, rows.end]).collect();
     bounds.sort_unstable();
     bounds.dedup();

@@ -33,7 +33,7 @@ pub trait Shelf: Debug + Sync {
     /// It cannot be removed.
     fn remove(&self, name: &str) -> io::Result<()>;
 
-    /// Removes a folder that is empty, and leaves any other.
+    /// Removes what ended before it was kept from a folder, and the folder where nothing else is in it.
     fn remove_folder(&self, folder: &str);
 }
 

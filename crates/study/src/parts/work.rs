@@ -36,7 +36,9 @@ pub struct Work<'w> {
 
 impl std::fmt::Debug for Work<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Work").field("part", &self.part).finish_non_exhaustive()
+        f.debug_struct("Work")
+            .field("part", &self.part)
+            .finish_non_exhaustive()
     }
 }
 
@@ -83,7 +85,12 @@ impl Found {
     /// The same without tables that are joined already.
     pub fn parts_alone(mut self) -> Self {
         self.pieces.whole.retain(|piece| !piece.is_result());
-        let there: Vec<_> = self.pieces.whole.iter().map(|piece| piece.rows.clone()).collect();
+        let there: Vec<_> = self
+            .pieces
+            .whole
+            .iter()
+            .map(|piece| piece.rows.clone())
+            .collect();
         self.steps = plan(&self.rows, &there);
         self
     }
@@ -93,7 +100,11 @@ impl Found {
         let shares = self.pieces.whole.iter().filter_map(|piece| piece.share);
         let broken = self.pieces.others.iter().filter_map(|piece| piece.share);
         let shares: Vec<Share> = shares.chain(broken).collect();
-        all.add(self.rows.end, computed(&self.steps).cloned().collect(), shares);
+        all.add(
+            self.rows.end,
+            computed(&self.steps).cloned().collect(),
+            shares,
+        );
     }
 
     /// Files that cannot be used, and why.
@@ -134,7 +145,11 @@ impl Work<'_> {
         if !fresh {
             pieces.refuse_others(self.shelf, job, self.origin)?;
         }
-        let there: Vec<_> = pieces.whole.iter().map(|piece| piece.rows.clone()).collect();
+        let there: Vec<_> = pieces
+            .whole
+            .iter()
+            .map(|piece| piece.rows.clone())
+            .collect();
         let steps = plan(&rows, &there);
         Ok(Found {
             rows,
@@ -186,7 +201,7 @@ impl Work<'_> {
                 // What comes after is looked up by the next run.
                 Step::Computed(_) if stopped => {}
                 Step::Computed(range) => {
-                    let result = undivided.then(|| self.table_name(sweep, &rows));
+                    let result = undivided.then(|| self.table_name(sweep));
                     let new = self.compute(sweep, range.clone(), result, advance)?;
                     let done: usize = new.iter().map(|piece| piece.rows.len()).sum();
                     *computed += done;
@@ -255,13 +270,14 @@ impl Work<'_> {
         })
     }
 
-    /// Name of the table of all rows that are asked for.
-    fn table_name(&self, sweep: &Sweep<'_>, rows: &Range<usize>) -> String {
+    /// Name of the table of a job's rows that are asked for, in the folder of results.
+    pub fn table_name(&self, sweep: &Sweep<'_>) -> String {
+        let rows = self.part.rows(sweep.len());
         let job = &sweep.job().name;
         let extension = self.origin.options().format().extension();
         match self.part {
             Part::Whole => format!("{job}.{extension}"),
-            _ => format!("{}/{}.{extension}", folder(job), stem(rows)),
+            _ => format!("{}/{}.{extension}", folder(job), stem(&rows)),
         }
     }
 }

@@ -104,7 +104,11 @@ impl ExactSum {
         let dropped = (digits - DIGITS).max(-1074 - exponent).max(0);
         let kept = top.checked_shr(dropped as u32).unwrap_or(0);
         let left = top - kept.checked_shl(dropped as u32).unwrap_or(0);
-        let half = if dropped > 0 { 1u128 << (dropped - 1) } else { 0 };
+        let half = if dropped > 0 {
+            1u128 << (dropped - 1)
+        } else {
+            0
+        };
         let up = dropped > 0 && (left > half || left == half && (rest || kept % 2 == 1));
         let rounded = (kept + u128::from(up)) as f64;
         let value = scaled(rounded, exponent + dropped);
@@ -158,10 +162,27 @@ mod tests {
     fn a_number_alone_is_itself() {
         let tiny = f64::from_bits(1);
         for number in [
-            0.0, 1.0, -1.0, 0.1, -1.0 / 3.0, tiny, -tiny, 3.0 * tiny, f64::MIN_POSITIVE, f64::MAX,
-            -f64::MAX, 1e-300, 1e300, 123_456_789.123_456_78, f64::from_bits(0x000f_ffff_ffff_ffff),
+            0.0,
+            1.0,
+            -1.0,
+            0.1,
+            -1.0 / 3.0,
+            tiny,
+            -tiny,
+            3.0 * tiny,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+            -f64::MAX,
+            1e-300,
+            1e300,
+            123_456_789.123_456_78,
+            f64::from_bits(0x000f_ffff_ffff_ffff),
         ] {
-            assert_eq!(sum(&[number]).value().to_bits(), (number + 0.0).to_bits(), "{number:e}");
+            assert_eq!(
+                sum(&[number]).value().to_bits(),
+                (number + 0.0).to_bits(),
+                "{number:e}"
+            );
         }
     }
 
@@ -171,7 +192,10 @@ mod tests {
         assert_eq!(sum(&[1e16, 1.0, 1.0]).value(), 1e16 + 2.0);
         // Halfway between two doubles, and a little more.
         assert_eq!(sum(&[2f64.powi(53), 1.0]).value(), 2f64.powi(53));
-        assert_eq!(sum(&[2f64.powi(53), 1.0, 1e-300]).value(), 2f64.powi(53) + 2.0);
+        assert_eq!(
+            sum(&[2f64.powi(53), 1.0, 1e-300]).value(),
+            2f64.powi(53) + 2.0
+        );
         assert_eq!(sum(&[2f64.powi(53), 3.0]).value(), 2f64.powi(53) + 4.0);
         assert_eq!(sum(&[f64::MAX, f64::MAX]).value(), f64::INFINITY);
         assert_eq!(sum(&[f64::MAX, f64::MAX, -f64::MAX]).value(), f64::MAX);

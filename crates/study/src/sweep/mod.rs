@@ -9,6 +9,7 @@ mod share;
 mod statistics;
 mod summary;
 mod threads;
+mod took;
 mod wide;
 
 use std::collections::HashSet;
@@ -34,6 +35,7 @@ pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, mea
 pub(crate) use summary::KeptSummary;
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
+pub use took::Took;
 pub use wide::placing;
 
 /// Rows that a thread solves at a time.

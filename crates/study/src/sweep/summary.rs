@@ -13,7 +13,7 @@ use super::record::Failure;
 use super::record::Record;
 
 /// The outcome of rows of a job.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Summary {
     /// Name of the job.
     pub job: String,
@@ -179,7 +179,10 @@ impl KeptSummary {
     pub(crate) fn statuses(&self) -> BTreeMap<String, usize> {
         let failed: usize = self.failures.iter().map(|of| of.count).sum();
         let ok = ("ok".to_string(), self.poses.saturating_sub(failed));
-        let failures = self.failures.iter().map(|of| (of.status.0.to_string(), of.count));
+        let failures = self
+            .failures
+            .iter()
+            .map(|of| (of.status.0.to_string(), of.count));
         [ok].into_iter().chain(failures).collect()
     }
 }

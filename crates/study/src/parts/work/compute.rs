@@ -78,7 +78,7 @@ impl Work<'_> {
                 Ran::measure(chunk);
             }
         };
-        let named = self.table_name(sweep, &self.part.rows(sweep.len()));
+        let named = self.table_name(sweep);
         let cannot_write = PartsError::write(&named);
         let mut kept = Vec::new();
         let mut piece = self.begin(sweep, rows.start).map_err(&cannot_write)?;
@@ -125,11 +125,17 @@ impl Work<'_> {
         sweep: &Sweep<'_>,
         rows: Range<usize>,
     ) -> io::Result<TableWriter<Counted>> {
-        let named = self.table_name(sweep, &self.part.rows(sweep.len()));
+        let named = self.table_name(sweep);
         let draft = Counted::new(self.shelf.begin(&named)?);
         let notes = [("hyperstat.run", self.origin.hash())];
         let columns = Columns::of(sweep.job());
-        TableWriter::of_rows(draft, self.origin.options().format(), &columns, rows, &notes)
+        TableWriter::of_rows(
+            draft,
+            self.origin.options().format(),
+            &columns,
+            rows,
+            &notes,
+        )
     }
 
     /// Keeps a piece, or all rows that are asked for by their name.
@@ -147,7 +153,7 @@ impl Work<'_> {
         };
         let name = result.map_or_else(own, String::from);
         let told = match self.part {
-            Part::Whole => self.table_name(sweep, &rows),
+            Part::Whole => self.table_name(sweep),
             _ => name.clone(),
         };
         let cannot_write = PartsError::write(&told);

@@ -20,7 +20,7 @@ impl Work<'_> {
         rows: &Range<usize>,
         computed: bool,
     ) -> Result<(), PartsError> {
-        let name = self.table_name(sweep, rows);
+        let name = self.table_name(sweep);
         let is_whole = self.part == Part::Whole;
         let has_pieces = parts.iter().any(|part| part.piece);
         // Of a table that was written at once nothing else is said.
@@ -58,7 +58,7 @@ impl Work<'_> {
         parts: &[Manifest],
         rows: &Range<usize>,
     ) -> Result<Table, PartsError> {
-        let name = self.table_name(sweep, rows);
+        let name = self.table_name(sweep);
         let cannot_write = PartsError::write(&name);
         let table = self.begin_table(sweep, rows.clone());
         let mut table = table.map_err(&cannot_write)?;
@@ -95,12 +95,14 @@ impl Work<'_> {
         recorded: bool,
     ) -> Result<(), PartsError> {
         let folder = folder(&sweep.job().name);
-        let name = self.table_name(sweep, rows);
-        let mut names = self.shelf.names(&folder).map_err(PartsError::read(&folder))?;
+        let name = self.table_name(sweep);
+        let mut names = self
+            .shelf
+            .names(&folder)
+            .map_err(PartsError::read(&folder))?;
         names.sort_unstable();
-        let within = |name: &str| {
-            rows_of(name).filter(|own| rows.start <= own.start && own.end <= rows.end)
-        };
+        let within =
+            |name: &str| rows_of(name).filter(|own| rows.start <= own.start && own.end <= rows.end);
         let (manifests, tables): (Vec<_>, Vec<_>) =
             names.iter().partition(|name| name.starts_with('_'));
         // Manifests first: a table without one is none.
@@ -136,13 +138,16 @@ impl Work<'_> {
 
     /// Removes what was read for parts, where there are none any more.
     fn forget(&self) -> Result<(), PartsError> {
-        let names = self.shelf.names("parts").map_err(PartsError::read("parts"))?;
+        let names = self
+            .shelf
+            .names("parts")
+            .map_err(PartsError::read("parts"))?;
         if names.iter().all(|name| name.starts_with("_run-")) {
             for name in names {
                 remove(self.shelf, &format!("parts/{name}"))?;
             }
-            self.shelf.remove_folder("parts");
         }
+        self.shelf.remove_folder("parts");
         Ok(())
     }
 }
