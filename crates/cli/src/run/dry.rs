@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use hyperstat_study::parts::Part;
+use hyperstat_study::parts::{Part, took};
 use hyperstat_study::sweep::{Sweep, Threads};
 
 use crate::args;
@@ -27,13 +27,8 @@ pub(super) fn told(
     let mut all = 0.0;
     for sweep in sweeps {
         let (job, rows) = (sweep.job(), part.rows(sweep.len()));
-        let took = sweep.took(
-            threads,
-            rows.clone(),
-            args.format.into(),
-            args.summary,
-            budget,
-        );
+        let form = (args.format.into(), args.summary);
+        let took = took(sweep, threads, rows.clone(), form, budget);
         let seconds = took.row * rows.len() as f64;
         all += seconds;
         let designs = match job.varied().is_empty() {

@@ -23,6 +23,7 @@ mod pieces;
 mod plan;
 mod reading;
 mod shelf;
+mod took;
 mod work;
 
 pub use error::PartsError;
@@ -32,4 +33,5 @@ pub use part::{Part, Share};
 pub use pieces::hashes;
 pub use reading::Reading;
 pub use shelf::{Draft, Shelf};
+pub use took::{Took, took};
 pub use work::{Done, Found, Work};

@@ -9,7 +9,6 @@ mod share;
 mod statistics;
 mod summary;
 mod threads;
-mod took;
 mod wide;
 
 use std::collections::HashSet;
@@ -35,7 +34,6 @@ pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, mea
 pub(crate) use summary::KeptSummary;
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
-pub use took::Took;
 pub use wide::placing;
 
 /// Rows that a thread solves at a time.
