@@ -64,7 +64,17 @@ pub(crate) fn run(
     let mut complete = true;
     let mut told = Ok(());
     for (sweep, found) in sweeps.iter().zip(found) {
-        let outcome = run_job(&work, sweep, found, &results, &bar)?;
+        let outcome = run_job(&work, sweep, found, &results, &bar);
+        let outcome = outcome.inspect_err(|_| {
+            bar.finish_and_clear();
+            let kept = args.out.join("parts").join(&sweep.job().name);
+            if kept.is_dir() {
+                let kept = kept.display();
+                note(&format!(
+                    "what was done is kept in {kept}; the same command goes on from there"
+                ));
+            }
+        })?;
         let Some(outcome) = outcome.filter(|_| bar.position() == rows || !signals.came()) else {
             bar.finish_and_clear();
             return Err(CliError::Interrupted {

@@ -114,7 +114,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bytes() {
         ),
     ],"#;
     bench.file("bar.ron", crate::support::CANTILEVER);
-    let batch = delta_batch("map", MAP, "modes: 1,").replace("    ],\n)", &format!("{second}\n)"));
+    let batch = delta_batch("map", MAP, "").replace("    ],\n)", &format!("{second}\n)"));
     assert!(batch.contains("second"));
     bench.file("map.ron", &batch);
     let arguments = |format: &'static str, out: &'static str| {
@@ -156,7 +156,7 @@ fn a_run_that_is_killed_goes_on_to_the_same_bytes() {
             // Else it goes on in what the last one left of the same form, or begins where that was complete.
             let _ = fs::remove_dir_all(bench.path("out"));
         }
-        let mut child = Command::new(env!("CARGO_BIN_EXE_hyperstat"))
+        let child = Command::new(env!("CARGO_BIN_EXE_hyperstat"))
             .args(arguments(format, "out"))
             .current_dir(bench.path("."))
             .stdin(Stdio::null())

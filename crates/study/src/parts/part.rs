@@ -46,7 +46,7 @@ pub struct Share {
 
 /// Shares begin at a multiple of a power of two that is at most this part of a share,
 const GRAIN: usize = 16;
-/// and at most so many rows: then groups of Parquet are copied as they are when shares come together.
+/// and at most so many rows: those of a group of Parquet, so that no part has groups that are small.
 const LARGEST_GRAIN: usize = 1 << 16;
 
 impl Share {

@@ -10,7 +10,6 @@ mod parquet;
 mod read;
 
 use std::io::{self, Write};
-use std::ops::Range;
 #[cfg(feature = "parts")]
 use std::sync::Arc;
 
@@ -66,29 +65,29 @@ impl<W: Write + Send> TableWriter<W> {
     /// # Errors
     /// Its first line cannot be written.
     pub fn new(writer: W, format: TableFormat, columns: &Columns<'_>) -> io::Result<Self> {
-        Self::of_rows(writer, format, columns, 0..usize::MAX, &[])
+        Self::from_row(writer, format, columns, 0, &[])
     }
 
-    /// Begins a table of these rows of a job. In Parquet it says these things of itself, each a name and a
+    /// Begins a table of a job's rows from this one on. In Parquet it says these things of itself, each a name and a
     /// text.
     ///
     /// # Errors
     /// As [`TableWriter::new`].
-    pub fn of_rows(
+    pub fn from_row(
         writer: W,
         format: TableFormat,
         columns: &Columns<'_>,
-        rows: Range<usize>,
+        first: usize,
         notes: &[(&str, &str)],
     ) -> io::Result<Self> {
         let form = match format {
             TableFormat::Csv => {
-                let _ = (rows, notes);
+                let _ = (first, notes);
                 Form::Csv(csv::Csv::new(writer, columns)?)
             }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
-                let table = parquet::Parquet::new(writer, columns, rows, notes)?;
+                let table = parquet::Parquet::new(writer, columns, first, notes)?;
                 Form::Parquet(Box::new(table))
             }
         };

@@ -440,7 +440,7 @@ fn runs_are_not_mixed() {
         "{message}"
     );
     assert!(message.contains("--fresh"), "{message}");
-    let moved = Read::of("List([(0.0, 0.0, 0.5)])", false);
+    let moved = Read::of("List([(0.0, 0.0, 0.5), (0.1, 0.0, 0.5)])", false);
     let refused = moved
         .run(&shelf, Part::Whole, &threads, AT_ONCE)
         .unwrap_err();
@@ -486,7 +486,7 @@ fn a_dataset_has_every_row_once() {
     );
 }
 
-/// Groups of Parquet that are whole are copied as they are, and are what would be written.
+/// Groups of the whole table, wherever parts begin.
 #[test]
 fn large_tables_of_parquet_join_to_the_same_bytes() {
     let read = Read::of(

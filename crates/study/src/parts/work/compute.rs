@@ -114,26 +114,26 @@ impl Work<'_> {
         let job = sweep.job();
         Ok(Piece {
             rows: first..first,
-            table: self.begin_table(sweep, first..usize::MAX)?,
+            table: self.begin_table(sweep, first)?,
             ran: Ran::from_row(job, first, self.origin.options().summary),
         })
     }
 
-    /// Begins a table of these rows.
+    /// Begins a table of the rows from this one on.
     pub(super) fn begin_table(
         &self,
         sweep: &Sweep<'_>,
-        rows: Range<usize>,
+        first: usize,
     ) -> io::Result<TableWriter<Counted>> {
         let named = self.table_name(sweep);
         let draft = Counted::new(self.shelf.begin(&named)?);
         let notes = [("hyperstat.run", self.origin.hash())];
         let columns = Columns::of(sweep.job());
-        TableWriter::of_rows(
+        TableWriter::from_row(
             draft,
             self.origin.options().format(),
             &columns,
-            rows,
+            first,
             &notes,
         )
     }

@@ -60,7 +60,7 @@ impl Work<'_> {
     ) -> Result<Table, PartsError> {
         let name = self.table_name(sweep);
         let cannot_write = PartsError::write(&name);
-        let table = self.begin_table(sweep, rows.clone());
+        let table = self.begin_table(sweep, rows.start);
         let mut table = table.map_err(&cannot_write)?;
         for part in parts {
             let content = self.shelf.open(&part.table.name);

@@ -11,7 +11,6 @@ mod join;
 
 use std::fmt;
 use std::io::{self, Write};
-use std::ops::Range;
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as PhysicalType, ZstdLevel};
@@ -33,8 +32,8 @@ const GROUP: usize = 1 << 16;
 pub(super) struct Parquet<W: Write + Send> {
     writer: SerializedFileWriter<W>,
     group: Group,
-    /// Rows of the whole table that are still to come.
-    rows: Range<usize>,
+    /// The next row of the whole table.
+    next: usize,
 }
 
 impl<W: Write + Send> fmt::Debug for Parquet<W> {
@@ -47,11 +46,11 @@ impl<W: Write + Send> fmt::Debug for Parquet<W> {
 }
 
 impl<W: Write + Send> Parquet<W> {
-    /// Begins a table of these rows, which says these things of itself.
+    /// Begins a table of the rows from this one on, which says these things of itself.
     pub(super) fn new(
         writer: W,
         columns: &Columns<'_>,
-        rows: Range<usize>,
+        first: usize,
         notes: &[(&str, &str)],
     ) -> io::Result<Self> {
         let properties = WriterProperties::builder()
@@ -67,13 +66,13 @@ impl<W: Write + Send> Parquet<W> {
         Ok(Self {
             writer: writer.map_err(io_error)?,
             group: Group::new(columns),
-            rows,
+            next: first,
         })
     }
 
     pub(super) fn append(&mut self, chunk: &Chunk) -> io::Result<()> {
         self.group.add(chunk);
-        self.rows.start = chunk.rows.end;
+        self.next = chunk.rows.end;
         self.end_of_group().map_err(io_error)
     }
 
@@ -86,7 +85,7 @@ impl<W: Write + Send> Parquet<W> {
 
     /// Writes a group where one ends: at every so many rows of the whole table, wherever this one begins.
     fn end_of_group(&mut self) -> Result<(), ParquetError> {
-        let ends = self.rows.start.is_multiple_of(GROUP) || self.group.len() >= GROUP;
+        let ends = self.next.is_multiple_of(GROUP) || self.group.len() >= GROUP;
         match ends && self.group.len() > 0 {
             true => self.write_group(),
             false => Ok(()),
