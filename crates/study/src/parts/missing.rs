@@ -87,7 +87,7 @@ mod tests {
         assert_eq!(missing.rows(), 251);
         let mut missing = Missing::default();
         missing.add(100, vec![10..20, 90..100], []);
-        missing.add(100, vec![10..20], []);
+        missing.add(100, vec![10..20, 90..100], []);
         assert_eq!(missing.arguments(), ["--rows 10..20", "--rows 90..100"]);
     }
 }

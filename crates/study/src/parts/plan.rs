@@ -77,9 +77,13 @@ mod tests {
         let all = 0..10;
         for (pieces, expected) in [
             (vec![], vec![Computed(0..10)]),
-            (vec![0..10], vec![Taken(0)]),
+            // As is one beside it that is empty.
+            (vec![0..10, 3..3], vec![Taken(0)]),
             (vec![5..10, 0..5], vec![Taken(1), Taken(0)]),
-            (vec![3..5], vec![Computed(0..3), Taken(0), Computed(5..10)]),
+            (
+                vec![3..5, 5..5],
+                vec![Computed(0..3), Taken(0), Computed(5..10)],
+            ),
             // The longest first would miss three rows.
             (vec![0..7, 0..5, 5..10], vec![Taken(1), Taken(2)]),
             // One that is larger than what is asked for, and an empty one.
@@ -89,6 +93,6 @@ mod tests {
             assert_eq!(plan(&all, &pieces), expected, "{pieces:?}");
         }
         assert_eq!(plan(&(4..8), &[0..10, 4..8]), [Taken(1)]);
-        assert_eq!(plan(&(3..3), &[0..10]), []);
+        assert_eq!(plan(&(3..3), &[0..10, 3..3]), []);
     }
 }
