@@ -80,11 +80,11 @@ mod tests {
         assert!(missing.is_empty() && missing.arguments().is_empty());
         missing.add(
             1000,
-            vec![250..500, 900..901],
+            vec![248..496, 900..901],
             shares(&["0/4", "2/4", "0/7"]),
         );
         assert_eq!(missing.arguments(), ["--shard 1/4", "--shard 3/4"]);
-        assert_eq!(missing.rows(), 251);
+        assert_eq!(missing.rows(), 249);
         let mut missing = Missing::default();
         missing.add(100, vec![10..20, 90..100], []);
         missing.add(100, vec![10..20, 90..100], []);
