@@ -5,13 +5,13 @@ mod files;
 mod input;
 mod plot;
 mod report;
+mod run;
 
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use hyperstat_assembly::BeamMass;
 use hyperstat_mechanisms::Along;
-use hyperstat_study::table;
 
 use compare::COMPARE_HELP;
 pub(crate) use compare::Compare;
@@ -22,6 +22,8 @@ pub(crate) use input::{Format, Input};
 pub(crate) use plot::{Plot, Pose, Scale};
 use report::REPORT_HELP;
 pub(crate) use report::Report;
+use run::{MERGE_HELP, RUN_HELP};
+pub(crate) use run::{Merge, Run, Shard};
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -58,6 +60,7 @@ Exit status:
   1  a run finished in which some pose has no result; `fmt --check` found a file to change
   2  the input cannot be used, or a figure not be drawn as it was asked for
   3  an output could not be written
+130  a run was interrupted; the same command goes on
  70  a bug in hyperstat: please report it";
 
 #[derive(Debug, Subcommand)]
@@ -68,6 +71,9 @@ pub(crate) enum Command {
     /// Run every job of a batch file: one table a job, CSV or Parquet, and its figures
     #[command(after_help = RUN_HELP)]
     Run(Run),
+    /// Join the parts that `run --shard` wrote to the tables, summaries and figures of the undivided run
+    #[command(after_help = MERGE_HELP)]
+    Merge(Merge),
     /// Say what is wrong with a file; count mobility, over-constraint and idle motions
     #[command(after_help = CHECK_HELP)]
     Check(Check),
@@ -130,45 +136,6 @@ A mechanism file, a round bar held at one end:
 
 ",
     include_str!("../help/cantilever.ron")
-);
-
-const RUN_HELP: &str = concat!(
-    "\
-Writes DIR/<job>.csv, one row a pose in the order of the poses, with the columns
-  pose,x,y,z,rx,ry,rz,status,dx,dy,dz,drx,dry,drz,k11,k12,...,k16,k22,...,k66
-(pose of the output, its displacement, upper triangle of its stiffness), and the job's figures as
-DIR/<job>-<figure>.svg and .png. `status` is `ok`, or says why there is no result:
-  design         the varied values make no mechanism
-  unreachable    the mechanism cannot take this pose
-  singular       a part of the mechanism could take any of many places in this pose
-  branch         a mechanism of a file reaches it in another assembly mode only
-  unrestrained   something moves freely there, or a load works on a free motion
-  rigid          the output is rigidly held in some direction: it has no finite stiffness; its
-                 displacement stands in the row
-  failed         the numbers could not be found
-What is not known is empty, a coordinate that was not asked for too. Where the poses are values of
-drives, they stand in columns after k66, named as in their table (A1.v).
-A job that varies has the poses of each design in turn, and columns after k66: design, from 0, and
-one for every path that varies, with its value. A job with `modes: N` has its natural frequencies
-in columns f1, f2, ... [Hz] after k66.
-A pose or a design without a result does not end the run; the exit status is then 1. Nor does a
-closed standard output.
-A file is put in place when it is complete, never half written. Nothing that was read is written to.
-A run of more than 1e9 rows, or of more than 90 % of the free disk, asks first; where nobody can be
-asked it needs --yes.
-
-With --format parquet the table is DIR/<job>.parquet: the same columns and the same numbers, null
-where a pose has no result.
-
-Examples:
-  hyperstat run paper.ron --out results
-  hyperstat run map.ron --out results --format parquet --threads 4
-  hyperstat run map.ron --out results --summary
-
-A batch file, for the mechanism file of `hyperstat solve --help`:
-
-",
-    include_str!("../help/batch.ron")
 );
 
 const CHECK_HELP: &str = "\
@@ -296,43 +263,6 @@ enum Mass {
     Lumped,
 }
 
-/// `hyperstat run`
-#[derive(Debug, Args)]
-pub(crate) struct Run {
-    /// Batch file (RON or JSON)
-    #[arg(value_name = "BATCH.ron")]
-    pub(crate) file: PathBuf,
-    /// Folder for the results; made where it is missing
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
-    /// Form of the tables
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: TableFormat,
-    /// Number of threads that solve, at most 8 a core; 0 is one a core. The results are the same with
-    /// any number
-    #[arg(
-        long,
-        value_name = "N",
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    pub(crate) threads: usize,
-    /// Write DIR/<job>-summary.json too, and print it: least, mean, percentiles, most of deflection
-    /// and stiffness measures over all poses, and where
-    #[arg(long)]
-    pub(crate) summary: bool,
-    /// Write the figures as PDF, too
-    #[arg(long)]
-    pub(crate) pdf: bool,
-    /// Run without a question, however many rows and bytes it makes
-    #[arg(long)]
-    pub(crate) yes: bool,
-    /// Solve every pose by itself with the method of the paper, refined, not eight at a time in SIMD
-    /// lanes: the same to 1e-11, and slower
-    #[arg(long)]
-    pub(crate) one_by_one: bool,
-}
-
 /// `hyperstat check`
 #[derive(Debug, Args)]
 pub(crate) struct Check {
@@ -341,25 +271,6 @@ pub(crate) struct Check {
     /// Form of the report on standard output
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-}
-
-/// Form of a job's table.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TableFormat {
-    /// Comma-separated values, numbers that read back to the same double
-    #[default]
-    Csv,
-    /// Apache Parquet: binary columns, smaller and faster
-    Parquet,
-}
-
-impl From<TableFormat> for table::TableFormat {
-    fn from(format: TableFormat) -> Self {
-        match format {
-            TableFormat::Csv => Self::Csv,
-            TableFormat::Parquet => Self::Parquet,
-        }
-    }
 }
 
 #[cfg(test)]

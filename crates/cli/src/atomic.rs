@@ -47,6 +47,33 @@ impl AtomicFile {
         Ok(Self(BufWriter::new(target)))
     }
 
+    /// Opens a temporary file beside `path`, whatever is there: [`AtomicFile::commit_as`] gives it its name.
+    pub(crate) fn draft(path: &Path) -> io::Result<Self> {
+        let target = Target::Temporary(temporary(path)?, path.into());
+        Ok(Self(BufWriter::new(target)))
+    }
+
+    /// Puts a draft, which is complete, at `path`, as [`AtomicFile::commit`] puts what was opened for it.
+    pub(crate) fn commit_as(self, path: &Path) -> io::Result<()> {
+        let target = self.0.into_inner().map_err(|error| error.into_error())?;
+        let Target::Temporary(file, _) = target else {
+            return Ok(());
+        };
+        file.as_file().sync_all()?;
+        let file = match Destination::of(path)? {
+            Destination::File(path) => match file.persist(&path) {
+                Ok(_) => return sync_folder(&path),
+                // A link leads to another disk.
+                Err(failed) if failed.error.kind() == io::ErrorKind::CrossesDevices => failed.file,
+                Err(failed) => return Err(failed.error),
+            },
+            Destination::Stream(_) => file,
+        };
+        let mut copy = Self::create(path)?;
+        io::copy(&mut File::open(file.path())?, &mut copy)?;
+        copy.commit()
+    }
+
     /// Writes a whole file.
     pub(crate) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
         let mut file = Self::create(path)?;
@@ -62,6 +89,39 @@ impl AtomicFile {
             file.persist(path)?;
         }
         Ok(())
+    }
+}
+
+/// Has the name of a new file survive a power cut.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    // What is no folder to be opened, as on Windows, keeps its names by itself.
+    if let Some(Ok(folder)) = destination::folder(path).map(File::open) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}
+
+/// Removes the temporary files of dead runs from a folder that is of nothing else.
+pub(crate) fn remove_all_dead(folder: &Path) {
+    let names = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in names {
+        let name = entry.file_name();
+        let name = name.as_encoded_bytes();
+        let rest = name
+            .strip_prefix(b".")
+            .and_then(|name| name.strip_suffix(PART.as_bytes()));
+        let is_random = |id: &[u8]| id.len() == RANDOM && id.iter().all(u8::is_ascii_alphanumeric);
+        if rest.is_some_and(|rest| rest.rsplit(|b| *b == b'.').next().is_some_and(is_random)) {
+            remove_if_dead(&entry.path());
+        }
+    }
+}
+
+/// Removes a temporary file that nobody writes: it is locked as long as somebody does.
+fn remove_if_dead(path: &Path) {
+    let file = OpenOptions::new().write(true).open(path);
+    if file.is_ok_and(|file| file.try_lock().is_ok()) {
+        let _ = fs::remove_file(path);
     }
 }
 
@@ -106,12 +166,7 @@ fn remove_dead(path: &Path, name: &OsStr) {
         if !regular || !is_temporary(&entry.file_name(), name) {
             continue;
         }
-        let path = entry.path();
-        // It is locked as long as somebody writes it.
-        let file = OpenOptions::new().write(true).open(&path);
-        if file.is_ok_and(|file| file.try_lock().is_ok()) {
-            let _ = fs::remove_file(&path);
-        }
+        remove_if_dead(&entry.path());
     }
 }
 

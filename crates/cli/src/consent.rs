@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use hyperstat_study::parts::Part;
 use hyperstat_study::sweep::{Columns, Sweep};
 use hyperstat_study::table::{self, TableFormat};
 
@@ -24,12 +25,8 @@ const TEXT: u64 = 19;
 const BINARY: u64 = 8;
 
 /// Asks before a run of very many rows, or of more than the disk of `out` takes.
-pub(crate) fn ask(sweeps: &[Sweep<'_>], args: &args::Run) -> Result<(), CliError> {
-    let mut run = Size::default();
-    for sweep in sweeps {
-        let columns = table::columns(&Columns::of(sweep.job())).count();
-        run.add(sweep.len() as u64, columns as u64, args.format.into());
-    }
+pub(crate) fn ask(sweeps: &[Sweep<'_>], part: &Part, args: &args::Run) -> Result<(), CliError> {
+    let run = Size::of(sweeps, part, args.format.into());
     let free = Disk::of(&args.out).map(|disk| disk.free);
     let Some(why) = run.doubt(free, &args.out) else {
         return Ok(());
@@ -42,12 +39,23 @@ pub(crate) fn ask(sweeps: &[Sweep<'_>], args: &args::Run) -> Result<(), CliError
 
 /// How much a run writes.
 #[derive(Debug, Default)]
-struct Size {
-    rows: u64,
-    bytes: u64,
+pub(crate) struct Size {
+    pub(crate) rows: u64,
+    pub(crate) bytes: u64,
 }
 
 impl Size {
+    /// Of a part of every job's rows.
+    pub(crate) fn of(sweeps: &[Sweep<'_>], part: &Part, format: TableFormat) -> Self {
+        let mut run = Self::default();
+        for sweep in sweeps {
+            let columns = table::columns(&Columns::of(sweep.job())).count();
+            let rows = part.rows(sweep.len()).len();
+            run.add(rows as u64, columns as u64, format);
+        }
+        run
+    }
+
     fn add(&mut self, rows: u64, columns: u64, format: TableFormat) {
         let number = match format {
             TableFormat::Csv => TEXT,
@@ -78,7 +86,7 @@ impl Size {
 }
 
 /// A number of bytes in words.
-fn amount(bytes: u64) -> String {
+pub(crate) fn amount(bytes: u64) -> String {
     const UNITS: [&str; 7] = ["B", "kB", "MB", "GB", "TB", "PB", "EB"];
     let mut value = bytes as f64;
     let mut unit = 0;

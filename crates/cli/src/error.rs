@@ -1,13 +1,17 @@
 //! Why a command ends without its result, and the exit status that says so.
 
 use std::io;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use hyperstat_figures::FigureError;
 use hyperstat_mechanisms::{LoadError, Location};
 use hyperstat_study::PlotError;
+use hyperstat_study::parts::PartsError;
 use hyperstat_study::{Problem, StudyError};
 use thiserror::Error;
+
+use crate::signals::INTERRUPTED;
 
 /// A command that ends without its result.
 #[derive(Debug, Error)]
@@ -37,6 +41,30 @@ pub(crate) enum CliError {
     /// A run that is larger than it was probably meant to be.
     #[error("{why}")]
     NotAgreed { why: String },
+    /// Something about parts of a run.
+    #[error("{}: {source}", .out.display())]
+    Parts { out: PathBuf, source: PartsError },
+    /// A run that somebody ended before its last row.
+    #[error("interrupted: {done} of {rows} rows are done{}", kept(.done, .out))]
+    Interrupted { done: u64, rows: u64, out: PathBuf },
+    /// Parts of a run that are not all there.
+    #[error("{}: {rows} rows are missing", .out.display())]
+    Missing { out: PathBuf, rows: usize },
+    /// Parts that are no dataset.
+    #[error("`--dataset` is of parts in Parquet; those of {} are CSV", .out.display())]
+    NoDataset { out: PathBuf },
+    /// Rows that no job has.
+    #[error("there is no row {row}: `{job}`, the longest job, has {count}, counted from 0")]
+    NoRows {
+        row: usize,
+        job: String,
+        count: usize,
+        /// The rows of those that were asked for that there are.
+        there: Option<Range<usize>>,
+    },
+    /// A task of a job array that cannot be told.
+    #[error("`--shard auto`: {0}")]
+    NoTask(String),
     /// A result that could not be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write { path: PathBuf, source: io::Error },
@@ -80,6 +108,7 @@ impl CliError {
     /// The exit status: 2 for input that cannot be used, 3 for an output that cannot be written.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
+            Self::Interrupted { .. } => INTERRUPTED,
             Self::Write { .. }
             | Self::Print(_)
             | Self::Figure {
@@ -111,6 +140,20 @@ impl CliError {
                 "give it a name of at most {longest} characters: that of each of its files must \
                  fit the file system"
             )),
+            Self::Parts { source, .. } => source.help(),
+            Self::Interrupted { .. } => Some(
+                "give the same command again: it goes on from there, to the same bytes".into(),
+            ),
+            Self::Missing { .. } => Some(
+                "give `hyperstat run` with the same file, options and `--out` once with each line of \
+                 standard output, then merge again"
+                    .into(),
+            ),
+            Self::NoDataset { .. } => Some("leave `--dataset` out".into()),
+            Self::NoRows { there: Some(there), .. } => {
+                Some(format!("give `--rows {}..{}`", there.start, there.end))
+            }
+            Self::NoRows { count, .. } => Some(format!("choose from `--rows 0..{count}`")),
             Self::NotAgreed { .. } => Some(
                 "give fewer poses or designs, another `--out`, or `--yes` if that is what is meant"
                     .into(),
@@ -149,6 +192,30 @@ impl CliError {
     /// told.
     pub(crate) fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Print(error) if error.kind() == io::ErrorKind::BrokenPipe)
+    }
+}
+
+impl CliError {
+    /// Something about parts of a run in this folder.
+    pub(crate) fn parts(out: &Path) -> impl Fn(PartsError) -> Self {
+        |source| match source {
+            PartsError::Write { name, source } => Self::Write {
+                path: out.join(name),
+                source,
+            },
+            source => Self::Parts {
+                out: out.into(),
+                source,
+            },
+        }
+    }
+}
+
+/// Where what was done is kept.
+fn kept(done: &u64, out: &Path) -> String {
+    match done {
+        0 => String::new(),
+        _ => format!(", and kept in {}", out.display()),
     }
 }
 

@@ -16,6 +16,8 @@ mod outputs;
 mod plot;
 mod report;
 mod run;
+mod shelf;
+mod signals;
 mod terminal;
 mod text;
 
@@ -37,7 +39,8 @@ use json::json;
 ///
 /// Results go to standard output, errors to standard error. The exit status is 0 where all is
 /// done, 1 where a run finished in which some pose has no result, 2 where the input cannot be
-/// used (the command line itself too), 3 where an output could not be written. A panic ends here,
+/// used (the command line itself too), 3 where an output could not be written, 130 where somebody
+/// interrupted a run, which then goes on when it is started again. A panic ends here,
 /// with a message that it is a bug, and the status 70.
 pub fn run(args: impl IntoIterator<Item = OsString>, registry: &Registry) -> ExitCode {
     // Nothing of what a panic may leave half done is used again.
@@ -93,6 +96,7 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
         Command::Schema => printed(&hyperstat_study::files::schema(registry)),
         Command::Completions(args) => printed(&files::completions(args)),
         Command::Run(args) => run::run(args, registry, tell),
+        Command::Merge(args) => run::merge(args, registry, tell),
         Command::Plot(args) => plot::run(args, registry, tell),
     };
     match outcome {

@@ -60,6 +60,11 @@ fn written(text: &str, number: impl Fn(char) -> String) -> Cow<'_, str> {
     Cow::Owned(safe)
 }
 
+/// Says something on standard error that is neither a result nor an error.
+pub(crate) fn note(text: &str) -> io::Result<()> {
+    writeln!(io::stderr().lock(), "note: {}", plain(text))
+}
+
 /// Asks whoever sits at the terminal; `None` where nobody does.
 pub(crate) fn ask(question: &str) -> Option<bool> {
     if !(io::stdin().is_terminal() && io::stderr().is_terminal()) {

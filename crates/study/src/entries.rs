@@ -12,6 +12,12 @@ impl<T> FromIterator<(String, T)> for Entries<T> {
     }
 }
 
+impl<T> Default for Entries<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
 impl<T> Entries<T> {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {

@@ -23,6 +23,8 @@ mod near;
 mod number;
 #[cfg(feature = "figures")]
 mod page;
+#[cfg(feature = "parts")]
+pub mod parts;
 #[cfg(feature = "figures")]
 mod plot_error;
 #[cfg(feature = "figures")]

@@ -2,6 +2,8 @@
 //! and what its figures need.
 
 use hyperstat_mechanisms::Job;
+#[cfg(feature = "parts")]
+use serde::{Deserialize, Serialize};
 
 use crate::doubts::Watch;
 use crate::figure::Trajectory;
@@ -21,8 +23,13 @@ pub struct Ran {
 impl Ran {
     /// Of a job of which no pose is solved yet, with or without measures over its poses.
     pub fn new(job: &Job, measured: bool) -> Self {
+        Self::from_row(job, 0, measured)
+    }
+
+    /// The same of the rows from this one on.
+    pub fn from_row(job: &Job, first: usize, measured: bool) -> Self {
         Self {
-            summary: Summary::new(job, 0),
+            summary: Summary::new(job, first),
             trajectory: Trajectory::wanted_by(job),
             watch: Watch::new(job),
             statistics: measured.then(|| Statistics::of(job)),
@@ -66,5 +73,50 @@ impl Ran {
     /// What is hardly as it was meant.
     pub fn warnings(&self, job: &Job) -> Vec<String> {
         self.watch.warnings(job)
+    }
+}
+
+/// The same, as a part of a run keeps it.
+#[cfg(feature = "parts")]
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct Kept {
+    summary: crate::sweep::KeptSummary,
+    watch: crate::doubts::Seen,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    trajectory: Option<crate::figure::Path>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    statistics: Option<Statistics>,
+}
+
+#[cfg(feature = "parts")]
+impl Ran {
+    /// All of it, to be kept.
+    pub(crate) fn keep(self) -> Kept {
+        Kept {
+            summary: self.summary.keep(),
+            watch: self.watch.seen().clone(),
+            trajectory: self.trajectory.map(|of| of.path().clone()),
+            statistics: self.statistics,
+        }
+    }
+
+    /// Adds what was found of the rows of the same job that follow.
+    pub(crate) fn add(&mut self, later: &Kept) {
+        self.summary.add_kept(&later.summary);
+        self.watch.merge(&later.watch);
+        if let (Some(own), Some(later)) = (&mut self.trajectory, &later.trajectory) {
+            own.merge(later);
+        }
+        if let (Some(own), Some(later)) = (&mut self.statistics, &later.statistics) {
+            own.merge(later);
+        }
+    }
+}
+
+#[cfg(feature = "parts")]
+impl Kept {
+    /// How many rows came out how.
+    pub(crate) fn statuses(&self) -> std::collections::BTreeMap<String, usize> {
+        self.summary.statuses()
     }
 }

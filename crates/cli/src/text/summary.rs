@@ -13,6 +13,8 @@ use super::statistics::Told;
 pub(crate) struct Outcome {
     /// How its poses came out.
     pub(crate) summary: Summary,
+    /// Of a part the first of its rows, and how many the job has.
+    pub(crate) part: Option<(usize, usize)>,
     /// Files that were written.
     pub(crate) files: Vec<PathBuf>,
     /// Figures that could not be drawn, with the reason of each.
@@ -31,6 +33,7 @@ impl Outcome {
     pub(crate) fn new(summary: Summary) -> Self {
         Self {
             summary,
+            part: None,
             files: Vec::new(),
             left_out: Vec::new(),
             largest_difference: None,
@@ -55,6 +58,13 @@ impl fmt::Display for Outcome {
         let mut poses = count(self.summary.poses, "pose");
         if let Some(designs) = self.summary.designs {
             poses = format!("{}, {poses}", count(designs, "design"));
+        }
+        if let Some((first, all)) = self.part {
+            let end = first + self.summary.poses;
+            poses = match self.summary.poses {
+                0 => format!("none of its {all} rows"),
+                _ => format!("rows {first}..{end} of {all}"),
+            };
         }
         let failed: usize = self
             .summary

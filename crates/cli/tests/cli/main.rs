@@ -20,6 +20,7 @@ mod misfits;
 mod modes;
 mod outcomes;
 mod parameters;
+mod parts;
 mod pictures;
 mod plot;
 mod report;

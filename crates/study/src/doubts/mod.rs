@@ -12,6 +12,8 @@ use hyperstat_assembly::Model;
 
 pub use input::of_model;
 pub use result::of_solution;
+#[cfg(feature = "parts")]
+pub(crate) use watch::Seen;
 pub use watch::Watch;
 
 /// Diagonal of the box around a mechanism's points \[m\].

@@ -3,6 +3,7 @@
 
 use hyperstat_mechanisms::Job;
 use nalgebra::Vector6;
+use serde::{Deserialize, Serialize};
 
 use super::of_model;
 use super::result::Findings;
@@ -17,9 +18,16 @@ pub struct Watch {
     poses: usize,
     /// Whether rows are of several designs.
     varies: bool,
+    seen: Seen,
+}
+
+/// What of rows is needed for warnings; that of parts of the rows merges to that of the whole.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(crate) struct Seen {
     first: Option<usize>,
-    moved: (f64, Option<(usize, Vector6<f64>)>),
-    turned: (f64, Option<(usize, Vector6<f64>)>),
+    /// The largest sizes, and the first rows that have them with their displacements.
+    moved: (f64, Option<(usize, [f64; 6])>),
+    turned: (f64, Option<(usize, [f64; 6])>),
 }
 
 impl Watch {
@@ -28,22 +36,41 @@ impl Watch {
         Self {
             poses: job.len(),
             varies: !job.varied().is_empty(),
-            first: None,
-            moved: (0.0, None),
-            turned: (0.0, None),
+            seen: Seen::default(),
+        }
+    }
+
+    /// What was seen so far.
+    #[cfg(feature = "parts")]
+    pub(crate) fn seen(&self) -> &Seen {
+        &self.seen
+    }
+
+    /// Adds what was seen of later rows of the same job.
+    #[cfg(feature = "parts")]
+    pub(crate) fn merge(&mut self, later: &Seen) {
+        let own = &mut self.seen;
+        own.first = own.first.or(later.first);
+        for (largest, other) in [
+            (&mut own.moved, &later.moved),
+            (&mut own.turned, &later.turned),
+        ] {
+            if other.0 > largest.0 {
+                *largest = *other;
+            }
         }
     }
 
     /// Sees the output's displacement in a row of the job's table.
     pub fn see(&mut self, row: usize, displacement: &Vector6<f64>) {
         if row < self.poses {
-            self.first.get_or_insert(row);
+            self.seen.first.get_or_insert(row);
         }
-        let parts = [(&mut self.moved, 0), (&mut self.turned, 3)];
+        let parts = [(&mut self.seen.moved, 0), (&mut self.seen.turned, 3)];
         for (largest, first) in parts {
             let size = displacement.fixed_rows::<3>(first).norm();
             if size > largest.0 {
-                *largest = (size, Some((row, *displacement)));
+                *largest = (size, Some((row, (*displacement).into())));
             }
         }
     }
@@ -60,10 +87,11 @@ impl Watch {
             let output = model.output().map(|node| model.node_name(node));
             format!("`{}`", output.unwrap_or_default())
         };
-        for (row, displacement) in [&self.moved.1, &self.turned.1].into_iter().flatten() {
-            findings.displaced(displacement, output, &self.at(*row));
+        let largest = [self.seen.moved.1, self.seen.turned.1];
+        for (row, displacement) in largest.into_iter().flatten() {
+            findings.displaced(&Vector6::from(displacement), output, &self.at(row));
         }
-        if let Some(pose) = self.first
+        if let Some(pose) = self.seen.first
             && let Ok(model) = job_model(job, pose)
             && let Ok(solution) = hyperstat_assembly::solve(&model)
         {

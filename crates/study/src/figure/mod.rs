@@ -34,4 +34,6 @@ pub use quantity::{Drawn, instead_of};
 pub use rows::{Choice, first_design};
 pub use solved::Solved;
 pub use tables::{NamedTable, beside, ratio};
+#[cfg(feature = "parts")]
+pub(crate) use trajectory::Path;
 pub use trajectory::{Trajectory, of_table as trajectory};

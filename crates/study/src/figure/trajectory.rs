@@ -7,6 +7,7 @@ use hyperstat_figures::{Scale, SecondMethod, TrajectoryFigure, Viewpoint};
 use hyperstat_mechanisms::{Figure, Job};
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::rows::Choice;
 use super::second::{SECOND, difference_in};
@@ -28,6 +29,12 @@ pub struct Trajectory {
     stride: usize,
     /// Rows of the first design that can be: figures are of it.
     first: Range<usize>,
+    path: Path,
+}
+
+/// Poses of a trajectory; those of parts of the rows merge to those of the whole.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(crate) struct Path {
     poses: Vec<usize>,
     commanded: Vec<[f64; 3]>,
     displacement: Vec<[f64; 3]>,
@@ -40,10 +47,24 @@ impl Trajectory {
         job.figures.iter().any(is_trajectory).then(|| Self {
             stride: job.len().div_ceil(MOST_POSES),
             first: job.first_design() * job.len()..(job.first_design() + 1) * job.len(),
-            poses: Vec::new(),
-            commanded: Vec::new(),
-            displacement: Vec::new(),
+            path: Path::default(),
         })
+    }
+
+    /// The poses so far.
+    #[cfg(feature = "parts")]
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Adds poses of later rows of the same job.
+    #[cfg(feature = "parts")]
+    pub(crate) fn merge(&mut self, later: &Path) {
+        self.path.poses.extend_from_slice(&later.poses);
+        self.path.commanded.extend_from_slice(&later.commanded);
+        self.path
+            .displacement
+            .extend_from_slice(&later.displacement);
     }
 
     /// Adds records of rows of the job from `first_row` on, in the order of the rows; those of other
@@ -58,9 +79,9 @@ impl Trajectory {
                 (Ok(found), [Some(x), Some(y), Some(z), ..])
                     if pose.is_multiple_of(self.stride) =>
                 {
-                    self.poses.push(pose);
-                    self.commanded.push([x, y, z]);
-                    self.displacement.push(linear(&found.displacement));
+                    self.path.poses.push(pose);
+                    self.path.commanded.push([x, y, z]);
+                    self.path.displacement.push(linear(&found.displacement));
                 }
                 _ => {}
             }
@@ -74,15 +95,15 @@ impl Trajectory {
 
     /// Whether no pose has a result.
     pub(super) fn is_empty(&self) -> bool {
-        self.poses.is_empty()
+        self.path.poses.is_empty()
     }
 
     /// The figure of it, with the reference solver's points.
     pub(super) fn figure(&self, job: &Job, scale: Scale) -> TrajectoryFigure {
         TrajectoryFigure {
             title: job.name.clone(),
-            commanded: self.commanded.clone(),
-            displacement: self.displacement.clone(),
+            commanded: self.path.commanded.clone(),
+            displacement: self.path.displacement.clone(),
             second: self.second(job),
             scale,
             view: Viewpoint::default(),
@@ -93,9 +114,14 @@ impl Trajectory {
     /// The reference solver's displacements at the poses that the figure marks; `None` where it has
     /// no answer at some of them. It is slow: at every pose it would take far longer than the sweep.
     fn second(&self, job: &Job) -> Option<SecondMethod> {
-        let at = TrajectoryFigure::marked(self.poses.len());
+        let Path {
+            poses,
+            displacement: found,
+            ..
+        } = &self.path;
+        let at = TrajectoryFigure::marked(poses.len());
         let solve = |&place: &usize| {
-            let model = job_model(job, self.poses[place]).ok()?;
+            let model = job_model(job, poses[place]).ok()?;
             let solution = hyperstat_reference::solve(&model).ok()?;
             Some(linear(&solution.displacement?))
         };
@@ -103,12 +129,12 @@ impl Trajectory {
         let displacement: Vec<_> = at.par_iter().map(solve).collect::<Option<_>>()?;
         #[cfg(not(feature = "threads"))]
         let displacement: Vec<_> = at.iter().map(solve).collect::<Option<_>>()?;
-        let ours: Vec<_> = at.iter().map(|place| self.displacement[*place]).collect();
-        let first = job_model(job, *self.poses.first()?).ok()?;
+        let ours: Vec<_> = at.iter().map(|place| found[*place]).collect();
+        let first = job_model(job, *poses.first()?).ok()?;
         let least = Floor::of(&first).ok()?.least_displacement();
         Some(SecondMethod {
             name: SECOND.into(),
-            difference: difference_in(&ours, &displacement, &self.displacement, least),
+            difference: difference_in(&ours, &displacement, found, least),
             at,
             displacement,
         })

@@ -2,6 +2,7 @@
 
 mod asked;
 mod chunk;
+mod exact;
 mod poser;
 mod record;
 mod share;
@@ -14,6 +15,7 @@ mod wide;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use hyperstat_assembly::{
     Beside, Carried, Geometry, LANES, Lanes, ModalPlan, PoseResult, Prepared, SolveError,
@@ -31,6 +33,8 @@ pub use record::{Cell, Failure, Found, Held, NUMBERS, Record, UPPER};
 pub(crate) use slopes::Sought;
 use slopes::{Slope, cells};
 pub use statistics::{Extreme, MeasureReport, Percentile, Statistics, Values, measure};
+#[cfg(feature = "parts")]
+pub(crate) use summary::KeptSummary;
 pub use summary::{Failures, Summary};
 pub use threads::Threads;
 pub use wide::placing;
@@ -157,10 +161,40 @@ impl<'a> Sweep<'a> {
         render: impl Fn(&mut Chunk) + Sync,
         take: impl FnMut(&mut Chunk) -> Result<(), E>,
     ) -> Result<(), E> {
+        match self.run_until(threads, rows, &|| false, render, take) {
+            Err(Ended::Failed(error)) => Err(error),
+            Ok(()) | Err(Ended::Stopped) => Ok(()),
+        }
+    }
+
+    /// The same until `stop` says so, which every thread asks after some rows: what was taken by then is
+    /// whole.
+    ///
+    /// # Errors
+    /// The first error of `take`, or that it was stopped.
+    pub fn run_until<E>(
+        &self,
+        threads: &Threads,
+        rows: Range<usize>,
+        stop: &(impl Fn() -> bool + Sync),
+        render: impl Fn(&mut Chunk) + Sync,
+        mut take: impl FnMut(&mut Chunk) -> Result<(), E>,
+    ) -> Result<(), Ended<E>> {
+        // Nobody wants what is under way when the sweep ends with an error.
+        let over = AtomicBool::new(false);
+        let stop = || over.load(Ordering::Relaxed) || stop();
         let compute = |solver: &mut Option<Solver>, chunk: &mut Chunk| {
             chunk.clear();
-            self.solve(solver, chunk);
-            render(chunk);
+            if self.solve(solver, chunk, &stop) {
+                render(chunk);
+            }
+        };
+        let take = |chunk: &mut Chunk| {
+            let taken = match chunk.records.len() == chunk.rows.len() {
+                true => take(chunk).map_err(Ended::Failed),
+                false => Err(Ended::Stopped),
+            };
+            taken.inspect_err(|_| over.store(true, Ordering::Relaxed))
         };
         let further = Columns::of(self.job).further.len();
         let empty = || Chunk {
@@ -176,10 +210,7 @@ impl<'a> Sweep<'a> {
             CHUNK
         };
         let rows = rows.start.min(self.len())..rows.end.min(self.len());
-        let end = rows.end;
-        let ranges = rows.step_by(size);
-        let ranges = ranges.map(|first| first..(first + size).min(end));
-        threads.share(ranges, empty, compute, take)
+        threads.share(aligned(rows, size), empty, compute, take)
     }
 
     /// Solves these rows on the calling thread.
@@ -189,15 +220,24 @@ impl<'a> Sweep<'a> {
             poses: self.job.len(),
             ..Chunk::default()
         };
-        self.solve(&mut None, &mut chunk);
+        self.solve(&mut None, &mut chunk, &|| false);
         chunk.records
     }
 
-    /// Solves the rows of a chunk with a thread's solver, which is left at their last design.
-    fn solve(&self, solver: &mut Option<Solver>, chunk: &mut Chunk) {
+    /// Solves the rows of a chunk with a thread's solver, which is left at their last design; returns whether
+    /// it was not stopped before the last.
+    fn solve(
+        &self,
+        solver: &mut Option<Solver>,
+        chunk: &mut Chunk,
+        stop: &impl Fn() -> bool,
+    ) -> bool {
         let poses = self.job.len();
         let mut rows = chunk.rows.clone();
         while !rows.is_empty() {
+            if stop() {
+                return false;
+            }
             let number = rows.start / poses;
             let own = match solver {
                 Some(own) if own.number == number => own,
@@ -212,9 +252,16 @@ impl<'a> Sweep<'a> {
             for pose in range.clone() {
                 chunk.drives.extend(self.job.drive_values(pose));
             }
-            own.solve(self.job, range, &mut chunk.records);
+            for first in range.clone().step_by(LANES) {
+                if stop() {
+                    return false;
+                }
+                let lanes = first..range.end.min(first + LANES);
+                own.solve(self.job, lanes, &mut chunk.records);
+            }
             rows.start = end;
         }
+        true
     }
 
     /// A thread's solver of a design.
@@ -255,6 +302,26 @@ impl<'a> Sweep<'a> {
             sought: self.sought.as_ref().map(|own| own.parameters.len()),
         }
     }
+}
+
+/// Why a sweep ends before its last row.
+#[derive(Debug)]
+pub enum Ended<E> {
+    /// It was stopped.
+    Stopped,
+    /// What takes its rows failed.
+    Failed(E),
+}
+
+/// Rows in ranges of this size, which begin at its multiples wherever the rows do.
+fn aligned(rows: Range<usize>, size: usize) -> impl Iterator<Item = Range<usize>> {
+    let mut next = rows.start;
+    std::iter::from_fn(move || {
+        let first = next;
+        next = (first / size).saturating_add(1).saturating_mul(size);
+        next = next.min(rows.end);
+        (first < rows.end).then_some(first..next)
+    })
 }
 
 /// Refuses a job whose table would have two columns of one name.

@@ -81,6 +81,18 @@ pub struct Held {
 }
 
 impl Failure {
+    /// All words for one in a table.
+    #[cfg(feature = "parts")]
+    pub(crate) const STATUSES: [&'static str; 7] = [
+        "design",
+        "unreachable",
+        "singular",
+        "branch",
+        "unrestrained",
+        "rigid",
+        "failed",
+    ];
+
     /// What is wrong, and what would be right where that can be said.
     pub fn in_words(&self) -> String {
         match self {

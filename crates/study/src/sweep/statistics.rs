@@ -4,8 +4,9 @@ use std::collections::HashMap;
 use std::sync::LazyLock;
 
 use hyperstat_mechanisms::Job;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use super::exact::ExactSum;
 use super::record::{Cell, Found, Record};
 use crate::entries::Entries;
 use crate::measures::{self, Measure, Pose};
@@ -60,8 +61,9 @@ pub fn measure(record: &Record) -> Option<Values> {
     Some(values)
 }
 
-/// Statistics of the measures over the poses of a job; its memory does not grow with their number.
-#[derive(Debug, Default)]
+/// Statistics of the measures over the poses of a job; its memory does not grow with their number. Those of
+/// parts of the rows merge to those of the whole, to the last bit.
+#[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Statistics {
     count: u64,
     of: [Spread; COUNT],
@@ -69,7 +71,7 @@ pub struct Statistics {
 }
 
 /// A column of numbers on request.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Asked {
     name: String,
     /// Its place among the further columns.
@@ -79,13 +81,37 @@ struct Asked {
 }
 
 /// The values of one measure.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Spread {
     least: Option<Extreme>,
     most: Option<Extreme>,
-    sum: f64,
+    sum: ExactSum,
     /// Counts of values by [`bin`].
+    #[serde(with = "bins")]
     counts: HashMap<i64, u64>,
+}
+
+/// Counts by bins as a list, in order.
+mod bins {
+    use std::collections::HashMap;
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        counts: &HashMap<i64, u64>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let mut bins: Vec<_> = counts.iter().collect();
+        bins.sort_unstable();
+        bins.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<HashMap<i64, u64>, D::Error> {
+        let bins: Vec<(i64, u64)> = Vec::deserialize(deserializer)?;
+        Ok(bins.into_iter().collect())
+    }
 }
 
 /// The bin of a value: its logarithm over the resolution, the larger the larger the value; 0 is that of
@@ -113,7 +139,7 @@ fn middle(bin: i64) -> f64 {
 const MIDDLE: i64 = 1_000_000;
 
 /// A value and where it is.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Extreme {
     /// The value.
     pub value: f64,
@@ -122,7 +148,7 @@ pub struct Extreme {
     /// Pose of the output.
     pub at: [Option<f64>; 6],
     /// The coordinates that the job's poses give there, where these are known: of the output, or of drives.
-    #[serde(skip_serializing_if = "Entries::is_empty")]
+    #[serde(skip_serializing_if = "Entries::is_empty", skip_deserializing)]
     pub commanded: Entries<f64>,
 }
 
@@ -235,7 +261,7 @@ impl Extreme {
 
 impl Spread {
     fn add(&mut self, found: Extreme) {
-        self.sum += found.value;
+        self.sum.add(found.value);
         *self.counts.entry(bin(found.value)).or_default() += 1;
         let least = self.least.as_ref();
         let most = self.most.as_ref();
@@ -265,7 +291,7 @@ impl Spread {
             unit,
             poses: count,
             min: self.least.clone()?,
-            mean: self.sum / count as f64,
+            mean: self.sum.value() / count as f64,
             percentiles: PERCENTILES.map(|p| Percentile {
                 percent: p,
                 value: self.percentile(p, count),
@@ -288,7 +314,7 @@ impl Spread {
         {
             self.most = Some(found.clone());
         }
-        self.sum += other.sum;
+        self.sum.merge(&other.sum);
         for (bin, count) in &other.counts {
             *self.counts.entry(*bin).or_default() += count;
         }

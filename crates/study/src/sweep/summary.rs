@@ -1,12 +1,19 @@
 //! How the rows of a job came out.
 
+#[cfg(feature = "parts")]
+use std::collections::BTreeMap;
+
 use hyperstat_mechanisms::Job;
 use nalgebra::Matrix6;
+#[cfg(feature = "parts")]
+use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "parts")]
+use super::record::Failure;
 use super::record::Record;
 
 /// The outcome of rows of a job.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Summary {
     /// Name of the job.
     pub job: String,
@@ -88,5 +95,94 @@ impl Summary {
     /// Whether every pose has a result.
     pub fn is_complete(&self) -> bool {
         self.failures.is_empty()
+    }
+}
+
+/// A status that a table may hold.
+#[cfg(feature = "parts")]
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Status(&'static str);
+
+#[cfg(feature = "parts")]
+impl<'de> Deserialize<'de> for Status {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        let known = Failure::STATUSES.into_iter().find(|known| *known == word);
+        let missing = || serde::de::Error::custom(format!("there is no status `{word}`"));
+        known.map(Self).ok_or_else(missing)
+    }
+}
+
+/// The outcome of rows, as a part of a run keeps it.
+#[cfg(feature = "parts")]
+#[derive(Debug, Serialize, Deserialize)]
+pub(crate) struct KeptSummary {
+    first_row: usize,
+    poses: usize,
+    failures: Vec<KeptFailures>,
+    /// By columns.
+    stiffness: Option<Vec<f64>>,
+}
+
+#[cfg(feature = "parts")]
+#[derive(Debug, Serialize, Deserialize)]
+struct KeptFailures {
+    status: Status,
+    count: usize,
+    first_pose: usize,
+    why: String,
+}
+
+#[cfg(feature = "parts")]
+impl Summary {
+    /// All of it, to be kept.
+    pub(crate) fn keep(&self) -> KeptSummary {
+        let failures = self.failures.iter().map(|of| KeptFailures {
+            status: Status(of.status),
+            count: of.count,
+            first_pose: of.first_pose,
+            why: of.why.clone(),
+        });
+        KeptSummary {
+            first_row: self.first_row,
+            poses: self.poses,
+            failures: failures.collect(),
+            stiffness: self.stiffness.map(|k| k.as_slice().to_vec()),
+        }
+    }
+
+    /// Adds the rows of the same job that follow these.
+    pub(crate) fn add_kept(&mut self, kept: &KeptSummary) {
+        let failures = kept.failures.iter().map(|of| Failures {
+            status: of.status.0,
+            count: of.count,
+            first_pose: of.first_pose,
+            why: of.why.clone(),
+        });
+        let stiffness = kept.stiffness.as_ref().filter(|k| k.len() == 36);
+        let next = Self {
+            job: self.job.clone(),
+            designs: self.designs,
+            of_design: self.of_design,
+            first_row: kept.first_row,
+            poses: kept.poses,
+            failures: failures.collect(),
+            stiffness: stiffness.map(|k| Matrix6::from_column_slice(k)),
+        };
+        self.merge(&next);
+    }
+}
+
+#[cfg(feature = "parts")]
+impl KeptSummary {
+    /// Number of rows by status.
+    pub(crate) fn statuses(&self) -> BTreeMap<String, usize> {
+        let failed: usize = self.failures.iter().map(|of| of.count).sum();
+        let ok = ("ok".to_string(), self.poses.saturating_sub(failed));
+        let failures = self
+            .failures
+            .iter()
+            .map(|of| (of.status.0.to_string(), of.count));
+        [ok].into_iter().chain(failures).collect()
     }
 }

@@ -1,35 +1,64 @@
 //! A table of comma-separated values: a line of column names, then a line a pose.
 
 use std::fmt::Write as _;
+#[cfg(feature = "parts")]
+use std::io::Read;
 use std::io::{self, Write};
+#[cfg(feature = "parts")]
+use std::sync::Arc;
 
 use hyperstat_mechanisms::Value;
 
 use super::cells::quoted;
+#[cfg(feature = "parts")]
+use super::content::{Content, Reader};
 use crate::sweep::{Cell, Chunk, Columns, NUMBERS, Row, UPPER};
 
 /// A table being written as CSV.
 #[derive(Debug)]
-pub(super) struct Csv<W>(W);
+pub(super) struct Csv<W> {
+    writer: W,
+    /// The line of names.
+    #[cfg(feature = "parts")]
+    names: String,
+}
 
 impl<W: Write> Csv<W> {
     pub(super) fn new(mut writer: W, columns: &Columns<'_>) -> io::Result<Self> {
         let names = crate::schema::columns(columns).map(|name| quoted(&name).into_owned());
         let names: Vec<_> = names.collect();
-        writeln!(writer, "{}", names.join(","))?;
-        Ok(Self(writer))
+        let names = names.join(",") + "\n";
+        writer.write_all(names.as_bytes())?;
+        Ok(Self {
+            writer,
+            #[cfg(feature = "parts")]
+            names,
+        })
+    }
+
+    /// Appends the lines of a table with the same columns.
+    #[cfg(feature = "parts")]
+    pub(super) fn join(&mut self, content: &Arc<dyn Content>) -> io::Result<()> {
+        let mut reader = Reader::new(Arc::clone(content), 0);
+        let mut names = vec![0; self.names.len()];
+        reader.read_exact(&mut names)?;
+        if names != self.names.as_bytes() {
+            let message = "its columns are others than those of the table";
+            return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+        }
+        io::copy(&mut reader, &mut self.writer).map(drop)
     }
 
     pub(super) fn append(&mut self, chunk: &Chunk) -> io::Result<()> {
         if chunk.text.is_empty() {
             // Nobody has rendered it.
-            return self.0.write_all(lines(chunk).as_bytes());
+            return self.writer.write_all(lines(chunk).as_bytes());
         }
-        self.0.write_all(chunk.text.as_bytes())
+        self.writer.write_all(chunk.text.as_bytes())
     }
 
     pub(super) fn finish(self) -> W {
-        self.0
+        self.writer
     }
 }
 

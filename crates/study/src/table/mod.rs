@@ -1,6 +1,8 @@
 //! The table of a job: a row a pose, as CSV or Parquet.
 
 mod cells;
+#[cfg(feature = "parts")]
+mod content;
 mod csv;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -8,11 +10,17 @@ mod parquet;
 mod read;
 
 use std::io::{self, Write};
+#[cfg(feature = "parts")]
+use std::sync::Arc;
 
 pub use crate::schema::{columns, is_frequency, numeric, unit, words};
 
 use crate::schema::Columns;
 use crate::sweep::Chunk;
+#[cfg(feature = "parts")]
+pub use content::Content;
+#[cfg(feature = "parts")]
+pub(crate) use content::Reader;
 #[cfg(feature = "figures")]
 pub use read::{Column, TableReader};
 
@@ -57,14 +65,46 @@ impl<W: Write + Send> TableWriter<W> {
     /// # Errors
     /// Its first line cannot be written.
     pub fn new(writer: W, format: TableFormat, columns: &Columns<'_>) -> io::Result<Self> {
+        Self::from_row(writer, format, columns, 0, &[])
+    }
+
+    /// Begins a table of a job's rows from this one on. In Parquet it says these things of itself, each a name and a
+    /// text.
+    ///
+    /// # Errors
+    /// As [`TableWriter::new`].
+    pub fn from_row(
+        writer: W,
+        format: TableFormat,
+        columns: &Columns<'_>,
+        first: usize,
+        notes: &[(&str, &str)],
+    ) -> io::Result<Self> {
         let form = match format {
-            TableFormat::Csv => Form::Csv(csv::Csv::new(writer, columns)?),
+            TableFormat::Csv => {
+                let _ = (first, notes);
+                Form::Csv(csv::Csv::new(writer, columns)?)
+            }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
-                Form::Parquet(Box::new(parquet::Parquet::new(writer, columns)?))
+                let table = parquet::Parquet::new(writer, columns, first, notes)?;
+                Form::Parquet(Box::new(table))
             }
         };
         Ok(Self { form })
+    }
+
+    /// Appends the next rows, which stand in a table of the same form and with the same columns.
+    ///
+    /// # Errors
+    /// It is none of these, cannot be read, or they cannot be written.
+    #[cfg(feature = "parts")]
+    pub fn join(&mut self, content: &Arc<dyn Content>) -> io::Result<()> {
+        match &mut self.form {
+            Form::Csv(table) => table.join(content),
+            #[cfg(feature = "parquet")]
+            Form::Parquet(table) => table.join(content),
+        }
     }
 
     /// Appends the next rows, rendered or not.
