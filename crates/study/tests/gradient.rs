@@ -347,7 +347,7 @@ const LANES: &str = r#"(
                 joint_stiffness: (x: 3e8, y: 3e8, z: 3e8, u: 5e5, w: 5e5),
                 drive_stiffness: 5e7,
             ),
-            poses: List([(z: 0.9, rx: 0.1, ry: 0.2)]),
+            poses: Grid(z: (0.9, 0.9, 1), rx: (0.1, 0.1, 1), ry: (-0.2, 0.2, 2)),
             gravity: (0.5, 0.0, -9.81),
             masses: [(on: ("platform", "P"), mass: 12.0)],
             loads: [(on: ("platform", "P"), force: (-20.0, 10.0, 100.0), moment: (5.0, 5.0, 8.0))],

@@ -76,7 +76,9 @@ fn each_number(node: &Node, path: &str, found: &mut Vec<(String, f64)>) {
         return;
     }
     for (name, part) in node.parts() {
-        if ELSEWHERE.contains(&name.as_str()) || name.ends_with("_stiffness") {
+        // A copy's own values have paths for names.
+        let mut steps = name.split('.');
+        if steps.any(|step| ELSEWHERE.contains(&step) || step.ends_with("_stiffness")) {
             continue;
         }
         let path = match path {
