@@ -140,7 +140,7 @@ fn a_path_that_leads_to_no_number_is_told() {
 #[test]
 fn lanes_find_what_whole_solutions_find() {
     let quantities: Vec<&str> = (Measure::all().iter().map(|own| own.name))
-        .chain(["k11", "k15", "k34", "k66", "dx", "drz"])
+        .chain(["k11", "k15", "k24", "k66", "dx", "drz"])
         .collect();
     let threads = Threads::new(1).unwrap();
     let tapered = CANTILEVER
@@ -153,12 +153,16 @@ fn lanes_find_what_whole_solutions_find() {
         for case in [None, Some("push")] {
             let mut study = Study::of_job(job.clone(), 0, 0).unwrap();
             let known = study.sensitivities(case).unwrap();
-            let paths: Vec<String> = (known.iter())
+            let paths: Vec<String> = (known.iter().filter(|own| !own.by_differences))
                 .filter_map(|own| own.path.clone().or_else(|| Some(own.parameter.clone())))
                 .filter(|path| !path.contains(' '))
                 .collect();
             assert!(paths.len() > 3, "{paths:?}");
             for name in &quantities {
+                // What a straight bar does not have.
+                if number == 3 && ["k15", "k24", "dx", "drz"].contains(name) {
+                    continue;
+                }
                 let quantity = Quantity::named(name).unwrap();
                 let gradient = Gradient::new(job, quantity, &paths, case).unwrap();
                 assert_eq!(gradient.beside(), paths.len(), "{number} {paths:?}");
