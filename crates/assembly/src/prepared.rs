@@ -239,7 +239,7 @@ impl Prepared {
             own.as_ref().map(Probe::states).unwrap_or_default()
         };
         let model = &self.model;
-        let results = plan.sweep_lanes_asking(model, lanes, filled, Some(&mut ask));
+        let results = plan.sweep_lanes_asking(model, lanes, filled, Some((state, &mut ask)));
         let mut pose = 0;
         results.map(|result| {
             pose += 1;
@@ -248,7 +248,7 @@ impl Prepared {
                 let slopes = match (found, probes[pose - 1].take().flatten()) {
                     (Some((states, units, geometry)), Some(probe)) => {
                         let units: Vec<&Forces> = units.iter().map(|own| &own.forces).collect();
-                        let seen = (&result, states.get(state));
+                        let seen = (&result, states.first());
                         let own = slopes.of(model, geometry, &probe, &units, seen)?;
                         Some(own)
                     }

@@ -50,6 +50,8 @@ pub(super) struct Swept<'a> {
     pub wanted: [bool; LANES],
     /// Number of the first.
     pub first: usize,
+    /// The states whose forces are wanted; all where it is `None`.
+    pub state: Option<usize>,
     pub arch: Arch,
 }
 
@@ -98,20 +100,25 @@ impl Engine {
             return;
         };
         let (program, buffers, width) = (&self.program, &self.buffers, room.width);
+        let states = match swept.state {
+            Some(state) => state..state + 1,
+            None => 0..recovery.floors.len(),
+        };
         // What acts along segments is in their forces.
         let mut loads: [Option<Vec<Acting>>; LANES] = [const { None }; LANES];
         if recovery.along {
             for lane in 0..width {
                 if found[lane].is_some() {
                     let at = Posture::new(swept.model, swept.geometries[lane]);
-                    loads[lane] = Acting::of_model(&at).ok();
+                    loads[lane] = Acting::of_states(&at, states.clone()).ok();
                     if loads[lane].is_none() {
                         found[lane] = None;
                     }
                 }
             }
         }
-        for (state, floor) in recovery.floors.iter().enumerate() {
+        for state in states.clone() {
+            let floor = &recovery.floors[state];
             let first = place_of_displacement(state) * width;
             room.asked[..6 * width].copy_from_slice(&buffers.results[first..first + 6 * width]);
             room.asked[6 * width..].fill(0.0);
@@ -126,7 +133,7 @@ impl Engine {
                 let Some(own) = &mut found[lane] else {
                     continue;
                 };
-                let acting = loads[lane].as_ref().map(|all| &all[state]);
+                let acting = loads[lane].as_ref().map(|all| &all[state - states.start]);
                 match forces(recovery, room, lane, (acting, floor), true) {
                     Some(forces) => own.forces.push(forces),
                     None => found[lane] = None,

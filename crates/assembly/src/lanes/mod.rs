@@ -143,13 +143,13 @@ impl Plan {
     }
 
     /// The same with what joints and segments carry under the wrenches that are asked for, in lanes that were
-    /// made for it.
+    /// made for it, and of the states in one alone.
     pub(crate) fn sweep_lanes_asking(
         &self,
         model: &Model,
         lanes: &mut Lanes,
         filled: [bool; LANES],
-        mut ask: Option<&mut Ask<'_>>,
+        mut ask: Option<(usize, &mut Ask<'_>)>,
     ) -> [Option<Result<PoseResult, SolveError>>; LANES] {
         let mut results = [const { None }; LANES];
         lanes.forget();
@@ -189,9 +189,11 @@ impl Plan {
                     geometries,
                     wanted: vouched,
                     first,
+                    state: ask.as_ref().map(|(state, _)| *state),
                     arch: lanes.arch,
                 };
-                let mut beyond = engine.carried(&swept, ask.as_deref_mut());
+                let ask = ask.as_mut().map(|(_, ask)| &mut **ask);
+                let mut beyond = engine.carried(&swept, ask);
                 for (lane, pose) in range.enumerate() {
                     lanes.beyond[pose] = beyond[lane].take();
                 }

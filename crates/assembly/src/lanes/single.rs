@@ -48,6 +48,7 @@ impl Plan {
                     geometries,
                     wanted: first,
                     first: 0,
+                    state: None,
                     arch: lanes.arch,
                 };
                 let [found, ..] = engine.carried(&swept, None);

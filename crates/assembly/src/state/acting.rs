@@ -5,6 +5,8 @@
 //! deformation that the segment starts from, less the free end's displacement δ: the wrench on its
 //! second node is k (u₂ − M u₁ − δ), that on its first follows from equilibrium.
 
+use std::ops::Range;
+
 use hyperstat_elements::{BeamLoad, rotate_vector6};
 use hyperstat_model::{JointId, LoadSet, NodeId, SegmentId};
 use nalgebra::Vector6;
@@ -30,11 +32,18 @@ pub(crate) struct Acting {
 impl Acting {
     /// The states of a model: its own loads, then its cases, each with what acts in all of them.
     pub fn of_model(at: &Posture<'_>) -> Result<Vec<Self>, SolveError> {
+        Self::of_states(at, 0..1 + at.model.cases().len())
+    }
+
+    /// Some of these states, by their numbers.
+    pub fn of_states(at: &Posture<'_>, states: Range<usize>) -> Result<Vec<Self>, SolveError> {
         let Posture { model, .. } = *at;
         let always = Self::always(at)?;
         let cases = model.cases().iter().map(|case| &case.loads);
         std::iter::once(model.load_set())
             .chain(cases)
+            .skip(states.start)
+            .take(states.len())
             .map(|set| Ok(Self::new(at, set)?.with(&always)))
             .collect()
     }
