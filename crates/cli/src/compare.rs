@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use hyperstat_mechanisms::{Disk, Registry};
-use hyperstat_study::figure::{self, Drawing};
+use hyperstat_study::disk;
+use hyperstat_study::figure::{self, Drawing, Form};
 use hyperstat_study::table::TableReader;
 use hyperstat_study::{Comparison, Input, PlotError, Study, compare_tables};
 
 use crate::args::{Compare, Format};
 use crate::error::CliError;
-use crate::json::json;
-use crate::plot;
-use crate::{outputs, text};
+use crate::json;
+use crate::{plot, text};
 
 /// The report, and the files that are drawn.
 pub(crate) fn run(args: &Compare, registry: &Registry) -> Result<String, CliError> {
@@ -65,13 +65,13 @@ fn of_tables(args: &Compare, other: &Path) -> Result<String, CliError> {
 fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> {
     let drawn = args.out.as_deref();
     let drawn = drawn.map(|out| (plot::named(out, "compare"), plot::forms_of(out)));
-    let files = drawn.as_ref().map(|(stem, forms)| plot::files(stem, forms));
+    let files = drawn.as_ref().map(|(stem, forms)| Form::files(stem, forms));
     let read: Vec<_> = studies
         .iter()
         .flat_map(|study| study.files())
         .cloned()
         .collect();
-    outputs::refuse(files.iter().flatten().map(|path| &**path), &read)?;
+    disk::refuse(files.iter().flatten().map(|path| &**path), &read)?;
     let found = Comparison::new(studies, &args.dwelling.focus())?;
     if let Some((stem, forms)) = &drawn {
         let no_shares = || PlotError::NoShares {
@@ -80,7 +80,7 @@ fn of_studies(args: &Compare, studies: [&Study; 2]) -> Result<String, CliError> 
         let budget = found.results.budget.as_ref().ok_or_else(no_shares)?;
         let title = found.names.join(" and ");
         let bars = figure::compared(budget, &found.names, title).ok_or_else(no_shares)?;
-        plot::write(&Drawing::Budget(bars), stem, forms)?;
+        disk::write_figure(&Drawing::Budget(bars), stem, forms)?;
     }
     match args.format {
         Format::Text => Ok(text::compared(&found)),

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
+use hyperstat_study::disk::Room;
 use hyperstat_study::parts::Part;
 use hyperstat_study::sweep::{Columns, Sweep};
 use hyperstat_study::table::{self, TableFormat};
 
 use crate::args;
-use crate::disk::Disk;
 use crate::error::CliError;
 use crate::terminal;
 
@@ -27,7 +27,7 @@ const BINARY: u64 = 8;
 /// Asks before a run of very many rows, or of more than the disk of `out` takes.
 pub(crate) fn ask(sweeps: &[Sweep<'_>], part: &Part, args: &args::Run) -> Result<(), CliError> {
     let run = Size::of(sweeps, part, args.format.into());
-    let free = Disk::of(&args.out).map(|disk| disk.free);
+    let free = Room::of(&args.out).map(|room| room.free);
     let Some(why) = run.doubt(free, &args.out) else {
         return Ok(());
     };

@@ -4,9 +4,9 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::FigureError;
 use hyperstat_mechanisms::{LoadError, Location};
 use hyperstat_study::PlotError;
+use hyperstat_study::disk::OutputError;
 use hyperstat_study::parts::PartsError;
 use hyperstat_study::{Problem, StudyError};
 use thiserror::Error;
@@ -20,24 +20,9 @@ pub(crate) enum CliError {
     /// A question without its answer.
     #[error("{}", message(.0))]
     Study(#[from] StudyError),
-    /// An output that is a file that was read.
-    #[error("{} would be overwritten: {}", .output.display(), read_as(.output, .input))]
-    Overwrites { output: PathBuf, input: PathBuf },
-    /// Two outputs that are one file.
-    #[error("{} and {} are the same file", .first.display(), .second.display())]
-    SameOutput { first: PathBuf, second: PathBuf },
-    /// A job whose outputs have names that are too long.
-    #[error(
-        "the name of job `{job}` is too long: {file} would have a name of {length} bytes while it is written"
-    )]
-    NameTooLong {
-        location: Box<Location>,
-        job: String,
-        file: String,
-        length: u64,
-        /// What the longest name of a job would have.
-        longest: u64,
-    },
+    /// A result that is not written.
+    #[error("{0}")]
+    Output(#[from] OutputError),
     /// A run that is larger than it was probably meant to be.
     #[error("{why}")]
     NotAgreed { why: String },
@@ -65,15 +50,9 @@ pub(crate) enum CliError {
     /// A task of a job array that cannot be told.
     #[error("`--shard auto`: {0}")]
     NoTask(String),
-    /// A result that could not be written.
-    #[error("cannot write {}: {source}", .path.display())]
-    Write { path: PathBuf, source: io::Error },
     /// Standard output that could not be written.
     #[error("cannot write to standard output: {0}")]
     Print(#[source] io::Error),
-    /// A figure that could not be drawn.
-    #[error("cannot draw {}: {source}", .path.display())]
-    Figure { path: PathBuf, source: FigureError },
     /// A magnification where colours are meant, or the other way round.
     #[error("`--scale {given}` is none of {of}")]
     Scale { given: String, of: &'static str },
@@ -109,12 +88,8 @@ impl CliError {
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Self::Interrupted { .. } => INTERRUPTED,
-            Self::Write { .. }
-            | Self::Print(_)
-            | Self::Figure {
-                source: FigureError::Png(_) | FigureError::Pdf(_) | FigureError::Gif(_),
-                ..
-            } => 3,
+            Self::Output(error) if error.is_of_disk() => 3,
+            Self::Print(_) => 3,
             _ => 2,
         }
     }
@@ -123,7 +98,7 @@ impl CliError {
     pub(crate) fn location(&self) -> Option<&Location> {
         match self {
             Self::Study(error) => error.location(),
-            Self::NameTooLong { location, .. } => Some(location),
+            Self::Output(error) => error.location(),
             _ => None,
         }
     }
@@ -132,14 +107,7 @@ impl CliError {
     pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Study(error) => help(error),
-            Self::Overwrites { .. } => {
-                Some("write to another folder or name: what is read stays as it is".into())
-            }
-            Self::SameOutput { .. } => Some("remove the link, or write to another folder".into()),
-            Self::NameTooLong { longest, .. } => Some(format!(
-                "give it a name of at most {longest} characters: that of each of its files must \
-                 fit the file system"
-            )),
+            Self::Output(error) => error.help(),
             Self::Parts { source, .. } => source.help(),
             Self::Interrupted { .. } => Some(
                 "give the same command again: it goes on from there, to the same bytes".into(),
@@ -199,10 +167,9 @@ impl CliError {
     /// Something about parts of a run in this folder.
     pub(crate) fn parts(out: &Path) -> impl Fn(PartsError) -> Self {
         |source| match source {
-            PartsError::Write { name, source } => Self::Write {
-                path: out.join(name),
-                source,
-            },
+            PartsError::Write { name, source } => {
+                OutputError::write(&out.join(name))(source).into()
+            }
             source => Self::Parts {
                 out: out.into(),
                 source,
@@ -324,12 +291,4 @@ fn plot_help(error: &PlotError) -> Option<String> {
         }
         other => return other.help(),
     })
-}
-
-/// How an output that would be overwritten was read.
-fn read_as(output: &Path, input: &Path) -> String {
-    match output == input {
-        true => "it was read".into(),
-        false => format!("it was read as {}", input.display()),
-    }
 }

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use clap::CommandFactory;
 use hyperstat_mechanisms::Disk;
+use hyperstat_study::disk::{self, OutputError};
 use hyperstat_study::files;
 
 use crate::args::{Cli, Completions, FileFormat, Fmt, New, Shell};
 use crate::error::CliError;
-use crate::outputs;
 
 /// `hyperstat new`
 pub(crate) fn new(args: &New) -> Result<String, CliError> {
@@ -54,14 +54,11 @@ pub(crate) fn fmt(args: &Fmt) -> Result<Vec<PathBuf>, CliError> {
 
 /// Puts another text in the place of a file, which keeps its permissions.
 fn replace(path: &Path, text: &str) -> Result<(), CliError> {
-    let failed = |source| CliError::Write {
-        path: path.into(),
-        source,
-    };
+    let failed = |source| CliError::from(OutputError::write(path)(source));
     let permissions = fs::metadata(path).map_err(failed)?.permissions();
     if permissions.readonly() {
         return Err(failed(io::ErrorKind::PermissionDenied.into()));
     }
-    outputs::write(path, text.as_bytes())?;
+    disk::write(path, text.as_bytes())?;
     fs::set_permissions(path, permissions).map_err(failed)
 }

@@ -3,20 +3,14 @@
 #![doc = include_str!("../README.md")]
 
 mod args;
-mod atomic;
 mod compare;
 mod consent;
-mod destination;
 mod diagnostic;
-mod disk;
 mod error;
 mod files;
-mod json;
-mod outputs;
 mod plot;
 mod report;
 mod run;
-mod shelf;
 mod signals;
 mod terminal;
 mod text;
@@ -28,11 +22,12 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use hyperstat_mechanisms::{Disk, Registry};
+use hyperstat_study::disk;
 use hyperstat_study::{AdjustReport, Asked, CheckReport, Question, Study};
 
 use args::{Cli, Command, FileFormat, Format};
 use error::CliError;
-use json::json;
+use serde::Serialize;
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -125,7 +120,7 @@ fn study(input: &args::Input, registry: &Registry) -> Result<Study, CliError> {
 /// `hyperstat solve`
 fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     let mut study = study(&args.input, registry)?;
-    outputs::refuse(args.vtu.as_deref(), study.files())?;
+    disk::refuse(args.vtu.as_deref(), study.files())?;
     let answered = study.answer(&Question {
         verify: args.verify,
         all_nodes: args.all_nodes,
@@ -138,7 +133,7 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
     })?;
     if let Some(path) = &args.vtu {
         let text = study.vtu(&answered.solution, answered.modes.as_ref())?;
-        outputs::write(path, text.as_bytes())?;
+        disk::write(path, text.as_bytes())?;
     }
     let report = &answered.report;
     print(&match args.format {
@@ -174,14 +169,14 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
 /// `hyperstat export`
 fn export(args: &args::Export, registry: &Registry) -> Result<bool, CliError> {
     let study = study(&args.input, registry)?;
-    outputs::refuse(args.out.as_deref(), study.files())?;
+    disk::refuse(args.out.as_deref(), study.files())?;
     let text = match args.format {
         FileFormat::Ron => study.mechanism_file(registry)?,
         FileFormat::Json => study.mechanism_file_json(registry)?,
     };
     match &args.out {
         None => print(&text)?,
-        Some(path) => outputs::write(path, text.as_bytes())?,
+        Some(path) => disk::write(path, text.as_bytes())?,
     }
     Ok(true)
 }
@@ -197,17 +192,23 @@ fn fmt(args: &args::Fmt) -> Result<bool, CliError> {
 /// `hyperstat adjust`
 fn adjust(args: &args::Adjust, registry: &Registry) -> Result<bool, CliError> {
     let mechanism = hyperstat_mechanisms::load_mechanism(&args.file, &Disk, registry)?;
-    outputs::refuse(args.out.as_deref(), &mechanism.files())?;
+    disk::refuse(args.out.as_deref(), &mechanism.files())?;
     let (report, text) = AdjustReport::new(&mechanism, &args.file)?;
     if let Some(path) = &args.out {
         let text = text.as_deref().unwrap_or_else(|| mechanism.text());
-        outputs::write(path, text.as_bytes())?;
+        disk::write(path, text.as_bytes())?;
     }
     print(&match args.format {
         Format::Text => text::adjust(&report),
         Format::Json => json(&report)?,
     })?;
     Ok(true)
+}
+
+/// A report as JSON. Numbers read back to the same double.
+fn json(report: &impl Serialize) -> Result<String, CliError> {
+    let text = hyperstat_study::plain::json(report);
+    text.map_err(|error| CliError::Print(error.into()))
 }
 
 /// Prints what a command is asked for.

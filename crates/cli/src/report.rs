@@ -1,12 +1,12 @@
 //! `hyperstat report`: a page of everything.
 
 use hyperstat_mechanisms::{Disk, Job, Registry};
+use hyperstat_study::disk;
 use hyperstat_study::sweep::Threads;
 use hyperstat_study::{Input, Page, Selection, Study, StudyError};
 
 use crate::args::Report;
 use crate::error::CliError;
-use crate::outputs;
 
 /// Poses that are looked at for one that the mechanism can take.
 const LOOKED_AT: usize = 1000;
@@ -16,7 +16,7 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
     let path = &args.input.file;
     let loaded = hyperstat_mechanisms::load(path, &Disk, registry)?;
     let read = loaded.files();
-    outputs::refuse(args.out.as_deref(), &read)?;
+    disk::refuse(args.out.as_deref(), &read)?;
     let focus = args.dwelling.focus();
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let mut page = Page::new(args.title.clone().unwrap_or_else(|| name.into_owned()));
@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Report, registry: &Registry) -> Result<Option<String>, 
     let Some(out) = &args.out else {
         return Ok(Some(html));
     };
-    outputs::write(out, html.as_bytes())?;
+    disk::write(out, html.as_bytes())?;
     Ok(None)
 }
 

@@ -1,9 +1,10 @@
 //! What a terminal is shown: colours where it takes them, and nothing that would steer it.
 
-use std::borrow::Cow;
 use std::env;
 use std::ffi::OsStr;
 use std::io::{self, BufRead, IsTerminal, Write};
+
+pub(crate) use hyperstat_study::plain::{plain, steers};
 
 /// Whether what goes to standard error may be coloured: a terminal that takes colours, and nobody who
 /// wants none (`NO_COLOR` with any text, `TERM=dumb`).
@@ -26,38 +27,6 @@ pub(crate) fn cannot_redraw() -> bool {
 
 fn is_dumb(term: Option<&OsStr>) -> bool {
     term.is_some_and(|term| term == "dumb")
-}
-
-/// Whether a character tells a terminal to do something else than show it: control characters but
-/// line breaks and tabs, and those that turn the direction of writing.
-pub(crate) fn steers(c: char) -> bool {
-    let turns = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    turns || (c.is_control() && !matches!(c, '\n' | '\t'))
-}
-
-/// `text`, with every character that would steer a terminal as its number, `\u{1b}`.
-pub(crate) fn plain(text: &str) -> Cow<'_, str> {
-    written(text, |c| format!("\\u{{{:x}}}", u32::from(c)))
-}
-
-/// The JSON document `text`, with every character that would steer a terminal as JSON writes it by
-/// its number: the same document.
-pub(crate) fn plain_json(text: &str) -> Cow<'_, str> {
-    written(text, |c| format!("\\u{:04x}", u32::from(c)))
-}
-
-fn written(text: &str, number: impl Fn(char) -> String) -> Cow<'_, str> {
-    if !text.contains(steers) {
-        return Cow::Borrowed(text);
-    }
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match steers(c) {
-            true => safe += &number(c),
-            false => safe.push(c),
-        }
-    }
-    Cow::Owned(safe)
 }
 
 /// Says something on standard error that is neither a result nor an error.
@@ -94,17 +63,5 @@ mod tests {
         assert!(!takes(Some("0"), Some("xterm")));
         assert!(!takes(None, Some("dumb")));
         assert!(!takes(Some(""), Some("dumb")));
-    }
-
-    #[test]
-    fn nothing_steers_a_terminal() {
-        assert_eq!(plain("φ: 1\tm\n"), "φ: 1\tm\n");
-        assert_eq!(plain("a\u{1b}[2Jb\r\u{7}"), "a\\u{1b}[2Jb\\u{d}\\u{7}");
-        assert_eq!(plain("\u{9b}31m\u{202e}"), "\\u{9b}31m\\u{202e}");
-        let name = "a\u{7f}\u{9b}31m\u{2066}";
-        let json = serde_json::to_string(name).unwrap();
-        let shown = plain_json(&json);
-        assert!(!shown.contains(steers));
-        assert_eq!(serde_json::from_str::<String>(&shown).unwrap(), name);
     }
 }

@@ -10,6 +10,8 @@ mod contrast;
 mod differences;
 #[cfg(feature = "figures")]
 mod digits;
+#[cfg(all(feature = "fs", feature = "parts"))]
+pub mod disk;
 mod doubts;
 mod drives;
 mod entries;
@@ -25,6 +27,7 @@ mod number;
 mod page;
 #[cfg(feature = "parts")]
 pub mod parts;
+pub mod plain;
 #[cfg(feature = "figures")]
 mod plot_error;
 #[cfg(feature = "figures")]
@@ -67,7 +70,7 @@ pub use hyperstat_mechanisms::Disk;
 pub use hyperstat_mechanisms::{
     Along, Arguments, Batch, Dependence, Drive, Files, Input, Job, JobLoad, JobMechanism, JobPoses,
     LoadError, Location, Mechanism, MemoryFiles, Orientation, ParsedJoint, PoseError, Registry,
-    Target, Value, load, load_str,
+    Target, Value, load, load_batch, load_str,
 };
 pub use measures::Measure;
 pub use number::{ROUNDING, Rounding, number, without_rounding};

@@ -2,13 +2,13 @@
 //! deflection comes from.
 
 use hyperstat_mechanisms::{Along, Disk, Noted, Registry};
-use hyperstat_study::figure::{Labels, Look};
+use hyperstat_study::disk;
+use hyperstat_study::figure::{Form, Labels, Look};
 use hyperstat_study::{Asked, Selection, Study};
 
-use super::{Plotted, files, forms, magnified, stem};
+use super::{Plotted, forms, magnified, stem};
 use crate::args;
 use crate::error::CliError;
-use crate::outputs;
 
 /// The figure that is asked for.
 pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, CliError> {
@@ -42,8 +42,8 @@ pub(super) fn figure(args: &args::Plot, registry: &Registry) -> Result<Plotted, 
     };
     let moving = if args.animate { "-moving" } else { "" };
     let stem = super::stem_of(args, &format!("{name}-{kind}{moving}"));
-    let files = files(&stem, &forms(args));
-    outputs::refuse(files.iter().map(|path| &**path), study.files())?;
+    let files = Form::files(&stem, &forms(args));
+    disk::refuse(files.iter().map(|path| &**path), study.files())?;
     let title = args.title.clone();
     let mut shown = args.show.clone();
     // A pose that was asked for by its coordinates is told by them.

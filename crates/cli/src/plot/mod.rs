@@ -8,14 +8,14 @@ mod table;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use hyperstat_figures::{FigureError, Scale};
+use hyperstat_figures::Scale;
 use hyperstat_mechanisms::{Registry, files as read};
-use hyperstat_study::figure::Drawing;
+use hyperstat_study::disk::{OutputError, write_figure};
+use hyperstat_study::figure::{Drawing, Form};
 use serde::de::IgnoredAny;
 
 use crate::args;
 use crate::error::{CliError, SHAPE};
-use crate::outputs;
 
 /// A figure, and its files without their extensions.
 struct Plotted {
@@ -71,83 +71,16 @@ pub(crate) fn run(
     }
     let Plotted { drawing, stem } = plotted(args, registry)?;
     let mut told = String::new();
-    for path in write(&drawing, &stem, &forms(args))? {
+    for path in write_figure(&drawing, &stem, &forms(args))? {
         told += &format!("{}\n", path.display());
     }
-    let caption = drawing.caption().map_err(|source| CliError::Figure {
+    let caption = drawing.caption().map_err(|source| OutputError::Figure {
         path: stem.clone(),
         source,
     })?;
     told += &format!("{caption}\n");
     tell(&told)?;
     Ok(true)
-}
-
-/// A form in which a figure is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Form {
-    Svg,
-    Png,
-    Pdf,
-    /// Of a figure that moves.
-    Gif,
-}
-
-impl Form {
-    /// The forms of every figure, and a PDF where it is asked for.
-    pub(crate) fn all(pdf: bool) -> Vec<Self> {
-        let more = pdf.then_some(Self::Pdf);
-        [Self::Svg, Self::Png].into_iter().chain(more).collect()
-    }
-
-    fn extension(self) -> &'static str {
-        match self {
-            Self::Svg => "svg",
-            Self::Png => "png",
-            Self::Pdf => "pdf",
-            Self::Gif => "gif",
-        }
-    }
-
-    /// The file's bytes.
-    fn drawn(self, drawing: &Drawing) -> Result<Vec<u8>, FigureError> {
-        match self {
-            Self::Svg => drawing.svg().map(String::into_bytes),
-            Self::Png => drawing.png(),
-            Self::Pdf => drawing.pdf(),
-            Self::Gif => drawing.gif().map(Option::unwrap_or_default),
-        }
-    }
-}
-
-/// Writes a figure in these forms, as `STEM.svg` and so on; all are drawn before the first is written.
-pub(crate) fn write(
-    drawing: &Drawing,
-    stem: &Path,
-    forms: &[Form],
-) -> Result<Vec<PathBuf>, CliError> {
-    let mut drawn = Vec::new();
-    for (form, path) in forms.iter().zip(files(stem, forms)) {
-        match form.drawn(drawing) {
-            Ok(bytes) => drawn.push((path, bytes)),
-            Err(source) => return Err(CliError::Figure { path, source }),
-        }
-    }
-    for (path, bytes) in &drawn {
-        outputs::write(path, bytes)?;
-    }
-    Ok(drawn.into_iter().map(|(path, _)| path).collect())
-}
-
-/// The files of a figure in these forms.
-pub(crate) fn files(stem: &Path, forms: &[Form]) -> Vec<PathBuf> {
-    let file = |form: &Form| {
-        let mut path = stem.as_os_str().to_owned();
-        path.push(".");
-        path.push(form.extension());
-        PathBuf::from(path)
-    };
-    forms.iter().map(file).collect()
 }
 
 /// The forms that the command line asks for.

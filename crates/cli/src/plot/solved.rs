@@ -2,12 +2,12 @@
 
 use hyperstat_mechanisms::files;
 use hyperstat_study::PlotError;
-use hyperstat_study::figure::{Drawing, Solved};
+use hyperstat_study::disk;
+use hyperstat_study::figure::{Drawing, Form, Solved};
 
 use super::{Plotted, stem};
 use crate::args;
 use crate::error::CliError;
-use crate::outputs;
 
 /// The figure of the budget.
 pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
@@ -30,8 +30,8 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
     let solved = Solved::from_json(&args.file, &String::from_utf8_lossy(&bytes))?;
     let drawing = Drawing::Budget(solved.budget(&args.file, args.title.clone())?);
     let stem = super::stem_of(args, &format!("{}-budget", stem(&args.file)));
-    let files = super::files(&stem, &super::forms(args));
-    outputs::refuse(
+    let files = Form::files(&stem, &super::forms(args));
+    disk::refuse(
         files.iter().map(|path| &**path),
         std::slice::from_ref(&args.file),
     )?;

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use hyperstat_figures::{ColorScale, MapFigure};
-use hyperstat_study::figure::{self, Choice, Drawing, Labels, Lines, Map, NamedTable};
+use hyperstat_study::disk;
+use hyperstat_study::figure::{self, Choice, Drawing, Form, Labels, Lines, Map, NamedTable};
 use hyperstat_study::table::TableReader;
 
-use super::{Plotted, files, forms, magnified, stem, stem_of};
+use super::{Plotted, forms, magnified, stem, stem_of};
 use crate::args;
 use crate::error::{CliError, MAP};
-use crate::outputs;
 
 /// The figure that is asked for.
 pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
@@ -36,8 +36,8 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
         .chain(&args.beside)
         .cloned()
         .collect();
-    let files = files(&stem, &forms(args));
-    outputs::refuse(files.iter().map(|path| &**path), &read)?;
+    let files = Form::files(&stem, &forms(args));
+    disk::refuse(files.iter().map(|path| &**path), &read)?;
     let drawing = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),

@@ -3,14 +3,13 @@
 use std::time::Duration;
 
 use hyperstat_mechanisms::Registry;
-use hyperstat_study::parts::{Missing, Origin, Part, Work, hashes};
+use hyperstat_study::parts::{Folder, Missing, Origin, Part, Results, Work, hashes, sweeps_of};
 use hyperstat_study::sweep::Threads;
 
-use super::results::Results;
-use super::{note, prepare};
+use super::note;
 use crate::args;
 use crate::error::CliError;
-use crate::shelf::Folder;
+use crate::text::Said;
 
 /// Joins the parts of a run. `tell` gets the summary of every job, or what is missing.
 ///
@@ -31,7 +30,7 @@ pub(crate) fn merge(
         });
     }
     let batch = origin.batch(registry)?;
-    let sweeps = prepare(&batch, options.way())?;
+    let sweeps = sweeps_of(&batch, options.way())?;
     let results = Results::new(&args.out, options);
     results.check(&batch)?;
     let threads = Threads::new(args.threads)?;
@@ -75,7 +74,7 @@ pub(crate) fn merge(
             false => results.finish(job, ran, &threads)?,
         };
         complete &= outcome.summary.is_complete();
-        tell(&outcome.to_string())?;
+        tell(&Said(&outcome).to_string())?;
     }
     Ok(complete)
 }

@@ -2,25 +2,23 @@
 
 mod dry;
 mod merge;
-mod results;
 
 use std::fs;
 
-use hyperstat_mechanisms::{Batch, Disk, Job, Registry};
-use hyperstat_study::figure;
-use hyperstat_study::parts::{Done, Found, Origin, Part, Reading, Share, Work};
-use hyperstat_study::sweep::{Columns, Sweep, Threads, Way};
-use hyperstat_study::table;
+use hyperstat_mechanisms::{Disk, Registry};
+use hyperstat_study::disk::OutputError;
+use hyperstat_study::parts::{
+    Done, Folder, Found, Origin, Outcome, Part, Reading, Results, Share, Work, sweeps_of,
+};
+use hyperstat_study::sweep::{Sweep, Threads};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Shard;
 use crate::error::CliError;
-use crate::shelf::Folder;
 use crate::signals::Signals;
-use crate::text::Outcome;
+use crate::text::Said;
 use crate::{args, consent, terminal};
 pub(crate) use merge::merge;
-use results::Results;
 
 /// Runs a batch. `tell` gets the summary of every job; what it fails with ends no run, since the
 /// results are files.
@@ -34,7 +32,7 @@ pub(crate) fn run(
     let reading = Reading::of(&Disk);
     let batch = hyperstat_mechanisms::load_batch(&args.file, &reading, registry)?;
     let options = args.options();
-    let sweeps = prepare(&batch, options.way())?;
+    let sweeps = sweeps_of(&batch, options.way())?;
     let part = part_of(args, &sweeps)?;
     let threads = Threads::new(args.threads)?;
     if args.dry_run {
@@ -44,10 +42,7 @@ pub(crate) fn run(
     let results = Results::new(&args.out, options);
     results.check(&batch)?;
     consent::ask(&sweeps, &part, args)?;
-    fs::create_dir_all(&args.out).map_err(|source| CliError::Write {
-        path: args.out.clone(),
-        source,
-    })?;
+    fs::create_dir_all(&args.out).map_err(OutputError::write(&args.out))?;
     let signals = Signals::heard();
     let work = Work {
         shelf: &Folder::new(&args.out),
@@ -75,16 +70,18 @@ pub(crate) fn run(
                 ));
             }
         })?;
-        let Some(outcome) = outcome.filter(|_| bar.position() == rows || !signals.came()) else {
+        // A bar that is finished says that all is done.
+        let done = bar.position();
+        let Some(outcome) = outcome.filter(|_| done == rows || !signals.came()) else {
             bar.finish_and_clear();
             return Err(CliError::Interrupted {
-                done: bar.position(),
+                done,
                 rows,
                 out: args.out.clone(),
             });
         };
         complete &= outcome.summary.is_complete();
-        told = told.and(bar.suspend(|| tell(&outcome.to_string())));
+        told = told.and(bar.suspend(|| tell(&Said(&outcome).to_string())));
     }
     bar.finish_and_clear();
     told.map(|()| complete)
@@ -168,18 +165,6 @@ fn note(text: &str) {
     let _ = terminal::note(text);
 }
 
-/// Checks all jobs before the first runs.
-fn prepare(batch: &Batch, way: Way) -> Result<Vec<Sweep<'_>>, CliError> {
-    let prepare = |job| prepare_job(job, way);
-    batch.jobs.iter().map(prepare).collect()
-}
-
-fn prepare_job(job: &Job, way: Way) -> Result<Sweep<'_>, CliError> {
-    let columns = table::numeric(&Columns::of(job));
-    figure::check(job, &columns)?;
-    Ok(Sweep::new(job, way)?)
-}
-
 /// Writes a job's table and its figures, or a part of its rows; `None` where it was stopped on the way.
 fn run_job(
     work: &Work<'_>,
@@ -200,7 +185,7 @@ fn run_job(
     }
     if work.part == Part::Whole {
         bar.set_message(format!("{}: figures", job.name));
-        return results.finish(job, done.ran, work.threads).map(Some);
+        return Ok(Some(results.finish(job, done.ran, work.threads)?));
     }
     let Done { ran, rows, .. } = done;
     let warnings = ran.warnings(job);
@@ -236,10 +221,10 @@ mod tests {
 
     use hyperstat_mechanisms::{Disk, Registry, batch_from_str};
     use hyperstat_study::parts::{Options, Origin, Part, Reading, Work};
+    use hyperstat_study::sweep::Way;
     use indicatif::{ProgressBar, ProgressStyle};
 
-    use super::results::Results;
-    use super::{Folder, Threads, Way, prepare, run_job};
+    use super::{Folder, Results, Threads, run_job, sweeps_of};
 
     const BATCH: &str = r#"(jobs: [(
         name: "line",
@@ -256,7 +241,7 @@ mod tests {
     #[test]
     fn the_bar_ends_at_the_number_of_poses() {
         let batch = batch_from_str(BATCH, Path::new("."), &Disk, &Registry::builtin()).unwrap();
-        let sweeps = prepare(&batch, Way::Lanes).unwrap();
+        let sweeps = sweeps_of(&batch, Way::Lanes).unwrap();
         let out = std::env::temp_dir().join(format!("hyperstat-bar-{}", std::process::id()));
         std::fs::create_dir_all(&out).unwrap();
         let threads = Threads::new(3).unwrap();

@@ -24,4 +24,4 @@ pub(crate) use answer::answer;
 pub(crate) use check::check;
 pub(crate) use compare::{compared, compared_tables};
 pub(crate) use solve::full;
-pub(crate) use summary::Outcome;
+pub(crate) use summary::Said;

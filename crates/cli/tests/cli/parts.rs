@@ -179,6 +179,11 @@ fn a_run_that_is_killed_goes_on_to_the_same_bytes() {
                     told.contains("interrupted: ") && told.contains("the same command"),
                     "{told}"
                 );
+                let counts = told.split("interrupted: ").nth(1).unwrap();
+                let counts = counts.split(" rows are done").next().unwrap();
+                let (done, all) = counts.split_once(" of ").unwrap();
+                let [done, all] = [done, all].map(|count| count.parse::<usize>().unwrap());
+                assert!(done < all && all == ROWS + 1, "{told}");
                 let left = all_names(&bench.path("out"));
                 assert!(left.iter().all(|name| !name.ends_with(".part")), "{left:?}");
             }
@@ -253,6 +258,55 @@ fn parts_of_another_run_are_told() {
     let nothing = bench.hyperstat(&["merge", "none"]).ends_with(2);
     nothing.says(&["none: there are no parts of a run", "--shard 0/4"]);
     assert!(!bench.path("none").exists());
+}
+
+#[test]
+fn a_job_may_be_called_as_files_of_parts_are() {
+    let bench = Bench::new("parts-names");
+    for name in ["_run-1", "parts", "_000000000000-000000000902.json"] {
+        bench.file("map.ron", &delta_batch(name, MAP, ""));
+        bench
+            .hyperstat(&["run", "map.ron", "--out", "whole"])
+            .ends_with(1);
+        let _ = fs::remove_dir_all(bench.path("out"));
+        for shard in ["0/2", "1/2"] {
+            bench
+                .hyperstat(&["run", "map.ron", "--out", "out", "--shard", shard])
+                .ends_with(1);
+        }
+        bench.hyperstat(&["merge", "out"]).ends_with(1);
+        let table = format!("{name}.csv");
+        let tables = ["out", "whole"].map(|folder| fs::read(bench.path(folder).join(&table)));
+        assert_eq!(tables[0].as_ref().unwrap(), tables[1].as_ref().unwrap());
+        bench
+            .hyperstat(&["run", "map.ron", "--out", "pieces", "--secure", "0"])
+            .ends_with(1);
+    }
+}
+
+/// A part that is done writes again what was read for it, where that is lost.
+#[test]
+fn what_was_read_is_written_again() {
+    let bench = Bench::new("parts-origin");
+    bench.file("map.ron", &delta_batch("map", MAP, ""));
+    let run = || {
+        bench
+            .hyperstat(&["run", "map.ron", "--out", "out", "--shard", "0/1"])
+            .ends_with(1)
+    };
+    run();
+    for name in bench.names("out/parts") {
+        if name.ends_with(".json") {
+            fs::write(bench.path("out/parts").join(name), "{}").unwrap();
+        }
+    }
+    let lost = bench.hyperstat(&["merge", "out"]).ends_with(2);
+    lost.says(&[
+        "cannot be used",
+        "with the files and options of one of the parts",
+    ]);
+    run().says(&["all rows of `map` were computed before"]);
+    bench.hyperstat(&["merge", "out"]).ends_with(1);
 }
 
 #[test]
@@ -332,6 +386,7 @@ fn a_task_of_a_job_array_has_its_shard() {
             .envs([
                 ("SLURM_ARRAY_TASK_ID", id),
                 ("SLURM_ARRAY_TASK_MIN", "1"),
+                ("SLURM_ARRAY_TASK_MAX", "5"),
                 ("SLURM_ARRAY_TASK_STEP", "2"),
                 ("SLURM_ARRAY_TASK_COUNT", "3"),
             ])
@@ -344,7 +399,7 @@ fn a_task_of_a_job_array_has_its_shard() {
     }
     let wrong = task("4");
     assert_eq!(wrong.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&wrong.stderr).contains("give the array as one range"));
+    assert!(String::from_utf8_lossy(&wrong.stderr).contains("such as `--array=0-9`"));
     bench.hyperstat(&["merge", "out"]).ends_with(1);
     bench
         .hyperstat(&["run", "map.ron", "--out", "whole"])

@@ -32,6 +32,14 @@ pub enum PartsError {
         /// Why.
         why: String,
     },
+    /// Parts that another version of hyperstat began.
+    #[error("the parts are of hyperstat {then}, and this is {now}")]
+    Version {
+        /// That version.
+        then: String,
+        /// This version.
+        now: &'static str,
+    },
     /// Parts of another run where those of this one are to be.
     #[error("{folder} has parts of another run{}", because(.difference))]
     Other {
@@ -76,6 +84,9 @@ impl PartsError {
                 "`hyperstat run` with the files and options of one of the parts writes it again"
                     .into(),
             ),
+            Self::Version { then, .. } => Some(format!(
+                "go on with hyperstat {then}: bytes may differ from version to version"
+            )),
             Self::Other { .. } => Some(
                 "write to another folder, or give `--fresh`, which removes them and begins anew"
                     .into(),

@@ -15,6 +15,8 @@
 //! ```
 
 mod error;
+#[cfg(feature = "fs")]
+mod folder;
 mod manifest;
 mod missing;
 mod origin;
@@ -22,16 +24,22 @@ mod part;
 mod pieces;
 mod plan;
 mod reading;
+#[cfg(feature = "fs")]
+mod results;
 mod shelf;
 mod took;
 mod work;
 
 pub use error::PartsError;
+#[cfg(feature = "fs")]
+pub use folder::Folder;
 pub use missing::Missing;
 pub use origin::{Options, Origin};
 pub use part::{Part, Share};
 pub use pieces::hashes;
 pub use reading::Reading;
+#[cfg(feature = "fs")]
+pub use results::{Outcome, Results};
 pub use shelf::{Draft, Shelf};
 pub use took::{Took, took};
-pub use work::{Done, Found, Work};
+pub use work::{Done, Found, Work, sweeps_of};

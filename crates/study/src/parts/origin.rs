@@ -11,6 +11,14 @@ use super::shelf::{self, Shelf};
 use crate::sweep::Way;
 use crate::table::TableFormat;
 
+/// The version of hyperstat.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What names of files begin and end with, around some digits of the hash.
+const BEGIN: &str = "_run-";
+const END: &str = ".json";
+const DIGITS: usize = 16;
+
 /// What is asked for and changes what is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -99,7 +107,7 @@ impl Origin {
             },
         });
         Self::of(Written {
-            hyperstat: env!("CARGO_PKG_VERSION").into(),
+            hyperstat: VERSION.into(),
             options,
             batch: name(path),
             files: files.collect(),
@@ -124,25 +132,62 @@ impl Origin {
     }
 
     /// Name of its file.
-    pub(super) fn name_of(hash: &str) -> String {
-        format!("parts/_run-{}.json", &hash[..hash.len().min(16)])
+    pub(super) fn name(&self) -> String {
+        Self::name_of(&self.hash)
+    }
+
+    /// Name of the file of that of a hash.
+    fn name_of(hash: &str) -> String {
+        format!("parts/{BEGIN}{}{END}", &hash[..hash.len().min(DIGITS)])
+    }
+
+    /// Whether the run of this hash was begun in a folder of results, and no other.
+    pub(super) fn is_alone(shelf: &dyn Shelf, hash: &str) -> Result<bool, PartsError> {
+        let own = Self::name_of(hash);
+        let names = shelf.names("parts").map_err(PartsError::read("parts"))?;
+        let origins: Vec<_> = names.iter().filter(|name| Self::is_name(name)).collect();
+        Ok(!origins.is_empty() && origins.iter().all(|name| own.ends_with(&***name)))
+    }
+
+    /// Whether a name in the folder of parts is of such a file, and not of a job.
+    pub(super) fn is_name(name: &str) -> bool {
+        let digits = name
+            .strip_prefix(BEGIN)
+            .and_then(|name| name.strip_suffix(END));
+        digits.is_some_and(|own| {
+            own.len() == DIGITS && own.bytes().all(|b| matches!(b, b'0'..=b'9' | b'a'..=b'f'))
+        })
     }
 
     /// Writes it, where it is not yet.
-    pub(super) fn write(&self, shelf: &dyn Shelf) -> std::io::Result<()> {
-        let name = Self::name_of(&self.hash);
-        if Self::read(shelf, &self.hash).is_ok() {
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write(&self, shelf: &dyn Shelf) -> std::io::Result<()> {
+        if Self::known(shelf, &self.hash).is_ok() {
             return Ok(());
         }
         let text = serde_json::to_vec(&self.written).unwrap_or_default();
-        shelf::write(shelf, &name, &text)
+        shelf::write(shelf, &self.name(), &text)
     }
 
-    /// Reads that of a hash.
+    /// Reads that of a hash, to go on with its run.
     ///
     /// # Errors
-    /// There is none that is whole.
+    /// There is none that is whole, or it is of another version of hyperstat.
     pub fn read(shelf: &dyn Shelf, hash: &str) -> Result<Self, PartsError> {
+        let read = Self::known(shelf, hash)?;
+        match read.written.hyperstat == VERSION {
+            true => Ok(read),
+            false => Err(PartsError::Version {
+                then: read.written.hyperstat,
+                now: VERSION,
+            }),
+        }
+    }
+
+    /// Reads that of a hash, of whatever version.
+    pub(super) fn known(shelf: &dyn Shelf, hash: &str) -> Result<Self, PartsError> {
         let name = Self::name_of(hash);
         let lost = |why: String| PartsError::NoOrigin {
             name: name.clone(),

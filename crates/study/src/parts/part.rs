@@ -102,15 +102,24 @@ impl Share {
             let number = text.trim().parse::<usize>();
             number.map_err(|_| format!("{name} is `{text}`, which is no whole number"))
         };
-        let (id, first) = (number("ID")?, number("MIN")?);
+        let (id, first, last) = (number("ID")?, number("MIN")?, number("MAX")?);
         let (step, count) = (number("STEP")?, number("COUNT")?);
+        let one = match count {
+            1 => "one task".into(),
+            count => format!("{count} tasks"),
+        };
         let irregular = format!(
-            "task {id} is none of {count} tasks from {first} on in steps of {step}: give the array as one \
-             range, such as `--array=0-9`"
+            "an array of {one} from {first} to {last} in steps of {step} is not all of one range, such as \
+             `--array=0-9`: tasks of an earlier array are run again by their shards, `--shard {id}/10` \
+             where it had ten"
         );
+        let is_range = step > 0
+            && last.checked_sub(first).map(|span| span / step + 1) == Some(count)
+            // One task alone of a larger array is not all of it.
+            && (count > 1 || first <= 1);
         let place = id
             .checked_sub(first)
-            .filter(|from| step > 0 && from % step == 0);
+            .filter(|from| is_range && from % step == 0);
         let place = place.ok_or(irregular.clone())?;
         Self::new(place / step, count).map_err(|_| irregular)
     }
@@ -196,8 +205,8 @@ mod tests {
 
     #[test]
     fn slurms_variables_are_a_share() {
-        let of = |variables: [&str; 4]| {
-            let names = ["ID", "MIN", "STEP", "COUNT"];
+        let of = |variables: [&str; 5]| {
+            let names = ["ID", "MIN", "MAX", "STEP", "COUNT"];
             Share::of_slurm(|name| {
                 let place = names
                     .iter()
@@ -206,14 +215,30 @@ mod tests {
                 (!text.is_empty()).then(|| text.to_string())
             })
         };
-        assert_eq!(of(["3", "0", "1", "10"]).unwrap().to_string(), "3/10");
-        assert_eq!(of(["7", "1", "2", "5"]).unwrap().to_string(), "3/5");
+        let share = |variables| of(variables).unwrap().to_string();
+        assert_eq!(share(["3", "0", "9", "1", "10"]), "3/10");
+        assert_eq!(share(["7", "1", "9", "2", "5"]), "3/5");
+        assert_eq!(share(["0", "0", "0", "1", "1"]), "0/1");
+        assert_eq!(share(["1", "1", "1", "1", "1"]), "0/1");
+        let again = "tasks of an earlier array are run again by their shards, `--shard 3/10`";
         for (variables, told) in [
-            (["", "0", "1", "10"], "SLURM_ARRAY_TASK_ID is not set"),
-            (["3", "0", "1", "ten"], "`ten`, which is no whole number"),
-            (["4", "1", "2", "5"], "one range"),
-            (["30", "0", "1", "10"], "one range"),
-            (["3", "0", "0", "10"], "one range"),
+            (["", "0", "9", "1", "10"], "SLURM_ARRAY_TASK_ID is not set"),
+            (["3", "0", "", "1", "10"], "SLURM_ARRAY_TASK_MAX is not set"),
+            (
+                ["3", "0", "9", "1", "ten"],
+                "`ten`, which is no whole number",
+            ),
+            (["4", "1", "9", "2", "5"], "such as `--array=0-9`"),
+            (["30", "0", "9", "1", "10"], "such as `--array=0-9`"),
+            (["3", "0", "9", "0", "10"], "such as `--array=0-9`"),
+            // `--array=3,7`, `--array=3-5,7` and `--array=3`.
+            (["3", "3", "7", "1", "2"], again),
+            (["3", "3", "7", "1", "4"], "an array of 4 tasks from 3 to 7"),
+            (
+                ["3", "3", "3", "1", "1"],
+                "an array of one task from 3 to 3",
+            ),
+            (["3", "7", "3", "1", "1"], "such as `--array=0-9`"),
         ] {
             let error = of(variables).unwrap_err();
             assert!(error.contains(told), "{variables:?}: {error}");

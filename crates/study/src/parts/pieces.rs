@@ -32,8 +32,13 @@ impl Pieces {
         let mut names = shelf.names(&folder).map_err(PartsError::read(&folder))?;
         names.sort_unstable();
         let mut found = Self::default();
+        // Of many parts only those are read that matter, where no other run was begun beside them.
+        let is_alone = Origin::is_alone(shelf, run)?;
         for name in names.iter().filter(|name| name.starts_with('_')) {
             let Some(own) = rows_of(name) else { continue };
+            if is_alone && !is_within(&own, rows) {
+                continue;
+            }
             let name = format!("{folder}/{name}");
             let manifest = match Manifest::read(shelf, &name) {
                 Ok(manifest) => manifest,
@@ -76,7 +81,7 @@ impl Pieces {
         let Some(other) = self.others.iter().find(|other| !other.is_result()) else {
             return Ok(());
         };
-        let then = Origin::read(shelf, &other.run);
+        let then = Origin::known(shelf, &other.run);
         Err(PartsError::Other {
             folder: folder(job),
             difference: then.map_or_else(|_| String::new(), |then| origin.difference(&then)),
@@ -120,7 +125,7 @@ pub fn hashes(shelf: &dyn Shelf) -> Result<String, PartsError> {
     jobs.sort_unstable();
     for job in jobs {
         let folder = folder(&job);
-        if job.starts_with("_run-") {
+        if Origin::is_name(&job) {
             continue;
         }
         let mut names = shelf.names(&folder).map_err(PartsError::read(&folder))?;
@@ -134,7 +139,7 @@ pub fn hashes(shelf: &dyn Shelf) -> Result<String, PartsError> {
             match &first {
                 _ if manifest.is_result() => {}
                 Some(first) if first.run != manifest.run => {
-                    let origins = [first, &manifest].map(|of| Origin::read(shelf, &of.run));
+                    let origins = [first, &manifest].map(|of| Origin::known(shelf, &of.run));
                     let difference = match &origins {
                         [Ok(first), Ok(second)] => first.difference(second),
                         _ => String::new(),

@@ -6,6 +6,8 @@ mod join;
 use std::ops::Range;
 use std::time::Duration;
 
+use hyperstat_mechanisms::Batch;
+
 use super::error::PartsError;
 use super::manifest::{Manifest, folder, stem};
 use super::missing::Missing;
@@ -14,8 +16,23 @@ use super::part::{Part, Share};
 use super::pieces::{self, Pieces};
 use super::plan::{Step, computed, plan};
 use super::shelf::Shelf;
+use crate::error::StudyError;
+use crate::figure;
 use crate::ran::Ran;
-use crate::sweep::{Sweep, Threads};
+use crate::sweep::{Columns, Sweep, Threads, Way};
+use crate::table;
+
+/// The sweeps of all jobs of a batch, which are checked before the first runs.
+///
+/// # Errors
+/// A job whose figures are of nothing that its table will hold, or that cannot be swept.
+pub fn sweeps_of(batch: &Batch, way: Way) -> Result<Vec<Sweep<'_>>, StudyError> {
+    let sweep = |job| {
+        figure::check(job, &table::numeric(&Columns::of(job)))?;
+        Sweep::new(job, way)
+    };
+    batch.jobs.iter().map(sweep).collect()
+}
 
 /// How a run does its jobs.
 #[derive(Clone)]
@@ -117,7 +134,7 @@ impl Found {
     /// another hash.
     pub fn replaces(&self, shelf: &dyn Shelf, origin: &Origin) -> Option<String> {
         let other = self.pieces.others.iter().find(|other| other.is_result())?;
-        let then = Origin::read(shelf, &other.run);
+        let then = Origin::known(shelf, &other.run);
         Some(then.map_or_else(|_| String::new(), |then| origin.difference(&then)))
     }
 }

@@ -417,12 +417,14 @@ fn what_is_lost_cut_or_flipped_is_told() {
         .into_iter()
         .find(|name| name.contains("_run-"))
         .unwrap();
-    for bit in [0, 100] {
+    for (bit, is_done) in [(0, false), (100, false), (0, true), (100, true)] {
         let broken = shelf.sound();
         broken.files().get_mut(&origin).unwrap()[bit] ^= 4;
         let told = read.merge(&broken, false).unwrap_err();
         assert!(told[0].contains("cannot be used"), "{told:?}");
-        broken.files().remove(&names[0]);
+        if !is_done {
+            broken.files().remove(&names[0]);
+        }
         read.run(&broken, shard(1, 4), &threads, AT_ONCE).unwrap();
         read.merge(&broken, false).unwrap();
     }
@@ -450,6 +452,22 @@ fn runs_are_not_mixed() {
     let message = refused.to_string();
     assert!(
         message.contains("batch.ron was another then, it read poses.csv"),
+        "{message}"
+    );
+    // One that another version began is not gone on with.
+    let text =
+        String::from_utf8(shelf.read(&format!("parts/_run-{}.json", &read.origin.hash()[..16])));
+    let version = format!("\"hyperstat\":\"{}\"", env!("CARGO_PKG_VERSION"));
+    let older = text.unwrap().replace(&version, "\"hyperstat\":\"0.0.9\"");
+    let hash = blake3::hash(older.as_bytes()).to_hex().to_string();
+    let old = Memory::default();
+    let name = format!("parts/_run-{}.json", &hash[..16]);
+    old.files().insert(name, older.into_bytes());
+    let refused = Origin::read(&old, &hash).unwrap_err();
+    let message = format!("{refused}; {}", refused.help().unwrap());
+    assert!(
+        message.contains("are of hyperstat 0.0.9")
+            && message.contains("go on with hyperstat 0.0.9"),
         "{message}"
     );
     // Two that somebody has put into one folder.

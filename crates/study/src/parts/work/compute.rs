@@ -160,7 +160,7 @@ impl Work<'_> {
         let file = table.finish().map_err(&cannot_write)?;
         let is_table = result.is_some() && self.part == Part::Whole;
         if !is_table {
-            self.origin.write(self.shelf).map_err(&cannot_write)?;
+            self.write_origin()?;
         }
         let table = file.keep(&name).map_err(&cannot_write)?;
         let manifest = self.manifest(sweep, rows, table, ran, result.is_none());

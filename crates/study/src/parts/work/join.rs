@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::super::error::PartsError;
 use super::super::manifest::{Manifest, Table, folder, rows_of, stem};
+use super::super::origin::Origin;
 use super::super::part::Part;
 use super::super::pieces::remove;
 use super::Work;
@@ -30,6 +31,10 @@ impl Work<'_> {
             [] => return Ok(()),
             [all] if all.table.name == name => {
                 recorded |= !computed;
+                if recorded {
+                    // Somebody may have lost it.
+                    self.write_origin()?;
+                }
                 if all.piece {
                     // What was a piece of something else is what is asked for here.
                     let again = self.joined(sweep, parts, rows, all.table.clone());
@@ -40,15 +45,20 @@ impl Work<'_> {
                 let table = self.join(sweep, parts, rows)?;
                 // That a run took long enough to have pieces is kept: it is not repeated in vain.
                 if !is_whole || has_pieces {
-                    let cannot_write = PartsError::write(&name);
-                    self.origin.write(self.shelf).map_err(&cannot_write)?;
+                    self.write_origin()?;
                     let joined = self.joined(sweep, parts, rows, table);
-                    joined.write(self.shelf).map_err(&cannot_write)?;
+                    joined.write(self.shelf).map_err(PartsError::write(&name))?;
                     recorded = true;
                 }
             }
         }
         self.tidy(sweep, rows, recorded)
+    }
+
+    /// Writes what was read for parts, where it is not yet.
+    pub(super) fn write_origin(&self) -> Result<(), PartsError> {
+        let written = self.origin.write(self.shelf);
+        written.map_err(PartsError::write(&self.origin.name()))
     }
 
     /// Joins parts of all rows that are asked for to their table.
@@ -142,7 +152,7 @@ impl Work<'_> {
             .shelf
             .names("parts")
             .map_err(PartsError::read("parts"))?;
-        if names.iter().all(|name| name.starts_with("_run-")) {
+        if names.iter().all(|name| Origin::is_name(name)) {
             for name in names {
                 remove(self.shelf, &format!("parts/{name}"))?;
             }

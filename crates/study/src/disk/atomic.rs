@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
-use crate::destination::{self, Destination};
+use super::destination::{self, Destination};
 
 /// A file being written under a temporary name in the folder of its final one. A link stays, and what
 /// it leads to is replaced; what is no regular file is written to as it is.
@@ -15,7 +15,7 @@ use crate::destination::{self, Destination};
 /// [`AtomicFile::commit`] gives it its name; dropped before that, it is removed. The temporary file is
 /// locked as long as it is written, so that those of dead runs can be told and are removed.
 #[derive(Debug)]
-pub(crate) struct AtomicFile(BufWriter<Target>);
+pub struct AtomicFile(BufWriter<Target>);
 
 /// What is written to.
 #[derive(Debug)]
@@ -39,7 +39,10 @@ const TRIES: usize = 99;
 
 impl AtomicFile {
     /// Opens the temporary file for `path`, which must name a file, not a folder.
-    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+    ///
+    /// # Errors
+    /// It cannot be made, or a folder is at `path`.
+    pub fn create(path: &Path) -> io::Result<Self> {
         let target = match Destination::of(path)? {
             Destination::Stream(path) => Target::Stream(destination::open(&path)?),
             Destination::File(path) => Target::Temporary(temporary(&path)?, path),
@@ -75,14 +78,20 @@ impl AtomicFile {
     }
 
     /// Writes a whole file.
-    pub(crate) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
         let mut file = Self::create(path)?;
         file.write_all(content)?;
         file.commit()
     }
 
     /// Puts the complete file in place of what had its name before.
-    pub(crate) fn commit(self) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot have it, or not all of it could be written.
+    pub fn commit(self) -> io::Result<()> {
         let target = self.0.into_inner().map_err(|error| error.into_error())?;
         if let Target::Temporary(file, path) = target {
             file.as_file().sync_all()?;

@@ -4,18 +4,18 @@ use std::path::Path;
 
 /// Of the file system that a path is on, or will be on.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Disk {
+pub struct Room {
     /// Bytes that are left for whoever asks.
-    pub(crate) free: u64,
+    pub free: u64,
     /// Longest name of a file \[bytes\].
-    pub(crate) longest_name: u64,
+    pub longest_name: u64,
 }
 
-impl Disk {
+impl Room {
     /// The file system of `path`, or of the nearest folder above it that is there; `None` where it
     /// does not say.
     #[cfg(unix)]
-    pub(crate) fn of(path: &Path) -> Option<Self> {
+    pub fn of(path: &Path) -> Option<Self> {
         let path = std::path::absolute(path).ok()?;
         let found = path
             .ancestors()
@@ -28,22 +28,22 @@ impl Disk {
 
     /// Nobody is asked here.
     #[cfg(not(unix))]
-    pub(crate) fn of(_: &Path) -> Option<Self> {
+    pub fn of(_: &Path) -> Option<Self> {
         None
     }
 }
 
 /// Longest name of a file on nearly all file systems.
-pub(crate) const LONGEST_NAME: u64 = 255;
+pub const LONGEST_NAME: u64 = 255;
 
 #[cfg(all(test, unix))]
 mod tests {
-    use super::{Disk, LONGEST_NAME};
+    use super::{LONGEST_NAME, Room};
 
     #[test]
     fn the_file_system_of_what_is_not_there_yet_is_asked() {
         let folder = std::env::temp_dir().join("hyperstat-none/there/yet");
-        let disk = Disk::of(&folder).unwrap();
+        let disk = Room::of(&folder).unwrap();
         assert!(disk.free > 0 && disk.longest_name <= LONGEST_NAME);
     }
 }

@@ -6,16 +6,39 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::atomic::AtomicFile;
-use crate::destination::{Destination, folder};
-use crate::error::CliError;
+use super::atomic::AtomicFile;
+use super::destination::{Destination, folder};
+use super::error::OutputError;
+use crate::figure::{Drawing, Form};
 
 /// Writes a file as a whole.
-pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), CliError> {
-    AtomicFile::write(path, content).map_err(|source| CliError::Write {
-        path: path.into(),
-        source,
-    })
+///
+/// # Errors
+/// It cannot be written.
+pub fn write(path: &Path, content: &[u8]) -> Result<(), OutputError> {
+    AtomicFile::write(path, content).map_err(OutputError::write(path))
+}
+
+/// Writes a figure in these forms, as `STEM.svg` and so on; all are drawn before the first is written.
+///
+/// # Errors
+/// One cannot be drawn, or not be written.
+pub fn write_figure(
+    drawing: &Drawing,
+    stem: &Path,
+    forms: &[Form],
+) -> Result<Vec<PathBuf>, OutputError> {
+    let mut drawn = Vec::new();
+    for (form, path) in forms.iter().zip(Form::files(stem, forms)) {
+        match form.drawn(drawing) {
+            Ok(bytes) => drawn.push((path, bytes)),
+            Err(source) => return Err(OutputError::Figure { path, source }),
+        }
+    }
+    for (path, bytes) in &drawn {
+        write(path, bytes)?;
+    }
+    Ok(drawn.into_iter().map(|(path, _)| path).collect())
 }
 
 /// What makes two paths one file, whatever they are called.
@@ -41,10 +64,13 @@ fn identity(path: &Path) -> Option<Identity> {
 }
 
 /// Refuses `outputs` of which one is a file that was read, or two are one file.
-pub(crate) fn refuse<'p>(
+///
+/// # Errors
+/// There are such.
+pub fn refuse<'p>(
     outputs: impl IntoIterator<Item = &'p Path>,
     read: &[PathBuf],
-) -> Result<(), CliError> {
+) -> Result<(), OutputError> {
     let read: HashMap<Identity, &PathBuf> = read
         .iter()
         .filter_map(|path| Some((identity(path)?, path)))
@@ -52,13 +78,13 @@ pub(crate) fn refuse<'p>(
     let mut written: HashMap<(PathBuf, OsString), &Path> = HashMap::new();
     for output in outputs {
         if let Some(input) = identity(output).and_then(|identity| read.get(&identity)) {
-            return Err(CliError::Overwrites {
+            return Err(OutputError::Overwrites {
                 output: output.into(),
                 input: (*input).clone(),
             });
         }
         if let Some(first) = place(output).and_then(|place| written.insert(place, output)) {
-            return Err(CliError::SameOutput {
+            return Err(OutputError::SameOutput {
                 first: first.into(),
                 second: output.into(),
             });

@@ -5,17 +5,17 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use hyperstat_study::parts::{Draft, Shelf};
-use hyperstat_study::table::Content;
-
-use crate::atomic::{AtomicFile, remove_all_dead};
+use super::shelf::{Draft, Shelf};
+use crate::disk::{AtomicFile, remove_all_dead};
+use crate::table::Content;
 
 /// A folder of results on a disk.
 #[derive(Debug)]
-pub(crate) struct Folder(PathBuf);
+pub struct Folder(PathBuf);
 
 impl Folder {
-    pub(crate) fn new(path: &Path) -> Self {
+    /// That at this path, there or not yet.
+    pub fn new(path: &Path) -> Self {
         Self(path.into())
     }
 }
