@@ -3,7 +3,8 @@
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use hyperstat_study::{LoadError, StudyError};
+use hyperstat_study::disk::OutputError;
+use hyperstat_study::{LoadError, Location, StudyError};
 use pyo3::prelude::*;
 
 /// What ends a computation.
@@ -12,6 +13,10 @@ pub(crate) enum Ended {
     Study(Box<StudyError>),
     /// An argument that is none.
     Argument(String, Option<String>),
+    /// Parts of a run that are not as they should be.
+    Parts(String, Option<String>),
+    /// A result that is not written.
+    Output(Box<OutputError>),
     /// An exception of Python.
     Python(PyErr),
     /// What called it has ended.
@@ -30,6 +35,12 @@ impl From<LoadError> for Ended {
     }
 }
 
+impl From<OutputError> for Ended {
+    fn from(error: OutputError) -> Self {
+        Self::Output(Box::new(error))
+    }
+}
+
 impl From<PyErr> for Ended {
     fn from(error: PyErr) -> Self {
         Self::Python(error)
@@ -42,11 +53,24 @@ impl Ended {
         Self::Argument(message.into(), Some(help.into()))
     }
 
+    /// A mechanism that is asked about in a pose, and is in none.
+    pub(crate) fn unposed() -> Self {
+        Self::argument(
+            "the mechanism is in no pose yet",
+            "bring it to one with `in_pose((x, y, z))`, or give `sweep` and `at` theirs",
+        )
+    }
+
     /// The exception.
     pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
         match self {
             Self::Study(error) => raised(py, &error),
             Self::Argument(message, help) => made(py, "argument", &message, help, None),
+            Self::Parts(message, help) => made(py, "parts", &message, help, None),
+            Self::Output(error) => {
+                let place = error.location().map(place);
+                made(py, "output", &error.to_string(), error.help(), place)
+            }
             Self::Python(error) => error,
             Self::Stopped => pyo3::exceptions::PyKeyboardInterrupt::new_err(()),
         }
@@ -57,11 +81,13 @@ impl Ended {
 type Place<'e> = (String, usize, usize, usize, &'e str);
 
 fn raised(py: Python<'_>, error: &StudyError) -> PyErr {
-    let place = error.location().map(|at| {
-        let path = at.path.display().to_string();
-        (path, at.line, at.column, at.width, &*at.text)
-    });
+    let place = error.location().map(place);
     made(py, error.code(), &error.to_string(), error.help(), place)
+}
+
+fn place(at: &Location) -> Place<'_> {
+    let path = at.path.display().to_string();
+    (path, at.line, at.column, at.width, &*at.text)
 }
 
 fn made(

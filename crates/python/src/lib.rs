@@ -10,6 +10,7 @@ mod kept;
 mod mechanism;
 mod pool;
 mod pose;
+mod run;
 mod sweep;
 mod watched;
 
@@ -50,6 +51,8 @@ mod _hyperstat {
     use super::mechanism::{Core, load, parse, prebuilt};
     #[pymodule_export]
     use super::pose::{Pose, pose_again};
+    #[pymodule_export]
+    use super::run::{begin_run, lasts, merge_run, run_share};
     #[pymodule_export]
     use super::schema;
     #[pymodule_export]

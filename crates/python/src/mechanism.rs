@@ -226,6 +226,7 @@ impl Core {
         poses: Option<(Vec<String>, PyReadonlyArray2<'_, f64>)>,
         fields: Vec<(String, String)>,
         designs: Option<Vec<(String, Vec<Given>)>>,
+        rows: Option<(usize, usize)>,
         threads: usize,
         one_by_one: bool,
         progress: Option<Py<PyAny>>,
@@ -241,12 +242,13 @@ impl Core {
         let found = watched(slf.py(), progress.as_ref(), move |watch| {
             let own = own.get();
             let asking = Asking {
+                rows,
                 threads,
                 one_by_one,
             };
             match (&own.subject, poses, &designs) {
                 (Subject::Job { job, design, pose }, None, None) if fields.is_empty() => {
-                    pose.ok_or_else(unposed)?;
+                    pose.ok_or_else(Ended::unposed)?;
                     let first = design * job.len();
                     asking.run(job, first..first + job.len(), own.varied(), watch)
                 }
@@ -374,7 +376,7 @@ impl Core {
             // It says what of a selection a mechanism file does not have.
             mechanism => {
                 let study = Study::of(mechanism, &path, &selection)?;
-                let own = study.mechanism().cloned().ok_or_else(unposed)?;
+                let own = study.mechanism().cloned().ok_or_else(Ended::unposed)?;
                 Ok(Self {
                     subject: Subject::File(Box::new(own)),
                     path,
@@ -440,7 +442,7 @@ impl Core {
     }
 
     fn posed(&self) -> Result<usize, Ended> {
-        self.pose().ok_or_else(unposed)
+        self.pose().ok_or_else(Ended::unposed)
     }
 
     /// A job of it alone, in the poses that it has.
@@ -457,7 +459,7 @@ impl Core {
         })
     }
 
-    fn job_with(&self, fields: &[(String, String)]) -> Result<Job, Ended> {
+    pub(crate) fn job_with(&self, fields: &[(String, String)]) -> Result<Job, Ended> {
         let mut job = self.job()?;
         for (field, value) in fields {
             job.set_json(field, value)?;
@@ -484,13 +486,6 @@ impl Core {
         self.study.put(study);
         answer
     }
-}
-
-fn unposed() -> Ended {
-    Ended::argument(
-        "the mechanism is in no pose yet",
-        "bring it to one with `in_pose((x, y, z))`, or give `sweep` and `at` theirs",
-    )
 }
 
 fn json(report: &impl serde::Serialize) -> Result<String, Ended> {

@@ -17,6 +17,8 @@ use crate::watched::Watch;
 
 /// How a sweep is run.
 pub(crate) struct Asking {
+    /// From one row to before another, of those of a sweep of one design.
+    pub(crate) rows: Option<(usize, usize)>,
     pub(crate) threads: usize,
     pub(crate) one_by_one: bool,
 }
@@ -82,11 +84,18 @@ impl Asking {
             false => Way::Lanes,
         };
         let sweep = unforked(|| Sweep::new(job, way))?;
+        let rows = match self.rows {
+            Some((from, to)) => rows.end.min(rows.start + from)..rows.end.min(rows.start + to),
+            None => rows,
+        };
         let threads = pool::threads(self.threads)?;
         let mut found = Rows {
             varied,
             ..Rows::new(job, &rows)
         };
+        if self.rows.is_some() {
+            found.designs = 1;
+        }
         let total = rows.len();
         let mut done = 0;
         watch.at(done, total)?;

@@ -40,7 +40,7 @@ def test_the_package_and_the_examples_are_typed(tmp_path: Path) -> None:
     pytest.importorskip("mypy")
     (tmp_path / "mypy.ini").write_text(
         "[mypy]\nstrict = true\n"
-        "[mypy-matplotlib.*,pandas.*,pyarrow.*,xarray.*,pyvista.*,tqdm.*,scipy.*,pymoo.*,optuna.*]\n"
+        "[mypy-matplotlib.*,pandas.*,pyarrow.*,xarray.*,pyvista.*,tqdm.*,scipy.*,pymoo.*,optuna.*,distributed.*]\n"
         "ignore_missing_imports = true\nfollow_imports = skip\n"
     )
     checked("mypy", "-p", "hyperstat", cwd=tmp_path)

@@ -17,7 +17,7 @@ Whatever is wrong is an `Error` with `.message`, `.place`, `.help` and `.code`.
 
 import os as _os
 
-from . import parts
+from . import dask, parts
 from ._choose import Choice, choose_poses
 from ._errors import (
     ArgumentError,
@@ -27,6 +27,7 @@ from ._errors import (
     MissingError,
     Place,
     PoseError,
+    RunError,
     SelectionError,
     UnsolvableError,
 )
@@ -62,12 +63,14 @@ __all__ = [
     "Place",
     "Pose",
     "PoseError",
+    "RunError",
     "SelectionError",
     "Solution",
     "Table",
     "UnsolvableError",
     "__version__",
     "choose_poses",
+    "dask",
     "identify",
     "information",
     "load",

@@ -122,6 +122,10 @@ class MissingError(Error, ImportError):
         super().__init__(message, code=code, help=help, place=place)
 
 
+class RunError(Error, RuntimeError):
+    """A run whose parts are not as they should be, or whose files cannot be written."""
+
+
 class InternalError(Error, RuntimeError):
     """A bug in hyperstat."""
 
@@ -149,6 +153,8 @@ _CLASSES: dict[str, type[Error]] = {
     "unsolvable": UnsolvableError,
     "free-output": UnsolvableError,
     "unverified": UnsolvableError,
+    "parts": RunError,
+    "output": RunError,
     "internal": InternalError,
 }
 

@@ -20,13 +20,17 @@ __all__ = [
     "__version__",
     "after_fork",
     "before_fork",
+    "begin_run",
     "column",
+    "lasts",
     "load",
     "measure",
     "measures",
+    "merge_run",
     "parse",
     "pose_again",
     "prebuilt",
+    "run_share",
     "schema",
 ]
 
@@ -58,6 +62,7 @@ class Core:
         poses: Optional[tuple[Sequence[str], _Array]],
         fields: Sequence[tuple[str, str]],
         designs: Optional[Sequence[tuple[str, Sequence[_Value]]]],
+        rows: Optional[tuple[int, int]],
         threads: int,
         one_by_one: bool,
         progress: Optional[Callable[[int, int], object]],
@@ -149,4 +154,22 @@ def after_fork() -> None: ...
 def measure(name: str, stiffness: _Array, displacement: _Array) -> _Array: ...
 def measures() -> list[tuple[str, str, str]]: ...
 def column(name: str) -> tuple[str, str]: ...
+def begin_run(
+    batch: Union[str, PathLike[str]],
+    out: Union[str, PathLike[str]],
+    parquet: bool,
+    summary: bool,
+    pdf: bool,
+    one_by_one: bool,
+) -> tuple[str, int, float]: ...
+def run_share(out: Union[str, PathLike[str]], run: str, index: int, count: int) -> list[str]: ...
+def merge_run(
+    out: Union[str, PathLike[str]], run: str
+) -> list[tuple[str, int, list[tuple[str, int]], list[Path], list[str]]]: ...
+def lasts(
+    mechanism: Core,
+    poses: tuple[Sequence[str], _Array],
+    fields: Sequence[tuple[str, str]],
+    one_by_one: bool,
+) -> float: ...
 def schema() -> str: ...

@@ -320,12 +320,13 @@ class Mechanism:
         threads: int,
         one_by_one: bool,
         progress: Progress,
+        rows: Optional[tuple[int, int]] = None,
     ) -> Table:
         table = None if poses is None else columns_of(poses)
         threads = threads_of(threads)
         call, close = _reporter(progress)
         try:
-            found = self._core.sweep(table, _json(fields), designs, threads, one_by_one, call)
+            found = self._core.sweep(table, _json(fields), designs, rows, threads, one_by_one, call)
         finally:
             close()
         return Table(found)

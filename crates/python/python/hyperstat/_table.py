@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, Optional
 
@@ -317,6 +317,32 @@ class Table:
         )
         title = html.escape(repr(self)[1:-1])
         return f"<table><caption>{title}</caption><tr>{head}</tr>{rows}</table>"
+
+
+def joined(tables: Sequence[Table]) -> Table:
+    """Tables of the rows of one sweep, in their order."""
+    first = tables[0]
+    whole = Table.__new__(Table)
+    for name in ("pose", "stiffness", "displacement"):
+        setattr(whole, name, np.concatenate([getattr(own, name) for own in tables]))
+    whole.designs = first.designs
+    # Words are numbered as their first rows come.
+    words = dict.fromkeys(word for own in tables for word in own._words)
+    whole._words = list(words)
+    numbers = {word: number for number, word in enumerate(words)}
+    codes = [np.array([numbers[word] for word in own._words], dtype=np.uint8)[own._codes] for own in tables]
+    whole._codes = np.concatenate(codes)
+    whole.why = {word: why for own in reversed(tables) for word, why in own.why.items()}
+    whole.why = {word: whole.why[word] for word in words if word in whole.why}
+    for name in ("_all", "drives", "varied"):
+        columns = {key: np.concatenate([getattr(own, name)[key] for own in tables]) for key in getattr(first, name)}
+        setattr(whole, name, columns)
+    whole.further = {name: whole._all[name] for name in first.further}
+    whole.cases = Cases(
+        (name, CaseTable(name, np.concatenate([own.cases[name].displacement for own in tables])))
+        for name in first.cases
+    )
+    return whole
 
 
 def _column(name: str, own: Any) -> Any:
