@@ -212,7 +212,7 @@ def _count(client: Client, shards: Optional[int], seconds: float, rows: int) -> 
         if _whole(shards, "shards") < 1:
             raise ArgumentError(f"{shards} shards", help="give at least 1, or leave it out")
         return min(shards, max(rows, 1))
-    threads = sum(client.nthreads().values())
+    threads = sum(int(own) for own in client.nthreads().values())
     count = max(math.ceil(seconds / _LONG), min(4 * threads, math.ceil(seconds / _SHORT)))
     return max(1, min(count, rows))
 
