@@ -158,8 +158,8 @@ def test_mistakes_are_told_here(client: Client, batch: Path, examples: Path, tmp
     assert mistake.value.place is not None and not (tmp_path / "none").exists()
     # A table that was read is not written to.
     (tmp_path / "map.csv").write_text("x,y,z\n0,0,0.5\n", encoding="utf-8")
-    grid = BATCH[BATCH.index("Grid(") : BATCH.index("\n        loads")].rstrip(",")
-    batch.write_text(BATCH.replace(grid, 'Csv("map.csv")'), encoding="utf-8")
+    before, after = BATCH.index("Grid("), BATCH.index("\n    ),\n    (name")
+    batch.write_text(BATCH[:before] + 'Csv("map.csv"),' + BATCH[after:], encoding="utf-8")
     with pytest.raises(hs.RunError, match="map.csv would be overwritten: it was read"):
         hs.dask.run(client, batch, tmp_path)
     # Workers that do not see the folder.
