@@ -10,7 +10,7 @@ use hyperstat_study::{Comparison, Input, PlotError, Study, compare_tables};
 
 use crate::args::{Compare, Format};
 use crate::error::CliError;
-use crate::json;
+use crate::json::json;
 use crate::{plot, text};
 
 /// The report, and the files that are drawn.

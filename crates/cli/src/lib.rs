@@ -8,6 +8,7 @@ mod consent;
 mod diagnostic;
 mod error;
 mod files;
+mod json;
 mod plot;
 mod report;
 mod run;
@@ -27,7 +28,7 @@ use hyperstat_study::{AdjustReport, Asked, CheckReport, Question, Study};
 
 use args::{Cli, Command, FileFormat, Format};
 use error::CliError;
-use serde::Serialize;
+use json::json;
 
 /// Runs the command line `args` (the program's name first) with the kinds of joints in
 /// `registry`: a binary with joints of its own registers them and calls this.
@@ -203,12 +204,6 @@ fn adjust(args: &args::Adjust, registry: &Registry) -> Result<bool, CliError> {
         Format::Json => json(&report)?,
     })?;
     Ok(true)
-}
-
-/// A report as JSON. Numbers read back to the same double.
-fn json(report: &impl Serialize) -> Result<String, CliError> {
-    let text = hyperstat_study::plain::json(report);
-    text.map_err(|error| CliError::Print(error.into()))
 }
 
 /// Prints what a command is asked for.
