@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use hyperstat_study::parts::{
-    Folder, Missing, Options, Origin, Part, PartsError, Reading, Results, Share, Work, sweeps_of,
-    took,
+    Folder, Options, Origin, Part, PartsError, Reading, Results, Share, Work, sweeps_of, took,
 };
 use hyperstat_study::sweep::{Sweep, Threads, Way};
 use hyperstat_study::table::TableFormat;
@@ -126,27 +125,12 @@ pub(crate) fn merge_run(py: Python<'_>, out: PathBuf, run: String) -> PyResult<V
         let batch = origin.batch(&Registry::builtin())?;
         let sweeps = sweeps_of(&batch, origin.options().way())?;
         let threads = Threads::new(0)?;
-        let work = Work {
-            shelf: &shelf,
-            origin: &origin,
-            part: Part::Whole,
-            threads: &threads,
-            secured_every: Duration::MAX,
-            stop: &|| false,
-        };
-        let mut missing = Missing::default();
-        let mut all = Vec::new();
-        let mut unusable = Vec::new();
-        for sweep in &sweeps {
-            let found = work.look(sweep, false).map_err(parts(&out))?;
-            unusable.extend(told(&out, found.broken()));
-            found.missing(&mut missing);
-            all.push(found);
-        }
+        let work = Work::of_parts(&shelf, &origin, &threads);
+        let (all, missing) = work.gather(&sweeps, false).map_err(parts(&out))?;
         if !missing.is_empty() {
             let rows = missing.rows();
             let mut lines = vec![format!("{}: {rows} rows are missing", out.display())];
-            lines.extend(unusable);
+            lines.extend(all.iter().flat_map(|found| told(&out, found.broken())));
             let help = Some("run it again: what is there is not computed again".into());
             return Err(Ended::Parts(lines.join("\n"), help));
         }

@@ -1,9 +1,7 @@
 //! `hyperstat merge`: parts of a run, joined.
 
-use std::time::Duration;
-
 use hyperstat_mechanisms::Registry;
-use hyperstat_study::parts::{Folder, Missing, Origin, Part, Results, Work, hashes, sweeps_of};
+use hyperstat_study::parts::{Folder, Origin, Results, Work, hashes, sweeps_of};
 use hyperstat_study::sweep::Threads;
 
 use super::note;
@@ -34,28 +32,10 @@ pub(crate) fn merge(
     let results = Results::new(&args.out, options);
     results.check(&batch)?;
     let threads = Threads::new(args.threads)?;
-    let work = Work {
-        shelf: &shelf,
-        origin: &origin,
-        part: Part::Whole,
-        threads: &threads,
-        secured_every: Duration::MAX,
-        stop: &|| false,
-    };
-    let mut all = Vec::new();
-    let mut missing = Missing::default();
-    for sweep in &sweeps {
-        let found = work.look(sweep, false).map_err(&failed)?;
-        let found = if args.dataset {
-            found.parts_alone()
-        } else {
-            found
-        };
-        for (name, why) in found.broken() {
-            note(&format!("{}: {why}", args.out.join(name).display()));
-        }
-        found.missing(&mut missing);
-        all.push(found);
+    let work = Work::of_parts(&shelf, &origin, &threads);
+    let (all, missing) = work.gather(&sweeps, args.dataset).map_err(&failed)?;
+    for (name, why) in all.iter().flat_map(|found| found.broken()) {
+        note(&format!("{}: {why}", args.out.join(name).display()));
     }
     if !missing.is_empty() {
         let lines = missing.arguments().into_iter();

@@ -59,6 +59,43 @@ impl std::fmt::Debug for Work<'_> {
     }
 }
 
+impl<'w> Work<'w> {
+    /// That of joining what parts have: nothing is computed.
+    pub fn of_parts(shelf: &'w dyn Shelf, origin: &'w Origin, threads: &'w Threads) -> Self {
+        Self {
+            shelf,
+            origin,
+            part: Part::Whole,
+            threads,
+            secured_every: Duration::MAX,
+            stop: &|| false,
+        }
+    }
+
+    /// What there is of every job, without tables that are joined already where only parts count; and what is
+    /// missing.
+    ///
+    /// # Errors
+    /// The folder has parts of another run, or cannot be read.
+    pub fn gather(
+        &self,
+        sweeps: &[Sweep<'_>],
+        parts_alone: bool,
+    ) -> Result<(Vec<Found>, Missing), PartsError> {
+        let mut all = Vec::with_capacity(sweeps.len());
+        let mut missing = Missing::default();
+        for sweep in sweeps {
+            let mut found = self.look(sweep, false)?;
+            if parts_alone {
+                found = found.parts_alone();
+            }
+            found.missing(&mut missing);
+            all.push(found);
+        }
+        Ok((all, missing))
+    }
+}
+
 /// What is there of the rows of a job that are asked for, and what is to be computed.
 #[derive(Debug)]
 pub struct Found {
