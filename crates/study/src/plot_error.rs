@@ -297,6 +297,18 @@ pub enum PlotError {
 }
 
 impl PlotError {
+    /// The field of a job's figure that is to blame, as far as its kind tells it.
+    pub(crate) fn field(&self) -> &'static str {
+        match self {
+            Self::NoPlane { .. } | Self::Follows { .. } | Self::AlongNormal { .. } => "plane",
+            Self::NoCoordinate { .. } => "axes",
+            Self::NoLabel { .. } => "labels",
+            Self::LimitsMeasure { .. } => "limits",
+            Self::NoDesign { .. } => "beside",
+            _ => "value",
+        }
+    }
+
     /// The place in the table that the error is about.
     pub fn location(&self) -> Option<&Location> {
         match self {

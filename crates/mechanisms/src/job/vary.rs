@@ -2,6 +2,7 @@
 
 use super::subject::Recipe;
 use crate::error::{LoadError, Location};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::replace::Replacement;
@@ -19,6 +20,8 @@ pub struct Varied {
     pub path: String,
     /// Whether all of its values are numbers.
     pub numeric: bool,
+    /// The SI unit of its values, where one of them, or what they take the place of, is written with a unit.
+    pub unit: Option<String>,
 }
 
 /// The designs of a job: all combinations of some values, or the values side by side.
@@ -55,10 +58,12 @@ enum AxisValues {
 }
 
 impl Variation {
-    /// Reads the fields `vary` and `zip` of a job of this recipe, which has so many `poses`.
+    /// Reads the fields `vary` and `zip` of a job of this recipe, which has so many `poses` and whose fields are
+    /// written so.
     pub(crate) fn read(
         fields: &Fields<'_>,
         recipe: &Recipe,
+        written: &[(&'static str, Node)],
         poses: usize,
     ) -> Result<Option<Self>, LoadError> {
         let zip = fields.get("zip");
@@ -104,6 +109,16 @@ impl Variation {
                 .error("`vary` names nothing")
                 .with_help("give `vary: { \"path\": [value, …] }`, or leave it out"));
         }
+        let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
+        let places = places.collect::<Vec<_>>();
+        if let Some((field, place)) = recipe.leaning(&places, written) {
+            let error = place.error(format!(
+                "`{field}` is the same in every design, and this leans on what varies"
+            ));
+            return Err(error.with_help(
+                "write numbers there, or a parameter that does not vary; else one job for each value",
+            ));
+        }
         let count = if zip {
             Some(same_length(&axes)?)
         } else {
@@ -115,10 +130,9 @@ impl Variation {
                 .error("more designs and poses than can be counted")
                 .with_help("give fewer values, or `zip: true` to take them side by side"));
         };
-        let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
         Ok(Some(Self {
             place: map.place(),
-            settled: recipe.settled(&whole, &places.collect::<Vec<_>>()),
+            settled: recipe.settled(&whole, &places),
             whole,
             axes,
             zip,
@@ -150,8 +164,20 @@ impl Variation {
                 AxisValues::Range(_) => true,
                 AxisValues::List(values) => values.iter().all(number),
             },
+            unit: self.measures(axis).map(Dimension::unit),
         };
         self.axes.iter().map(varied).collect()
+    }
+
+    /// What the values of an axis measure, where they, or what they take the place of, say so.
+    fn measures(&self, axis: &Axis) -> Option<Dimension> {
+        let of = |node: &Node| Fragment::of_node(node).measured(None).ok()?.1;
+        let given = match &axis.values {
+            AxisValues::Range(values) => values.dimension(),
+            AxisValues::List(values) => values.iter().find_map(of),
+        };
+        let mut known = axis.places.iter().filter_map(|way| self.whole.find(way));
+        given.or_else(|| known.find_map(of))
     }
 
     /// The ways to the values of every path, in the tree of [`Recipe::whole`].

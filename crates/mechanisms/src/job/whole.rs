@@ -6,7 +6,8 @@ use crate::file::groups;
 use crate::file::loads::{Acting, FIELDS};
 use crate::text::fragment::Fragment;
 use crate::text::paths;
-use crate::text::scope::{Open, Scope};
+use crate::text::scope::{Open, PARAMETERS, Scope};
+use crate::text::source::Place;
 use crate::text::tree::{Content, Node, Steps};
 
 impl Recipe {
@@ -79,6 +80,26 @@ impl Recipe {
             }
         }
         tree
+    }
+
+    /// The first expression in a field of the job that leans on what stands at these `places`, of fields that are
+    /// the same in every design; with the field's name.
+    pub(super) fn leaning(
+        &self,
+        places: &[Steps],
+        fields: &[(&'static str, Node)],
+    ) -> Option<(&'static str, Place)> {
+        let same = |(name, node): &&(&str, Node)| {
+            let varied = FIELDS.contains(name) || ["mechanism", PARAMETERS, "vary"].contains(name);
+            !varied && node.has_expressions()
+        };
+        let mut fields = fields.iter().filter(same).peekable();
+        fields.peek()?;
+        let (open, marked) = Open::mark(&self.whole(), places);
+        let root = self.root_of(&marked);
+        let root = groups::with_copies(&root).unwrap_or(root);
+        let scope = Scope::settling(&root, &open).ok()?;
+        fields.find_map(|(name, node)| Some((*name, scope.open(node)?)))
     }
 
     fn settled_under(&self, marked: &Node, open: &Open) -> Option<Node> {

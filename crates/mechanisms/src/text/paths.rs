@@ -7,7 +7,7 @@
 
 use super::fragment::{Fragment, Parts};
 use super::scope::PARAMETERS;
-use super::tree::{Node, Steps, starts_with};
+use super::tree::{Content, Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
 
@@ -73,6 +73,20 @@ fn find_in(
     if let Some(steps) = parameters.named(path) {
         return Ok(steps);
     }
+    let way = walk(root, &parameters, (key, whole), path, start);
+    way.map_err(|error| match of_copy(root, &path[start..]) {
+        Some(help) => error.with_help(help),
+        None => error,
+    })
+}
+
+fn walk(
+    root: &Node,
+    parameters: &Parameters<'_>,
+    (key, whole): (Fragment<'_>, &str),
+    path: &str,
+    start: usize,
+) -> Result<Steps, LoadError> {
     let (mut value, mut rest) = (root, &path[start..]);
     let mut steps = Steps::new();
     loop {
@@ -92,6 +106,51 @@ fn find_in(
         value = value.part(place).ok_or_else(|| step.without_parts())?;
         rest = &path[walked + length + 1..];
     }
+}
+
+/// What to write in place of a path that begins with the name of a copy's part, such as `joints.slide1`;
+/// `None` of any other.
+fn of_copy(root: &Node, path: &str) -> Option<String> {
+    let (section, rest) = path.split_once('.')?;
+    let (name, rest) = rest.split_once('.').unwrap_or((rest, ""));
+    if root.get(section)?.get(name).is_some() {
+        return None;
+    }
+    let copies = root.get("copies")?;
+    for group in root.get("groups")?.entries() {
+        let Some(placed) = copies.get(group.name()) else {
+            continue;
+        };
+        let parts = group.value().get(section).into_iter();
+        for part in parts.flat_map(Node::entry_names) {
+            let Some(ending) = name.strip_prefix(part).filter(|own| !own.is_empty()) else {
+                continue;
+            };
+            let names = placed.get("names").and_then(|names| match &names.content {
+                Content::List(names) => Some(names),
+                _ => None,
+            });
+            let is_copy = match names {
+                Some(names) => {
+                    let mut names = names.iter().map(Fragment::of_node);
+                    names.any(|own| own.string().is_ok_and(|own| own == ending))
+                }
+                None => ending.bytes().all(|byte| byte.is_ascii_digit()),
+            };
+            if is_copy {
+                let tail = match rest {
+                    "" => String::new(),
+                    rest => format!(".{rest}"),
+                };
+                let (group, value) = (group.name(), format!("{section}.{part}{tail}"));
+                return Some(format!(
+                    "`{name}` is a copy: `groups.{group}.{value}` is the value of all copies; one that `overrides` \
+                     gives to this copy alone is `copies.{group}.overrides.{ending}.{value}`"
+                ));
+            }
+        }
+    }
+    None
 }
 
 /// The parameters of a mechanism, which a path may name alone.

@@ -166,6 +166,16 @@ impl Source {
         let mut read = family.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.insert(path.into());
         drop(read);
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if ending.is_some_and(|ending| ["csv", "parquet"].contains(&ending)) {
+            let place = Place {
+                source: Self::of(path, "", family, false),
+                span: 0..0,
+            };
+            return Err(place
+                .error("this is a table, where a mechanism or batch file is wanted")
+                .with_help("`plot` draws tables, `compare` compares two of them"));
+        }
         match String::from_utf8(bytes) {
             Ok(text) => Ok(Self::of(path, &text, family, shown)),
             Err(error) => {

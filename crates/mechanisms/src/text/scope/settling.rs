@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::{Operand, PARAMETERS, Scope};
 use crate::error::LoadError;
+use crate::text::source::Place;
 use crate::text::tree::{Content, Node, Steps};
 
 /// What varies, as it stands in a tree that is settled.
@@ -55,6 +56,23 @@ impl<'t> Scope<'t> {
         (!self.settling.as_ref().is_some_and(lost)).then_some(tree)
     }
 
+    /// Place of the first expression in a value that leans on something open.
+    pub(crate) fn open(&self, node: &Node) -> Option<Place> {
+        if let Content::Expression(expression) = &node.content {
+            let found = self.evaluated(expression, node);
+            return self.leans(&found).then(|| node.place());
+        }
+        let mut parts = node.parts().into_iter();
+        parts.find_map(|(_, part)| self.open(part))
+    }
+
+    fn leans(&self, found: &Result<Operand, Arc<LoadError>>) -> bool {
+        match (&self.settling, found) {
+            (Some(settling), Err(error)) => Arc::ptr_eq(error, &settling.open.0),
+            _ => false,
+        }
+    }
+
     /// Whether a field of the mechanism stays as it is written.
     pub(super) fn keeps(&self, field: &str) -> bool {
         field == PARAMETERS || (self.settling.is_some() && ["groups", "copies"].contains(&field))
@@ -62,10 +80,10 @@ impl<'t> Scope<'t> {
 
     /// Whether an expression that gives this stays as it is written.
     pub(super) fn stays(&self, found: &Result<Operand, Arc<LoadError>>) -> bool {
-        let (Some(settling), Err(error)) = (&self.settling, found) else {
+        let (Some(settling), Err(_)) = (&self.settling, found) else {
             return false;
         };
-        if !Arc::ptr_eq(error, &settling.open.0) {
+        if !self.leans(found) {
             settling.lost.set(true);
         }
         true
