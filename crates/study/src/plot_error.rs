@@ -297,15 +297,15 @@ pub enum PlotError {
 }
 
 impl PlotError {
-    /// The field of a job's figure that is to blame, as far as its kind tells it.
-    pub(crate) fn field(&self) -> &'static str {
+    /// The fields of a job's figure that may be to blame, as far as the kind of error tells them.
+    pub(crate) fn fields(&self) -> &'static [&'static str] {
         match self {
-            Self::NoPlane { .. } | Self::Follows { .. } | Self::AlongNormal { .. } => "plane",
-            Self::NoCoordinate { .. } => "axes",
-            Self::NoLabel { .. } => "labels",
-            Self::LimitsMeasure { .. } => "limits",
-            Self::NoDesign { .. } => "beside",
-            _ => "value",
+            Self::NoPlane { .. } | Self::Follows { .. } | Self::AlongNormal { .. } => &["plane"],
+            Self::NoCoordinate { .. } => &["axes", "plane"],
+            Self::NoLabel { .. } => &["labels"],
+            Self::LimitsMeasure { .. } => &["limits"],
+            Self::NoDesign { .. } => &["beside"],
+            _ => &[],
         }
     }
 

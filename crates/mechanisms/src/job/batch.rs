@@ -335,11 +335,11 @@ impl Job {
         self.place.location()
     }
 
-    /// Place of a field of a figure in the batch file, by the figure's number from 0; of a field that is not given
-    /// that of `value`, of a figure without one its own, and the job's where there is no such figure.
-    pub fn figure_location(&self, number: usize, field: &str) -> Location {
+    /// Place of a field of a figure in the batch file, by the figure's number from 0: of the first of these that is
+    /// given, else of `value`, of a figure without one its own, and the job's where there is no such figure.
+    pub fn figure_location(&self, number: usize, fields: &[&str]) -> Location {
         let places = self.figure_places.get(number);
-        let place = places.map_or(&self.place, |places| places.of(field));
+        let place = places.map_or(&self.place, |places| places.of(fields));
         place.location()
     }
 

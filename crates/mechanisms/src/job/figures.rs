@@ -211,7 +211,9 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Places), Lo
             labels: fields.get("labels").map_or(Ok(Vec::new()), look::labels)?,
         })
     };
-    let given = names.iter().filter_map(|&name| Some((name, fields.get(name)?.place())));
+    let given = names
+        .iter()
+        .filter_map(|&name| Some((name, fields.get(name)?.place())));
     let places = Places {
         whole: whole.place(),
         fields: given.collect(),
@@ -271,17 +273,17 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Places), Lo
 
 /// Where a figure is written.
 #[derive(Debug, Clone)]
-pub(super) struct Places {
+pub(crate) struct Places {
     whole: Place,
     /// Its fields that are given.
     fields: Vec<(&'static str, Place)>,
 }
 
 impl Places {
-    /// Where a field of this name is written, else its quantity, else the whole.
-    pub(super) fn of(&self, field: &str) -> &Place {
-        let find = |field: &str| self.fields.iter().find(|(name, _)| *name == field);
-        let found = find(field).or_else(|| find("value"));
+    /// Where the first of these fields that is given is written, else its quantity, else the whole.
+    pub(super) fn of(&self, fields: &[&str]) -> &Place {
+        let find = |field: &&str| self.fields.iter().find(|(name, _)| name == field);
+        let found = fields.iter().chain([&"value"]).find_map(find);
         found.map_or(&self.whole, |(_, place)| place)
     }
 }

@@ -93,6 +93,9 @@ impl Variation {
             if let Some(other) = axes.iter().find(overlaps) {
                 return Err(paths::overlapping(&other.path, entry.key));
             }
+            if let Some(used) = recipe.idle(&places, written) {
+                return Err(idle(entry.key, &entry.name, used));
+            }
             let values = AxisValues::read(entry.value)?;
             for known in places.iter().filter_map(|steps| whole.find(steps)) {
                 values.check(entry.value, Fragment::of_node(known), &entry.name)?;
@@ -109,16 +112,6 @@ impl Variation {
                 .error("`vary` names nothing")
                 .with_help("give `vary: { \"path\": [value, …] }`, or leave it out"));
         }
-        let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
-        let places = places.collect::<Vec<_>>();
-        if let Some((field, place)) = recipe.leaning(&places, written) {
-            let error = place.error(format!(
-                "`{field}` is the same in every design, and this leans on what varies"
-            ));
-            return Err(error.with_help(
-                "write numbers there, or a parameter that does not vary; else one job for each value",
-            ));
-        }
         let count = if zip {
             Some(same_length(&axes)?)
         } else {
@@ -130,9 +123,10 @@ impl Variation {
                 .error("more designs and poses than can be counted")
                 .with_help("give fewer values, or `zip: true` to take them side by side"));
         };
+        let places = axes.iter().flat_map(|axis| axis.places.iter().cloned());
         Ok(Some(Self {
             place: map.place(),
-            settled: recipe.settled(&whole, &places),
+            settled: recipe.settled(&whole, &places.collect::<Vec<_>>()),
             whole,
             axes,
             zip,
@@ -234,6 +228,21 @@ impl Variation {
         }
         samples
     }
+}
+
+/// The error of a parameter that no design depends on; `used` is a field of the job that does.
+fn idle(key: Fragment<'_>, name: &str, used: Option<&str>) -> LoadError {
+    let message = match used {
+        Some(field) => {
+            format!("only `{field}` depends on `{name}`, and is the same in every design")
+        }
+        None => format!("nothing depends on `{name}`: all designs would be the same"),
+    };
+    key.error(message).with_help(match used {
+        Some("poses") => "give all poses in one job, or a job for each value",
+        Some(_) => "give a job for each value",
+        None => "use it in an expression, or leave it out",
+    })
 }
 
 /// The number of values that all have.

@@ -5,9 +5,10 @@
 //! diameter of `rod: (section: Circle(diameter: 0.014), …)`. A parameter may be named alone: `R` is
 //! `parameters.R`, unless the mechanism has a field of that name.
 
+use super::copied::Copied;
 use super::fragment::{Fragment, Parts};
 use super::scope::PARAMETERS;
-use super::tree::{Content, Node, Steps, starts_with};
+use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
 
@@ -112,45 +113,20 @@ fn walk(
 /// `None` of any other.
 fn of_copy(root: &Node, path: &str) -> Option<String> {
     let (section, rest) = path.split_once('.')?;
-    let (name, rest) = rest.split_once('.').unwrap_or((rest, ""));
-    if root.get(section)?.get(name).is_some() {
+    let name = rest.split('.').next()?;
+    if (root.get(section)).is_some_and(|map| map.get(name).is_some()) {
         return None;
     }
-    let copies = root.get("copies")?;
-    for group in root.get("groups")?.entries() {
-        let Some(placed) = copies.get(group.name()) else {
-            continue;
-        };
-        let parts = group.value().get(section).into_iter();
-        for part in parts.flat_map(Node::entry_names) {
-            let Some(ending) = name.strip_prefix(part).filter(|own| !own.is_empty()) else {
-                continue;
-            };
-            let names = placed.get("names").and_then(|names| match &names.content {
-                Content::List(names) => Some(names),
-                _ => None,
-            });
-            let is_copy = match names {
-                Some(names) => {
-                    let mut names = names.iter().map(Fragment::of_node);
-                    names.any(|own| own.string().is_ok_and(|own| own == ending))
-                }
-                None => ending.bytes().all(|byte| byte.is_ascii_digit()),
-            };
-            if is_copy {
-                let tail = match rest {
-                    "" => String::new(),
-                    rest => format!(".{rest}"),
-                };
-                let (group, value) = (group.name(), format!("{section}.{part}{tail}"));
-                return Some(format!(
-                    "`{name}` is a copy: `groups.{group}.{value}` is the value of all copies; one that `overrides` \
-                     gives to this copy alone is `copies.{group}.overrides.{ending}.{value}`"
-                ));
-            }
-        }
-    }
-    None
+    let Copied {
+        group,
+        part,
+        ending,
+    } = Copied::find(root, section, name)?;
+    let value = format!("{section}.{part}{}", &rest[name.len()..]);
+    Some(format!(
+        "`{name}` is a copy: `groups.{group}.{value}` is the value of all copies; one that `overrides` gives to this \
+         copy alone is `copies.{group}.overrides.{ending}.{value}`"
+    ))
 }
 
 /// The parameters of a mechanism, which a path may name alone.

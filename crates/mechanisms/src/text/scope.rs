@@ -11,6 +11,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::copied::Copied;
 use super::dimension::Dimension;
 use super::expression::{self, CONSTANTS, Dual, Expression, Failure, Operand};
 use super::fragment::Fragment;
@@ -277,6 +278,13 @@ impl<'t> Scope<'t> {
             return Ok(Operand::Number(Dual::constant(*value)));
         } else if let Some((&name, _)) = self.points().get_key_value(name) {
             coordinate.map_or(Key::Point(name), |k| Key::Coordinate(name, k))
+        } else if let Some(copied) = Copied::find(self.root, "points", name) {
+            let group = copied.group;
+            let error = place(node, at).error(format!(
+                "`{name}` is a point of a copy of group `{group}`: what groups lean on cannot lean on copies"
+            ));
+            let help = "let it lean on the group's own points, or on other parameters";
+            return Err(told(error.with_help(help)));
         } else {
             let error = place(node, at).error(format!("unknown name `{name}`"));
             return Err(told(error.with_help(self.help(name))));

@@ -150,7 +150,7 @@ impl Node {
     }
 
     /// Names of the fields of a struct, or of the arguments of a kind.
-    pub(super) fn field_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn field_names(&self) -> impl Iterator<Item = &str> {
         self.fields().iter().map(|own| &*own.name)
     }
 
@@ -381,7 +381,7 @@ impl Node {
     }
 
     /// The parts of it, each with the step of a path that leads there.
-    pub(super) fn parts(&self) -> Vec<(String, &Self)> {
+    pub(crate) fn parts(&self) -> Vec<(String, &Self)> {
         match &self.content {
             Content::Tuple(items) | Content::List(items) => {
                 let items = items.iter().enumerate();

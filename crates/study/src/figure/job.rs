@@ -32,16 +32,16 @@ use crate::table::TableReader;
 /// What is wrong with the first that is wrong.
 pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
     for (place, figure) in job.figures.iter().enumerate() {
-        let at = |field: &str, source: PlotError| StudyError::JobMap {
-            location: Box::new(job.figure_location(place, field)),
+        let at = |fields: &[&str], source: PlotError| StudyError::JobMap {
+            location: Box::new(job.figure_location(place, fields)),
             source: Box::new(source),
         };
-        let refused = |source: PlotError| at(source.field(), source);
+        let refused = |source: PlotError| at(source.fields(), source);
         if !matches!(figure, Figure::Map { .. }) {
             words(figure).1.axes().map_err(refused)?;
         }
         if let Some(pose) = pose(figure) {
-            place_of(job, pose).map_err(|source| at("pose", source))?;
+            place_of(job, pose).map_err(|source| at(&["pose"], source))?;
         }
         match figure {
             Figure::Map {

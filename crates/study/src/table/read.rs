@@ -7,9 +7,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use hyperstat_mechanisms::{Location, Varied};
 #[cfg(feature = "fs")]
 use hyperstat_mechanisms::files;
+use hyperstat_mechanisms::{Location, Varied};
 #[cfg(feature = "parquet")]
 use parquet::errors::ParquetError;
 #[cfg(feature = "parquet")]
@@ -131,7 +131,9 @@ impl TableReader {
 
     /// The SI unit of a column; empty where it has none or is unknown.
     pub(crate) fn unit(&self, name: &str) -> &str {
-        self.units.get(name).map_or_else(|| unit(name), String::as_str)
+        self.units
+            .get(name)
+            .map_or_else(|| unit(name), String::as_str)
     }
 
     /// Names of its columns.

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use super::{Operand, PARAMETERS, Scope};
 use crate::error::LoadError;
-use crate::text::source::Place;
 use crate::text::tree::{Content, Node, Steps};
 
 /// What varies, as it stands in a tree that is settled.
@@ -56,14 +55,13 @@ impl<'t> Scope<'t> {
         (!self.settling.as_ref().is_some_and(lost)).then_some(tree)
     }
 
-    /// Place of the first expression in a value that leans on something open.
-    pub(crate) fn open(&self, node: &Node) -> Option<Place> {
-        if let Content::Expression(expression) = &node.content {
-            let found = self.evaluated(expression, node);
-            return self.leans(&found).then(|| node.place());
+    /// Whether something in a value leans on something open.
+    pub(crate) fn is_open(&self, node: &Node) -> bool {
+        match &node.content {
+            Content::Expression(expression) => self.leans(&self.evaluated(expression, node)),
+            Content::Failed(error) => self.leans(&Err(Arc::clone(error))),
+            _ => node.parts().into_iter().any(|(_, part)| self.is_open(part)),
         }
-        let mut parts = node.parts().into_iter();
-        parts.find_map(|(_, part)| self.open(part))
     }
 
     fn leans(&self, found: &Result<Operand, Arc<LoadError>>) -> bool {
