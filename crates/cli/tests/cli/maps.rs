@@ -128,10 +128,13 @@ fn a_map_that_cannot_be_is_told_where_the_mistake_is() {
         let at = text.find(figure).unwrap() + figure.find(wrong).unwrap();
         let line = text[..at].lines().count();
         let column = 1 + at - text[..at].rfind('\n').map_or(0, |end| end + 1);
-        let outcome = bench
-            .hyperstat(&["run", "map.ron", "--out", "out"])
-            .ends_with(2);
-        outcome.says(&[&format!("map.ron:{line}:{column}")]);
+        for arguments in [
+            &["check", "map.ron"][..],
+            &["run", "map.ron", "--out", "out"],
+        ] {
+            let outcome = bench.hyperstat(arguments).ends_with(2);
+            outcome.says(&[&format!("map.ron:{line}:{column}")]);
+        }
     }
 }
 
