@@ -174,6 +174,21 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     if wants_text && !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '_') {
         return Some(format!("{QUOTES}: write \"{text}\""));
     }
+    let is_name = |text: &str| {
+        let mut letters = text.chars();
+        letters
+            .next()
+            .is_some_and(|c| c.is_ascii_alphabetic() || c == '_')
+            && letters.all(|c| c.is_ascii_alphanumeric() || c == '_')
+    };
+    // A parameter, without what makes an expression of it.
+    let named = inner('"').unwrap_or(text).trim();
+    let named = named.strip_prefix('=').map_or(named, str::trim);
+    if wants_number && is_name(named) && !NUMBERS.contains(&named) {
+        return Some(format!(
+            "a parameter stands in an expression: write \"= {named}\""
+        ));
+    }
     if wants_number && let Some(inner) = inner('"') {
         return match inner.parse::<f64>() {
             Ok(_) => Some(format!("numbers stand without quotes: write {inner}")),
@@ -193,6 +208,11 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     }
     of_number(text).map(|(message, help)| format!("{message}: {help}"))
 }
+
+/// Words that are meant as numbers.
+const NUMBERS: [&str; 8] = [
+    "inf", "Infinity", "nan", "NaN", "Inf", "true", "false", "Rigid",
+];
 
 /// What is wrong with a text that should be one number, and what would be right.
 fn of_number(text: &str) -> Option<(String, String)> {
