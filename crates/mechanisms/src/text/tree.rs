@@ -68,10 +68,11 @@ pub(crate) type Steps = Vec<usize>;
 const DEEPEST: usize = 256;
 
 /// Fields that hold names: their objects are told from fields and kinds by this alone in JSON.
-pub(crate) const MAPS: [&str; 14] = [
+pub(crate) const MAPS: [&str; 15] = [
     "parameters",
     "groups",
     "copies",
+    "mechanisms",
     "overrides",
     "materials",
     "sections",

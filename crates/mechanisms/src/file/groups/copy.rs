@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::joint;
 use super::placement::Placement;
 use super::renamed::Names;
+pub(super) use super::renamed::Naming;
 use crate::error::LoadError;
 use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
@@ -38,14 +39,14 @@ const MOMENTS: [(&str, Dimension); 2] = [
 pub(super) const DIRECTION: (&str, Dimension) = ("a part of a direction", Dimension::NUMBER);
 
 impl<'g> Copy<'g> {
-    /// The copy whose names end with `ending`.
+    /// The copy with these names.
     pub(super) fn new(
         group: &'g Node,
         root: &'g Node,
         placement: &'g Placement,
-        ending: &'g str,
+        naming: Naming<'g>,
     ) -> Self {
-        let names = Names::of(group, ending);
+        let names = Names::of(group, naming);
         Self {
             group,
             root,
