@@ -4,6 +4,7 @@ pub(crate) mod checks;
 pub(crate) mod divided;
 pub(crate) mod doubts;
 pub(crate) mod misfits;
+mod renamed;
 pub(crate) mod turn;
 pub(crate) mod values;
 

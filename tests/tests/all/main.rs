@@ -24,6 +24,7 @@ mod logan_gable_frame_p5_30;
 mod logan_space_frame_example_5_8;
 mod magnitudes;
 mod misfits;
+mod mounted;
 mod natural_frequencies;
 mod networks;
 mod parallelogram_closed_form;
