@@ -35,6 +35,7 @@ mod properties;
 mod random_mechanisms;
 mod reference_results;
 mod refinement;
+mod releases;
 mod reordering;
 mod rigid_limits;
 mod sensitivities;

@@ -118,7 +118,7 @@ fn names_and_values_are_those_of_the_file() {
     // Masses come along, what acts does not.
     let masses: Vec<f64> = model.masses().iter().map(|own| own.mass.mass()).collect();
     assert_eq!(masses, [2.0, 0.3, 0.3, 0.3, 2.0, 0.3, 0.3, 0.3]);
-    assert!(model.load_set().is_empty() && model.gravity().norm() == 0.0);
+    assert!(model.load_set().nodes.is_empty() && model.gravity().norm() == 0.0);
     // Values by their paths, one by one and as one.
     let length = |model: &Model, body: &str| {
         let body = model

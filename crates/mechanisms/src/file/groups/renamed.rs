@@ -49,6 +49,14 @@ impl<'g> Names<'g> {
         self.named(node, &self.points)
     }
 
+    /// A point's name; one that is not the group's stays.
+    pub(super) fn point_name(&self, name: &str) -> String {
+        match self.points.contains(name) {
+            true => self.own(name),
+            false => name.into(),
+        }
+    }
+
     /// A body's name where one stands.
     fn body(&self, node: &Node) -> Node {
         self.named(node, &self.bodies)
