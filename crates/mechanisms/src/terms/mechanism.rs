@@ -1,6 +1,8 @@
 //! A mechanism file.
 
-use super::Type::{Any, Anything, Count, Kinds as OneKind, List, Map, Number, Record as Of, Text};
+use super::Type::{
+    Any, Anything, Count, Kinds as OneKind, List, Map, Number, Record as Of, Text, Tuple,
+};
 use super::acting::{LOAD, MASS};
 use super::bodies::BODY;
 use super::joints::JOINT;
@@ -30,7 +32,11 @@ pub(crate) const MECHANISM: Record = Record::new(
         ),
         optional("gravity", vector("m/s²"), "acceleration of gravity"),
         optional("masses", List(&Of(&MASS)), "masses on points of bodies"),
-        needed("output", NODE, "body and point whose stiffness is reported"),
+        optional(
+            "output",
+            NODE,
+            "body and point whose stiffness is reported, unless a mounted mechanism has it",
+        ),
         optional(
             "groups",
             Map(&Of(&GROUP)),
@@ -40,6 +46,11 @@ pub(crate) const MECHANISM: Record = Record::new(
             "copies",
             Map(&COPIES),
             "where copies of groups stand, by the group's name",
+        ),
+        optional(
+            "mechanisms",
+            Map(&Of(&MOUNT)),
+            "mechanisms of other files that are parts of it, by name",
         ),
         optional(
             "include",
@@ -58,6 +69,36 @@ pub(crate) const PARAMETERS: Field = optional(
 const POINTS: Type = Map(&vector("m"));
 const BODIES: Type = Map(&OneKind(&BODY));
 const JOINTS: Type = Map(&Of(&JOINT));
+
+/// A mechanism of another file that is a part of this one.
+pub(crate) const MOUNT: Record = Record::new(
+    "mount",
+    "A mechanism of another file, a part of this one",
+    &[
+        needed("file", Text, "the file, relative to this one"),
+        optional(
+            "at",
+            Any(&[
+                vector("m"),
+                Tuple(&[
+                    Number("m"),
+                    Number("m"),
+                    Number("m"),
+                    Number("rad"),
+                    Number("rad"),
+                    Number("rad"),
+                ]),
+            ]),
+            "where its origin stands, and how it is turned (a rotation vector)",
+        ),
+        needed("on", NODE, "body and point to which its ground is welded"),
+        optional(
+            "output",
+            NODE,
+            "body and point of it that are the output of all",
+        ),
+    ],
+);
 
 /// A part of a mechanism that is written once and copied.
 pub(crate) const GROUP: Record = Record::new(

@@ -25,6 +25,12 @@ use settling::Settling;
 /// Name of the field that holds the parameters.
 pub(crate) const PARAMETERS: &str = "parameters";
 
+/// Name of the field that holds what is mounted, whose values have names of their own.
+pub(crate) const MECHANISMS: &str = "mechanisms";
+
+/// Name of the field that holds the tree of what is mounted, in its entry.
+pub(crate) const TREE: &str = "mechanism";
+
 /// Parameters and points that lean on each other, one behind the other, at the most.
 const LONGEST: usize = 100;
 
@@ -113,7 +119,7 @@ impl<'t> Scope<'t> {
         }
         for (name, part) in node.parts() {
             let path = match path {
-                "" if name == PARAMETERS => continue,
+                "" if [PARAMETERS, MECHANISMS].contains(&&*name) => continue,
                 "" => name,
                 path => format!("{path}.{name}"),
             };

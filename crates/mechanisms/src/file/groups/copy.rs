@@ -6,7 +6,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::joint;
 use super::placement::Placement;
 use super::renamed::Names;
+pub(super) use super::renamed::Naming;
 use crate::error::LoadError;
+use crate::file::releases::FASTENING;
 use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
 use crate::text::tree::{Named, Node};
@@ -38,14 +40,14 @@ const MOMENTS: [(&str, Dimension); 2] = [
 pub(super) const DIRECTION: (&str, Dimension) = ("a part of a direction", Dimension::NUMBER);
 
 impl<'g> Copy<'g> {
-    /// The copy whose names end with `ending`.
+    /// The copy with these names.
     pub(super) fn new(
         group: &'g Node,
         root: &'g Node,
         placement: &'g Placement,
-        ending: &'g str,
+        naming: Naming<'g>,
     ) -> Self {
-        let names = Names::of(group, ending);
+        let names = Names::of(group, naming);
         Self {
             group,
             root,
@@ -114,13 +116,32 @@ impl<'g> Copy<'g> {
             let fields = member.fields_in_place(vec![("through", list)]);
             return self.with_default(fields, member);
         };
-        let made = member.with_field("through", self.names.points(list));
+        let made = self.fastened(member.with_field("through", self.names.points(list)));
         match member.get("y_axis") {
             // What cannot be read is told where it is read.
             Some(axis) => made.with_field("y_axis", self.direction(axis).unwrap_or(axis.clone())),
             None if given => made,
             None => self.with_default(made, list),
         }
+    }
+
+    /// A member whose ends are fastened at the copy's points; what cannot be read is told where it is read.
+    fn fastened(&self, mut made: Node) -> Node {
+        for field in FASTENING {
+            let Some(map) = made.get(field).cloned() else {
+                continue;
+            };
+            let entries = map.entries().iter().map(|own| {
+                let turned = (field == "offset")
+                    .then(|| self.direction(own.value()).ok())
+                    .flatten();
+                let value = turned.unwrap_or_else(|| own.value().clone());
+                own.with(&self.names.point_name(own.name()), value)
+            });
+            let entries = entries.collect();
+            made = made.with_field(field, map.map_in_place(entries));
+        }
+        made
     }
 
     /// A beam through the points of `list` whose y axes are those that it has without being told,

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use super::{Operand, PARAMETERS, Scope};
+use super::{MECHANISMS, Operand, PARAMETERS, Scope};
 use crate::error::LoadError;
 use crate::text::tree::{Content, Node, Steps};
 
@@ -73,7 +73,8 @@ impl<'t> Scope<'t> {
 
     /// Whether a field of the mechanism stays as it is written.
     pub(super) fn keeps(&self, field: &str) -> bool {
-        field == PARAMETERS || (self.settling.is_some() && ["groups", "copies"].contains(&field))
+        [PARAMETERS, MECHANISMS].contains(&field)
+            || (self.settling.is_some() && ["groups", "copies"].contains(&field))
     }
 
     /// Whether an expression that gives this stays as it is written.
