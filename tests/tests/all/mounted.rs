@@ -194,7 +194,7 @@ fn mistakes_are_told_where_they_stand() {
             r#"(file: "loop.ron", on: ("frame", "top"))"#,
             "mounts itself",
         ),
-        (r#"(file: "bad.ron", on: ("frame", "top"))"#, "bad.ron:1:29"),
+        (r#"(file: "bad.ron", on: ("frame", "top"))"#, "bad.ron:1:28"),
         (r#"(file: "arm.ron", on: ("frame", "tip"))"#, "tip"),
         (
             r#"(file: "arm.ron", at: (0.0, 1.0), on: ("frame", "top"))"#,
