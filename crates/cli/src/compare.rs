@@ -6,7 +6,7 @@ use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::disk;
 use hyperstat_study::figure::{self, Drawing, Form};
 use hyperstat_study::table::TableReader;
-use hyperstat_study::{Comparison, Input, PlotError, Study, compare_tables};
+use hyperstat_study::{Comparison, Input, PlotError, Study, StudyError, compare_tables};
 
 use crate::args::{Compare, Format};
 use crate::error::CliError;
@@ -29,13 +29,29 @@ pub(crate) fn run(args: &Compare, registry: &Registry) -> Result<String, CliErro
                 Input::Mechanism(_) => args.chosen_with(),
                 _ => selection,
             };
-            let second = Study::of(loaded, &other, &selection)?;
+            let second = Study::of(loaded, &other, &selection).map_err(of_other)?;
             of_studies(args, [&first, &second])
         }
         [first, _] => Err(CliError::Unlike {
             table: if first { file.clone() } else { other.clone() },
             other: if first { other } else { file.clone() },
         }),
+    }
+}
+
+/// Why the other cannot be chosen: of a mechanism file by the option that chooses of the other.
+fn of_other(error: StudyError) -> CliError {
+    match error {
+        StudyError::NotABatch { what, path } => CliError::NoChoice {
+            path,
+            option: match what {
+                "job" => "--with-job",
+                "design" => "--with-design",
+                _ => "--with-pose",
+            },
+            what: "a mechanism file",
+        },
+        error => error.into(),
     }
 }
 

@@ -4,8 +4,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::CommandFactory;
-use hyperstat_mechanisms::Disk;
+use clap::builder::PossibleValuesParser;
+use clap::{Command, CommandFactory};
+use hyperstat_mechanisms::{Along, Disk, View};
 use hyperstat_study::disk::{self, OutputError};
 use hyperstat_study::files;
 
@@ -32,8 +33,34 @@ pub(crate) fn completions(args: &Completions) -> String {
         Shell::Fish => clap_complete::Shell::Fish,
     };
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "hyperstat", &mut script);
+    clap_complete::generate(
+        shell,
+        &mut with_words(Cli::command()),
+        "hyperstat",
+        &mut script,
+    );
     String::from_utf8_lossy(&script).into_owned()
+}
+
+/// The commands, with the words that may stand where others may, too.
+fn with_words(command: Command) -> Command {
+    let offer = |command: Command, argument: &str, words: Vec<String>| {
+        command.mut_arg(argument.to_owned(), |own| {
+            own.value_parser(PossibleValuesParser::new(words))
+        })
+    };
+    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+    let along = |command| offer(command, "along", words(&Along::WORDS));
+    let commands = command.mut_subcommand("new", |new| offer(new, "kind", files::beginnings()));
+    let commands = ["compare", "report"]
+        .into_iter()
+        .fold(commands, |commands, name| {
+            commands.mut_subcommand(name, along)
+        });
+    commands.mut_subcommand("plot", |plot| {
+        let plot = offer(along(plot), "view", words(&View::NAMES));
+        offer(plot, "scale", words(&["log", "linear"]))
+    })
 }
 
 /// `hyperstat fmt`: which files change. Nothing is written before all are read.

@@ -154,7 +154,11 @@ fn solve(args: &args::Solve, registry: &Registry) -> Result<bool, CliError> {
 fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
     let opened = Study::open(&args.input.file, &args.input.selection(), &Disk, registry);
     let (mut report, error) = match opened {
-        Ok(study) => study.check(),
+        Ok(study) => {
+            let (report, error) = study.check();
+            let error = error.or_else(|| study.check_figures().err());
+            (report, error)
+        }
         // There is nothing to tell in words that the error does not.
         Err(error) if args.format == Format::Text => return Err(error.into()),
         Err(error) => (CheckReport::unreadable(&error), Some(error)),

@@ -51,7 +51,7 @@ impl Words<'_> {
         canvas::svg(sheet, |canvas| {
             let room = f64::from(WIDTH) - 2.0 * MARGIN;
             fitted(canvas, self.title, [MARGIN, 34.0], room, style::TITLE);
-            fitted(canvas, self.subtitle, [MARGIN, 61.0], room, style::SUBTITLE);
+            subtitle(canvas, self.subtitle, room);
             for (line, caption) in self.captions.iter().rev().enumerate() {
                 let bottom = f64::from(height) - MARGIN - line as f64 * CAPTION_LINE;
                 fitted(canvas, caption, [MARGIN, bottom], room, style::CAPTION);
@@ -159,6 +159,37 @@ impl Sample {
     }
 }
 
+/// The subtitle on a line, or, where it is too long for one, on two small ones.
+fn subtitle(canvas: &mut Canvas, text: &str, room: f64) {
+    let longest = longest(room, style::SUBTITLE);
+    if text.chars().count() <= longest {
+        fitted(canvas, text, [MARGIN, 61.0], room, style::SUBTITLE);
+        return;
+    }
+    let small = Lettering {
+        size: SMALLEST * style::SUBTITLE.size,
+        ..style::SUBTITLE
+    };
+    let ends = text.char_indices().take(longest + 1);
+    let space = ends.filter(|(_, c)| *c == ' ').last();
+    let end = text
+        .char_indices()
+        .nth(longest)
+        .map_or(text.len(), |(end, _)| end);
+    let (first, rest) = text.split_at(space.map_or(end, |(space, _)| space));
+    canvas.text(first, [MARGIN, 53.0], small);
+    let rest = shortened(rest.trim_start(), longest);
+    canvas.text(&rest, [MARGIN, 67.0], small);
+}
+
+/// How small letters become before a text is cut.
+const SMALLEST: f64 = 0.7;
+
+/// How many characters there is room for \[pixels\].
+fn longest(room: f64, lettering: Lettering) -> usize {
+    (room / text_width("x", SMALLEST * lettering.size)).floor() as usize
+}
+
 /// Text that is made smaller, and in the end cut, to stay within `room` \[pixels\].
 pub(crate) fn fitted(
     canvas: &mut Canvas,
@@ -167,9 +198,7 @@ pub(crate) fn fitted(
     room: f64,
     lettering: Lettering,
 ) {
-    const SMALLEST: f64 = 0.7;
-    let longest = (room / text_width("x", SMALLEST * lettering.size)).floor() as usize;
-    let text = shortened(text, longest);
+    let text = shortened(text, longest(room, lettering));
     let shrink = (room / text_width(&text, lettering.size)).min(1.0);
     canvas.text(
         &text,

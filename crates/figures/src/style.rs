@@ -50,11 +50,12 @@ pub(crate) const MARK_STROKE: Stroke = Stroke::solid(BLACK, 1.2);
 pub(crate) const MARK_EDGE: Stroke = Stroke::solid(WHITE, 1.2);
 /// Forces and moments.
 pub(crate) const LOAD: Stroke = Stroke::solid(VERMILLION, 2.0);
-/// The axes x, y, z of a frame.
+/// The axes x, y, z of a frame, in colours of Tol that are told apart from those of loads, rigid bodies and
+/// links.
 pub(crate) const TRIAD: [Stroke; 3] = [
-    Stroke::solid(VERMILLION, 1.8),
-    Stroke::solid(GREEN, 1.8),
-    Stroke::solid(BLUE, 1.8),
+    Stroke::solid(Color::new(170, 51, 119), 1.8),
+    Stroke::solid(Color::new(153, 153, 51), 1.8),
+    Stroke::solid(Color::new(51, 187, 238), 1.8),
 ];
 /// From a name to what has it, where they are apart.
 pub(crate) const LEADER: Stroke = Stroke::solid(GREY, 0.8);

@@ -3,7 +3,9 @@
 pub(crate) mod checks;
 pub(crate) mod divided;
 pub(crate) mod doubts;
+mod known;
 pub(crate) mod misfits;
+mod renamed;
 pub(crate) mod turn;
 pub(crate) mod values;
 
@@ -48,6 +50,8 @@ pub struct Model {
     /// Nodes of every body by the name of their point, sorted.
     by_point: Vec<Vec<NodeId>>,
     value_names: HashMap<ValuePlace, String>,
+    /// Parts of bodies, which are bodies themselves.
+    known_as: HashMap<BodyId, Vec<BodyId>>,
     /// Changes with what plans depend on: models of one revision have the same bodies, joints and
     /// output.
     revision: u64,
@@ -82,6 +86,7 @@ impl Model {
             joint_names: HashSet::new(),
             by_point: Vec::new(),
             value_names: HashMap::new(),
+            known_as: HashMap::new(),
             revision: fresh_revision(),
             acting: fresh_revision(),
         }
@@ -547,12 +552,18 @@ impl Model {
     pub fn node(&self, body: &str, point: &str) -> Option<NodeId> {
         self.node_of(self.body(body)?, point)
     }
-    /// The node of a body at `point`; `None` where there is none, or no such body.
+    /// The node of a body at `point`, or of what is known as a part of it ([`Model::know_as`]); `None` where there is
+    /// none, or no such body.
     pub fn node_of(&self, body: BodyId, point: &str) -> Option<NodeId> {
         let nodes = self.by_point.get(body.0)?;
         let name = |n: &NodeId| self.nodes[n.0].point.as_str();
-        let place = nodes.binary_search_by(|n| name(n).cmp(point)).ok()?;
-        Some(nodes[place])
+        match nodes.binary_search_by(|n| name(n).cmp(point)) {
+            Ok(place) => Some(nodes[place]),
+            Err(_) => {
+                let mut parts = self.parts_of(body).iter();
+                parts.find_map(|part| self.node_of(*part, point))
+            }
+        }
     }
     /// `body.point` of a node; its number where it is not one of this model.
     pub fn node_name(&self, node: NodeId) -> String {

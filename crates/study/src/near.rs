@@ -40,8 +40,14 @@ fn in_words(near: &Adjustment, counted: usize) -> String {
             near.freedoms
         ),
     };
+    let help = match near.elsewhere {
+        false => "`hyperstat adjust` moves them by the least that it takes",
+        true => {
+            "write them with more digits; `hyperstat adjust` moves those that stand as numbers in the file itself"
+        }
+    };
     format!(
-        "{what}: coordinates rounded to {}? `hyperstat adjust` moves them by the least that it takes",
+        "{what}: coordinates rounded to {}? {help}",
         digits(near.rounded).0
     )
 }

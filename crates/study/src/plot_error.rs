@@ -297,6 +297,18 @@ pub enum PlotError {
 }
 
 impl PlotError {
+    /// The fields of a job's figure that may be to blame, as far as the kind of error tells them.
+    pub(crate) fn fields(&self) -> &'static [&'static str] {
+        match self {
+            Self::NoPlane { .. } | Self::Follows { .. } | Self::AlongNormal { .. } => &["plane"],
+            Self::NoCoordinate { .. } => &["axes", "plane"],
+            Self::NoLabel { .. } => &["labels"],
+            Self::LimitsMeasure { .. } => &["limits"],
+            Self::NoDesign { .. } => &["beside"],
+            _ => &[],
+        }
+    }
+
     /// The place in the table that the error is about.
     pub fn location(&self) -> Option<&Location> {
         match self {

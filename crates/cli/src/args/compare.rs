@@ -6,7 +6,7 @@ use clap::Args;
 use hyperstat_mechanisms::Along;
 use hyperstat_study::Selection;
 
-use super::input::{Dwelling, Format, Input};
+use super::input::{Dwelling, Format, Input, number_of_pose};
 
 pub(super) const COMPARE_HELP: &str = "\
 Of mechanisms: parameters and parts that differ, then stiffness, displacement, measures, natural
@@ -45,7 +45,7 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     with_design: Option<usize>,
     /// Pose of OTHER [default: that of --pose]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number_of_pose)]
     with_pose: Option<usize>,
     #[command(flatten)]
     pub(crate) dwelling: Dwelling,

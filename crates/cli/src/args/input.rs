@@ -19,7 +19,7 @@ pub(crate) struct Input {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub(crate) design: Option<usize>,
     /// Pose of the job, counted from 0 [default: 0]
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number_of_pose)]
     pub(crate) pose: Option<usize>,
 }
 
@@ -75,6 +75,12 @@ pub(crate) enum Format {
     Text,
     /// JSON, numbers that read back to the same double
     Json,
+}
+
+/// Reads the number of a pose.
+pub(super) fn number_of_pose(text: &str) -> Result<usize, String> {
+    let right = "expected the number of a pose, from 0: the column `pose` of the job's table";
+    text.parse().map_err(|_| right.into())
 }
 
 /// Reads the direction that the output gives along.

@@ -106,7 +106,9 @@ fn of_two(args: &args::Plot, table: &TableReader, map: &Map) -> Result<MapFigure
     let jobs = [table.job(), other.job()];
     let stems = [&args.file, path].map(|path| stem(path));
     let paths = [&args.file, path].map(|path| path.display().to_string());
-    let names = [jobs, stems, paths.clone()].into_iter();
+    let designs = [map.choice.design, args.with_design]
+        .map(|design| format!("design {}", design.unwrap_or(0)));
+    let names = [jobs, stems, paths.clone(), designs].into_iter();
     let names = names.into_iter().find(|[a, b]| a != b).unwrap_or(paths);
     let named = |k: usize, table, design| NamedTable {
         name: &names[k],

@@ -105,6 +105,39 @@ fn a_map_that_a_job_cannot_have_is_told_before_the_first_job() {
     }
 }
 
+#[test]
+fn a_map_that_cannot_be_is_told_where_the_mistake_is() {
+    let bench = Bench::new("map-places");
+    for (figure, wrong) in [
+        (r#"Map(value: "k77", plane: z(0.45))"#, r#""k77""#),
+        (r#"Map(value: "k33", plane: z(0.5))"#, "z(0.5)"),
+        (r#"Map(value: "k33", axes: ("A1.v", x))"#, r#"("A1.v", x)"#),
+        (
+            r#"Map(value: "k33", labels: {"k34": "u"})"#,
+            r#"{"k34": "u"}"#,
+        ),
+        (
+            r#"Map(value: "k33", limits: ("1 mm", "2 mm"))"#,
+            r#"("1 mm", "2 mm")"#,
+        ),
+        (r#"Map(value: "k33", beside: 1)"#, "1)"),
+        (r#"Deformed(pose: (z: 0.5))"#, "(z: 0.5)"),
+    ] {
+        let text = delta_batch("map", GRID, &format!("figures: [{figure}],"));
+        bench.file("map.ron", &text);
+        let at = text.find(figure).unwrap() + figure.find(wrong).unwrap();
+        let line = text[..at].lines().count();
+        let column = 1 + at - text[..at].rfind('\n').map_or(0, |end| end + 1);
+        for arguments in [
+            &["check", "map.ron"][..],
+            &["run", "map.ron", "--out", "out"],
+        ] {
+            let outcome = bench.hyperstat(arguments).ends_with(2);
+            outcome.says(&[&format!("map.ron:{line}:{column}")]);
+        }
+    }
+}
+
 /// A batch of a tripod whose platform is turned as its position says.
 const EXECHON: &str = r#"(jobs: [(
     name: "tripod",

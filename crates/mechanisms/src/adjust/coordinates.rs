@@ -47,8 +47,8 @@ pub(super) struct Coordinates {
 impl Coordinates {
     /// What the file may have been rounded to, the likeliest first: to decimals, points and axes alike, or
     /// each kind by itself, numbers that look exact being so; the same without this; to digits that count.
-    pub fn guesses(root: &Node) -> impl Iterator<Item = Self> {
-        let all = numbers(root);
+    pub fn guesses(numbers: Numbers<'_>) -> impl Iterator<Item = Self> {
+        let all = numbers.read();
         let most = |axes: bool| {
             let own = all.iter().filter(|own| own.is_axis == axes);
             own.map(|own| own.digits.decimals).max()
@@ -100,25 +100,57 @@ fn with(all: &[Coordinate], rounding: impl Fn(&Coordinate) -> Option<f64>) -> Ve
     own.collect()
 }
 
-/// All numbers of points and axes that are written in the file itself with few digits.
-fn numbers(root: &Node) -> Vec<Coordinate> {
-    let numbers = root.numbers().into_iter();
-    let coordinates = numbers.filter_map(|number| {
-        let is_axis = is_axis(&number.path)?;
-        let node = root.find(&number.steps)?;
-        let digits = digits::Digits::of(node)?;
-        let few = digits.significant <= DIGITS && digits.decimals <= DIGITS;
-        (few && Arc::ptr_eq(node.source(), root.source())).then(|| Coordinate {
-            value: number.value.unwrap_or_default(),
-            place: node.place(),
-            path: number.path,
-            steps: number.steps,
-            digits,
-            rounding: 0.0,
-            is_axis,
-        })
-    });
-    coordinates.collect()
+/// Which numbers of points and axes may have been rounded.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Numbers<'t> {
+    /// Those that are written with few digits in the file itself.
+    Written(&'t Node),
+    /// Those that have few digits, wherever they stand, in a tree of values.
+    Anywhere(&'t Node),
+    /// The same, and all parts of axes: they may have been made unit vectors.
+    WithAxes(&'t Node),
+}
+
+impl<'t> Numbers<'t> {
+    pub(super) fn root(self) -> &'t Node {
+        let (Self::Written(root) | Self::Anywhere(root) | Self::WithAxes(root)) = self;
+        root
+    }
+
+    fn read(self) -> Vec<Coordinate> {
+        let root = self.root();
+        let numbers = root.numbers().into_iter();
+        let coordinates = numbers.filter_map(|number| {
+            let is_axis = is_axis(&number.path)?;
+            let node = root.find(&number.steps)?;
+            let value = number.value.unwrap_or_default();
+            let own = Arc::ptr_eq(node.source(), root.source());
+            let digits = match self {
+                Self::Written(_) => digits::Digits::of(node).filter(|_| own)?,
+                _ => digits::Digits::of(node).or_else(|| digits::Digits::of_value(value))?,
+            };
+            Some(Coordinate {
+                value,
+                place: node.place(),
+                path: number.path,
+                steps: number.steps,
+                digits,
+                rounding: 0.0,
+                is_axis,
+            })
+        });
+        let few =
+            |own: &Coordinate| own.digits.significant <= DIGITS && own.digits.decimals <= DIGITS;
+        let mut all: Vec<Coordinate> = coordinates.collect();
+        if let Self::WithAxes(_) = self {
+            let points = all.iter().filter(|own| !own.is_axis && few(own));
+            let decimals = points.map(|own| own.digits.decimals).max().unwrap_or(0);
+            let long = all.iter_mut().filter(|own| own.is_axis && !few(own));
+            long.for_each(|own| own.digits.round(decimals));
+        }
+        all.retain(few);
+        all
+    }
 }
 
 /// Paths of coordinates that are expressions, or stand in another file.

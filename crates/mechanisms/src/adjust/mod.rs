@@ -6,10 +6,12 @@ use hyperstat_closure::{Adjusted, Adjusting, LoopClosure, Rounded, Unadjusted};
 use hyperstat_model::Model;
 
 use crate::error::Location;
+use crate::file::groups;
 use crate::file::mechanism::Mechanism;
+use crate::text::scope::Open;
 use crate::text::tree::Node;
 pub use coordinates::Digits;
-use coordinates::{Coordinate, Coordinates};
+use coordinates::{Coordinate, Coordinates, Numbers};
 
 /// Most roundings that a coordinate may be moved by.
 pub const MOST: f64 = 5.0;
@@ -41,6 +43,9 @@ pub struct Adjustment {
     pub misfit: f64,
     /// The numbers that move, in the order of the file.
     pub moved: Vec<Moved>,
+    /// Whether some of them stand elsewhere than as numbers in the file: in expressions, in other files, or as parts
+    /// of unit vectors. Then it is known that rounding explains what is missed, and there is no text.
+    pub elsewhere: bool,
     /// The file with these in their places; everything else is as it was.
     pub text: String,
 }
@@ -94,7 +99,11 @@ impl Mechanism {
     /// Why there is none.
     pub fn adjusted(&self) -> Result<Adjustment, NotAdjusted> {
         let closure = LoopClosure::new(&self.model).map_err(|_| NotAdjusted::Unknown)?;
-        self.adjust(&closure.adjusting(), Asked::All)
+        self.adjust(
+            &closure.adjusting(),
+            Asked::All,
+            Numbers::Written(self.root()),
+        )
     }
 
     /// The same where rounding alone explains that freedoms are missed: nothing is said of a mechanism
@@ -107,7 +116,18 @@ impl Mechanism {
             return None;
         }
         let closure = LoopClosure::new(&self.model).ok()?;
-        let found = self.adjust(&closure.adjusting(), Asked::Freedoms).ok()?;
+        let adjusting = closure.adjusting();
+        let own = self.adjust(&adjusting, Asked::Freedoms, Numbers::Written(self.root()));
+        let found = match own {
+            Ok(found) => found,
+            Err(NotAdjusted::NoNumbers | NotAdjusted::Nothing) => {
+                let (open, root) = Open::mark(self.root(), &[]);
+                let values = groups::settled(&root, &open)?;
+                let mut sets = [Numbers::Anywhere(&values), Numbers::WithAxes(&values)].into_iter();
+                sets.find_map(|numbers| self.adjust(&adjusting, Asked::Freedoms, numbers).ok())?
+            }
+            Err(_) => return None,
+        };
         (found.open > CLOSED).then_some(found)
     }
 
@@ -116,12 +136,18 @@ impl Mechanism {
         coordinates::held(self.root())
     }
 
-    fn adjust(&self, adjusting: &Adjusting<'_>, asked: Asked) -> Result<Adjustment, NotAdjusted> {
+    fn adjust(
+        &self,
+        adjusting: &Adjusting<'_>,
+        asked: Asked,
+        numbers: Numbers<'_>,
+    ) -> Result<Adjustment, NotAdjusted> {
         let mut why = NotAdjusted::NoNumbers;
         let mut sure = asked == Asked::All;
         let mut best: Option<(Coordinates, Adjusted)> = None;
-        for coordinates in Coordinates::guesses(self.root()) {
-            let model = |values: &[f64]| self.with_coordinates(&coordinates.all, values);
+        for coordinates in Coordinates::guesses(numbers) {
+            let root = numbers.root();
+            let model = |values: &[f64]| self.with_coordinates(root, &coordinates.all, values);
             let values: Vec<f64> = coordinates.all.iter().map(|own| own.value).collect();
             let roundings: Vec<f64> = coordinates.all.iter().map(|own| own.rounding).collect();
             let rounded = Rounded {
@@ -154,7 +180,8 @@ impl Mechanism {
         if why == NotAdjusted::NoNumbers && !Self::misses_freedoms(adjusting) {
             why = NotAdjusted::Exact;
         }
-        best.map(|(coordinates, found)| self.adjustment(&coordinates, &found))
+        let elsewhere = !matches!(numbers, Numbers::Written(_));
+        best.map(|(coordinates, found)| self.adjustment(&coordinates, &found, elsewhere))
             .ok_or(why)
     }
 
@@ -168,8 +195,13 @@ impl Mechanism {
     }
 
     /// The model with other values of some coordinates.
-    fn with_coordinates(&self, coordinates: &[Coordinate], values: &[f64]) -> Option<Model> {
-        let mut tree = self.root().clone();
+    fn with_coordinates(
+        &self,
+        root: &Node,
+        coordinates: &[Coordinate],
+        values: &[f64],
+    ) -> Option<Model> {
+        let mut tree = root.clone();
         for (own, value) in coordinates.iter().zip(values) {
             if *value != own.value {
                 tree.replace(&own.steps, Node::number(*value, None, own.place.clone()));
@@ -178,15 +210,23 @@ impl Mechanism {
         Some(Self::read(tree, self.registry()).ok()?.model)
     }
 
-    fn adjustment(&self, coordinates: &Coordinates, found: &Adjusted) -> Adjustment {
+    fn adjustment(
+        &self,
+        coordinates: &Coordinates,
+        found: &Adjusted,
+        elsewhere: bool,
+    ) -> Adjustment {
         let both = coordinates.all.iter().zip(&found.values);
         let mut moved: Vec<(&Coordinate, f64)> = both
             .filter(|(own, to)| own.value != **to)
             .map(|(own, to)| (own, *to))
             .collect();
         moved.sort_by_key(|(own, _)| own.place.span.start);
-        let mut text = self.root().source().written().to_owned();
-        for (own, to) in moved.iter().rev() {
+        let mut text = match elsewhere {
+            true => String::new(),
+            false => self.root().source().written().to_owned(),
+        };
+        for (own, to) in moved.iter().rev().filter(|_| !elsewhere) {
             text.replace_range(own.place.span.clone(), &own.digits.written(*to));
         }
         Adjustment {
@@ -205,6 +245,7 @@ impl Mechanism {
                     roundings: (to - own.value).abs() / own.rounding,
                 })
                 .collect(),
+            elsewhere,
             text,
         }
     }

@@ -8,6 +8,7 @@ use hyperstat_model::{BodyId, Member, Model, ModelError, Tapering};
 use nalgebra::Vector3;
 
 use super::materials::Profile;
+use super::releases::{self, Ends, Fastened, Welded};
 use super::through::{Tables, Through, elements, listed, pairs, through};
 use super::value_names::Given;
 use crate::error::LoadError;
@@ -50,6 +51,8 @@ pub(crate) fn frame(
     let mut points = Vec::<Through>::new();
     let mut place_of = HashMap::new();
     let mut members = Vec::new();
+    let mut of_members = Vec::new();
+    let mut fastened = Vec::new();
     let mut taken = HashSet::new();
     let expected = "a list of members, each a list of points or `(through: […], …)`";
     for (k, member) in list.list(expected)?.into_iter().enumerate() {
@@ -63,8 +66,30 @@ pub(crate) fn frame(
         } else {
             return Err(member.expected("a member, a list of points or `(through: […], …)`"));
         };
+        let field = |field: &str| own.get(field).or_else(|| fields.get(field));
+        let listed = listed(through, tables)?;
+        if let Some(ends) = Ends::read(&own, &what, through, &listed)? {
+            let run = Run {
+                what,
+                list: through,
+                points: &listed,
+                places: &[0, 1],
+            };
+            let mut of_member = Vec::new();
+            let found = run.members(&field, fields, tables, &mut of_member)?;
+            for (member, given) in found.into_iter().zip(of_member) {
+                fastened.push(Fastened {
+                    points: [listed[0].clone(), listed[1].clone()],
+                    member,
+                    given,
+                    ends: ends.clone(),
+                    at: through,
+                });
+            }
+            continue;
+        }
         let mut places = Vec::new();
-        for point in listed(through, tables)? {
+        for point in listed {
             let next = points.len();
             let place = *place_of.entry(point.name.clone()).or_insert(next);
             places.push(place);
@@ -88,9 +113,17 @@ pub(crate) fn frame(
             points: &points,
             places: &places,
         };
-        let field = |field: &str| own.get(field).or_else(|| fields.get(field));
-        members.extend(run.members(&field, fields, tables, given)?);
+        members.extend(run.members(&field, fields, tables, &mut of_members)?);
     }
+    if !fastened.is_empty() {
+        let welded = Welded {
+            points,
+            members,
+            given: of_members,
+        };
+        return releases::add(name, welded, fastened, list, model, given);
+    }
+    given.extend(of_members);
     if members.is_empty() {
         return Err(list
             .error(format!("frame `{name}` has no members"))

@@ -39,6 +39,7 @@ pub(crate) fn read(
             None => Ok(Fields::none(entry.value, owner)),
         }
     };
+    let first = model.bodies().len();
     let (body, fields) = match kind.text() {
         "Beam" => {
             let fields = fields()?;
@@ -70,7 +71,12 @@ pub(crate) fn read(
         }
     };
     if let Some(given) = fields.get("temperature") {
-        temperature(given, body, model)?;
+        let of_frame = (first..model.bodies().len()).map(BodyId);
+        let beams =
+            of_frame.filter(|own| *own == body || !model.bodies()[own.0].segments.is_empty());
+        for own in beams.collect::<Vec<_>>() {
+            temperature(given, own, model)?;
+        }
     }
     Ok(body)
 }

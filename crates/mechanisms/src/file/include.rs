@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use crate::error::LoadError;
+use crate::file::groups::mounts;
 use crate::terms::mechanism::INCLUDED;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
@@ -12,8 +13,17 @@ use crate::text::tree::{Named, Node};
 /// The tables that an included file may have, beside an `include` of its own.
 const TABLES: [&str; 4] = ["parameters", "materials", "sections", "groups"];
 
-/// The tree of a mechanism, with the tables of the files that it includes.
+/// The tree of a mechanism, with the tables of the files that it includes and the mechanisms that it mounts.
 pub(crate) fn mechanism(value: Fragment<'_>) -> Result<Node, LoadError> {
+    read(value, &mut vec![value.place().location().path])
+}
+
+/// The same, where these files are being read.
+pub(crate) fn read(value: Fragment<'_>, open: &mut Vec<PathBuf>) -> Result<Node, LoadError> {
+    mounts::read(included(value)?, open)
+}
+
+fn included(value: Fragment<'_>) -> Result<Node, LoadError> {
     let root = Node::of(value);
     let Some(list) = root.get("include") else {
         return Ok(root);

@@ -3,7 +3,7 @@
 
 use hyperstat_elements::RigidMass;
 use hyperstat_model::{
-    Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Model, SegmentId,
+    Axes, BodyId, BodyKind, LineLoad, Load, LoadCase, LoadSet, Model, NodeId, SegmentId,
 };
 use nalgebra::{Matrix3, Vector3, Vector6};
 
@@ -276,7 +276,7 @@ fn read_along(
     };
     let body = nodes::body(model, name)?;
     let entry = &model.bodies()[body.0];
-    if entry.kind != BodyKind::Elastic {
+    if entry.kind != BodyKind::Elastic && model.parts_of(body).is_empty() {
         return Err(name
             .error(format!("body `{}` is not made of beams", entry.name))
             .with_help(
@@ -306,8 +306,11 @@ fn read_along(
         }
     };
     let axes = axes(fields, body, model, home)?;
+    let parts = model.parts_of(body).iter();
+    let parts = parts.flat_map(|part| &model.bodies()[part.0].segments);
+    let segments: Vec<SegmentId> = entry.segments.iter().chain(parts).copied().collect();
     let Some([first, second]) = points else {
-        let lines = entry.segments.iter().map(|&segment| LineLoad {
+        let lines = segments.iter().map(|&segment| LineLoad {
             segment,
             ends,
             axes,
@@ -315,14 +318,22 @@ fn read_along(
         set.lines.extend(lines);
         return Ok(());
     };
-    let wanted = [
-        nodes::node(model, body, first, &first.string()?)?,
-        nodes::node(model, body, second, &second.string()?)?,
-    ];
-    let back = [wanted[1], wanted[0]];
-    let of = |id: &&SegmentId| [wanted, back].contains(&model.segments()[id.0].ends);
-    let Some(&segment) = entry.segments.iter().find(of) else {
-        let (from, to) = (first.string()?, second.string()?);
+    for point in [first, second] {
+        nodes::node(model, body, point, &point.string()?)?;
+    }
+    let wanted = [first.string()?, second.string()?];
+    let between = |id: SegmentId| model.segments()[id.0].ends;
+    // The end of a member that is offset is called as the point that it belongs to, behind the member.
+    let is = |node: NodeId, name: &str| {
+        let own = &model.nodes()[node.0].point;
+        let rest = own.strip_prefix(&*entry.name);
+        own == name || rest.is_some_and(|rest| rest.ends_with(&format!(" {name}")))
+    };
+    let runs = |[a, b]: [NodeId; 2], [from, to]: [&str; 2]| is(a, from) && is(b, to);
+    let along = |id: SegmentId| runs(between(id), [&wanted[0], &wanted[1]]);
+    let of = |id: &&SegmentId| along(**id) || runs(between(**id), [&wanted[1], &wanted[0]]);
+    let Some(&segment) = segments.iter().find(of) else {
+        let [from, to] = &wanted;
         return Err(second
             .error(format!(
                 "no segment of body `{}` runs between `{from}` and `{to}`",
@@ -330,8 +341,11 @@ fn read_along(
             ))
             .with_help("name two neighbouring points, or the body alone for all its segments"));
     };
-    let forward = model.segments()[segment.0].ends == wanted;
-    let ends = if forward { ends } else { [ends[1], ends[0]] };
+    let ends = if along(segment) {
+        ends
+    } else {
+        [ends[1], ends[0]]
+    };
     set.lines.push(LineLoad {
         segment,
         ends,

@@ -86,12 +86,14 @@ impl Mechanism {
             })?,
         };
         let mut bodies = Vec::new();
+        let mut joints = Vec::new();
         let mut given = Vec::new();
         for entry in fields.required("bodies")?.map()? {
             bodies::read(&entry, &tables, &mut model, &mut given)?;
-            bodies.push(entry.key.place());
+            // Of a frame there may be several, and joints between them.
+            bodies.resize(model.bodies().len(), entry.key.place());
+            joints.resize(model.joints().len(), entry.key.place());
         }
-        let mut joints = Vec::new();
         let point = |at: Fragment<'_>| tables.points.find(at).and_then(|_| at.string());
         for entry in fields.required("joints")?.map()? {
             joints::read(&entry, point, registry, &mut model)?;

@@ -28,9 +28,11 @@ pub(crate) struct Through<'a> {
 
 /// Refuses a name of a body, point or joint that could not stand in `body.point`.
 pub(crate) fn check_name(entry: &Entry<'_>, what: &str) -> Result<(), LoadError> {
+    // What is mounted has a dot in its name, and none where it is written.
+    let written = entry.key.text();
     let wrong = if entry.name.is_empty() {
         format!("a {what} needs a name")
-    } else if entry.name.contains('.') {
+    } else if entry.name.contains('.') && written.contains(['.', '\\']) {
         format!("the name of a {what} holds no `.`")
     } else {
         return Ok(());

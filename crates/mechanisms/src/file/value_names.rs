@@ -10,6 +10,7 @@ use hyperstat_joints::Dof;
 use hyperstat_model::{JointId, JointStiffness, Model, SegmentId, ValuePlace};
 
 use super::groups::Copies;
+use crate::text::paths;
 use crate::text::tree::{Node, Number, Steps};
 
 /// What a segment of a mechanism file is given by: names of the tables' entries.
@@ -30,7 +31,10 @@ pub(crate) fn of_file(
     model: &mut Model,
 ) {
     let numbers = numbers(root, varied);
-    let paths: HashSet<String> = numbers.into_iter().map(|number| number.path).collect();
+    let paths: HashSet<String> = numbers
+        .into_iter()
+        .map(|number| paths::as_mounted(number.path))
+        .collect();
     let alike = |model: &Model, joint: JointId| {
         let joint = &model.joints()[joint.0];
         match &joint.stiffness {

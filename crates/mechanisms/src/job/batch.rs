@@ -51,7 +51,7 @@ pub struct Job {
     /// Where each of them stands.
     pub(super) column_places: Vec<Place>,
     /// Where each figure stands.
-    pub(super) figure_places: Vec<Place>,
+    pub(super) figure_places: Vec<figures::Places>,
     /// What is written of it, by field.
     pub(super) written: Vec<(&'static str, Node)>,
     pub(super) recipe: Recipe,
@@ -163,7 +163,7 @@ impl Job {
         let modes = fields.get("modes").map(modes::read).transpose()?;
         let has_modes = modes.is_some();
         let mut first_design = 0;
-        let designs = match Variation::read(fields, &recipe, poses.len())? {
+        let designs = match Variation::read(fields, &recipe, &nodes, poses.len())? {
             Some(variation) => {
                 let designs = Designs::new(variation);
                 (first_design, first) = designs.first(&recipe, &poses, &first)?;
@@ -335,11 +335,12 @@ impl Job {
         self.place.location()
     }
 
-    /// Place of a figure in the batch file, by its number from 0; the job's where there is none.
-    /// That of a map is the place of its quantity.
-    pub fn figure_location(&self, number: usize) -> Location {
-        let place = self.figure_places.get(number);
-        place.unwrap_or(&self.place).location()
+    /// Place of a field of a figure in the batch file, by the figure's number from 0: of the first of these that is
+    /// given, else of `value`, of a figure without one its own, and the job's where there is no such figure.
+    pub fn figure_location(&self, number: usize, fields: &[&str]) -> Location {
+        let places = self.figure_places.get(number);
+        let place = places.map_or(&self.place, |places| places.of(fields));
+        place.location()
     }
 
     /// Place in the batch file of a column that it asks for, by its number among them, from 0; the job's

@@ -1,6 +1,6 @@
 //! The columns that a job asks for, beside those that every table has.
 
-use hyperstat_model::{BodyKind, ModalOptions, Model};
+use hyperstat_model::{ModalOptions, Model};
 
 use crate::error::LoadError;
 use crate::job::modes;
@@ -130,17 +130,13 @@ impl Column {
 
     /// Refuses what a mechanism has no numbers for.
     fn check(&self, model: &Model, at: Fragment<'_>) -> Result<(), LoadError> {
-        let elastic = model
-            .bodies()
-            .iter()
-            .any(|body| body.kind != BodyKind::Rigid);
         let mut segments = model.segments().iter();
         let (missing, help) = match self {
             Self::Drives | Self::DriveForces if model.drives().next().is_none() => (
                 "the mechanism has no drives",
                 "a drive is a free direction of a joint with `locked: true` or a `stiffness`",
             ),
-            Self::Stress | Self::Utilisation if !elastic => {
+            Self::Stress | Self::Utilisation if model.segments().is_empty() => {
                 ("the mechanism has no beams", "make a link a `Beam`")
             }
             Self::Utilisation if segments.all(|own| own.material.yield_strength().is_none()) => (

@@ -175,12 +175,12 @@ pub(crate) struct Known<'a> {
 pub(crate) fn read(
     list: Fragment<'_>,
     known: &Known<'_>,
-) -> Result<Vec<(Figure, Place)>, LoadError> {
+) -> Result<Vec<(Figure, Places)>, LoadError> {
     let list = list.list("a list of figures, such as `[Deformed(pose: 0, scale: Auto)]`")?;
     list.into_iter().map(|item| figure(item, known)).collect()
 }
 
-fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), LoadError> {
+fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Places), LoadError> {
     let (word, arguments) = whole.variant("a figure, such as `Trajectory(scale: Auto)`")?;
     let kind = word.text();
     let names = FIGURE.fields(kind).ok_or_else(|| {
@@ -211,7 +211,13 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
             labels: fields.get("labels").map_or(Ok(Vec::new()), look::labels)?,
         })
     };
-    let place = fields.get("value").unwrap_or(whole).place();
+    let given = names
+        .iter()
+        .filter_map(|&name| Some((name, fields.get(name)?.place())));
+    let places = Places {
+        whole: whole.place(),
+        fields: given.collect(),
+    };
     let figure = match kind {
         "Map" => {
             let scale = fields
@@ -262,7 +268,24 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Place), Loa
             words: words()?,
         },
     };
-    Ok((figure, place))
+    Ok((figure, places))
+}
+
+/// Where a figure is written.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    whole: Place,
+    /// Its fields that are given.
+    fields: Vec<(&'static str, Place)>,
+}
+
+impl Places {
+    /// Where the first of these fields that is given is written, else its quantity, else the whole.
+    pub(super) fn of(&self, fields: &[&str]) -> &Place {
+        let find = |field: &&str| self.fields.iter().find(|(name, _)| name == field);
+        let found = fields.iter().chain([&"value"]).find_map(find);
+        found.map_or(&self.whole, |(_, place)| place)
+    }
 }
 
 /// Reads the number of the design that is drawn beside the first.

@@ -39,6 +39,9 @@ const VIEW: &str = "`front`, `right`, `top`, `iso`, or azimuth and elevation of 
                     such as -62,22";
 
 impl View {
+    /// The names that there are.
+    pub const NAMES: [&str; 4] = [VIEWS[0].0, VIEWS[1].0, VIEWS[2].0, VIEWS[3].0];
+
     /// The view from these angles \[degrees\]; `None` where the azimuth is not between −360 and 360 or the
     /// elevation not between −90 and 90.
     pub fn angles(azimuth: f64, elevation: f64) -> Option<Self> {

@@ -2,6 +2,7 @@
 
 use super::subject::Recipe;
 use crate::error::{LoadError, Location};
+use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::replace::Replacement;
@@ -19,6 +20,8 @@ pub struct Varied {
     pub path: String,
     /// Whether all of its values are numbers.
     pub numeric: bool,
+    /// The SI unit of its values, where one of them, or what they take the place of, is written with a unit.
+    pub unit: Option<String>,
 }
 
 /// The designs of a job: all combinations of some values, or the values side by side.
@@ -55,10 +58,12 @@ enum AxisValues {
 }
 
 impl Variation {
-    /// Reads the fields `vary` and `zip` of a job of this recipe, which has so many `poses`.
+    /// Reads the fields `vary` and `zip` of a job of this recipe, which has so many `poses` and whose fields are
+    /// written so.
     pub(crate) fn read(
         fields: &Fields<'_>,
         recipe: &Recipe,
+        written: &[(&'static str, Node)],
         poses: usize,
     ) -> Result<Option<Self>, LoadError> {
         let zip = fields.get("zip");
@@ -87,6 +92,9 @@ impl Variation {
             let overlaps = |axis: &&Axis| paths::any_overlap(&axis.places, &places);
             if let Some(other) = axes.iter().find(overlaps) {
                 return Err(paths::overlapping(&other.path, entry.key));
+            }
+            if let Some(used) = recipe.idle(&places, written) {
+                return Err(idle(entry.key, &entry.name, used));
             }
             let values = AxisValues::read(entry.value)?;
             for known in places.iter().filter_map(|steps| whole.find(steps)) {
@@ -150,8 +158,20 @@ impl Variation {
                 AxisValues::Range(_) => true,
                 AxisValues::List(values) => values.iter().all(number),
             },
+            unit: self.measures(axis).map(Dimension::unit),
         };
         self.axes.iter().map(varied).collect()
+    }
+
+    /// What the values of an axis measure, where they, or what they take the place of, say so.
+    fn measures(&self, axis: &Axis) -> Option<Dimension> {
+        let of = |node: &Node| Fragment::of_node(node).measured(None).ok()?.1;
+        let given = match &axis.values {
+            AxisValues::Range(values) => values.dimension(),
+            AxisValues::List(values) => values.iter().find_map(of),
+        };
+        let mut known = axis.places.iter().filter_map(|way| self.whole.find(way));
+        given.or_else(|| known.find_map(of))
     }
 
     /// The ways to the values of every path, in the tree of [`Recipe::whole`].
@@ -208,6 +228,21 @@ impl Variation {
         }
         samples
     }
+}
+
+/// The error of a parameter that no design depends on; `used` is a field of the job that does.
+fn idle(key: Fragment<'_>, name: &str, used: Option<&str>) -> LoadError {
+    let message = match used {
+        Some(field) => {
+            format!("only `{field}` depends on `{name}`, and is the same in every design")
+        }
+        None => format!("nothing depends on `{name}`: all designs would be the same"),
+    };
+    key.error(message).with_help(match used {
+        Some("poses") => "give all poses in one job, or a job for each value",
+        Some(_) => "give a job for each value",
+        None => "use it in an expression, or leave it out",
+    })
 }
 
 /// The number of values that all have.

@@ -6,7 +6,7 @@ use crate::file::groups;
 use crate::file::loads::{Acting, FIELDS};
 use crate::text::fragment::Fragment;
 use crate::text::paths;
-use crate::text::scope::{Open, Scope};
+use crate::text::scope::{Open, PARAMETERS, Scope};
 use crate::text::tree::{Content, Node, Steps};
 
 impl Recipe {
@@ -79,6 +79,43 @@ impl Recipe {
             }
         }
         tree
+    }
+
+    /// Whether what stands at these `places` is a parameter that nothing of the mechanism leans on, and nothing that
+    /// acts on it; then the name of the first field of the job that does, of those which are the same in every
+    /// design.
+    pub(super) fn idle(
+        &self,
+        places: &[Steps],
+        fields: &[(&'static str, Node)],
+    ) -> Option<Option<&'static str>> {
+        let of_parameters = |steps: &Steps| {
+            let own = Self::in_mechanism(steps)?;
+            let names = self.root().field_names().collect::<Vec<_>>();
+            (names.get(*own.first()?) == Some(&PARAMETERS)).then_some(())
+        };
+        if places.iter().any(|steps| of_parameters(steps).is_none()) {
+            return None;
+        }
+        let (open, marked) = Open::mark(&self.whole(), places);
+        let root = groups::with_copies(&self.root_of(&marked)).ok()?;
+        let scope = Scope::settling(&root, &open).ok()?;
+        let own = (root.parts().into_iter()).filter(|(name, _)| name != PARAMETERS);
+        let acting = (0..FIELDS.len()).filter_map(|k| marked.part(1 + k));
+        if own
+            .map(|(_, part)| part)
+            .chain(acting)
+            .any(|node| scope.is_open(node))
+        {
+            return None;
+        }
+        let same = |name: &str| {
+            !FIELDS.contains(&name) && !["mechanism", PARAMETERS, "vary"].contains(&name)
+        };
+        let mut fields = fields
+            .iter()
+            .filter(|(name, node)| same(name) && scope.is_open(node));
+        Some(fields.next().map(|(name, _)| *name))
     }
 
     fn settled_under(&self, marked: &Node, open: &Open) -> Option<Node> {

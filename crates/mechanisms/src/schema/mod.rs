@@ -62,6 +62,11 @@ impl Definitions<'_> {
                 let choices = choices.map(|name| json!({ "required": [name] }));
                 object["oneOf"] = choices.collect();
             }
+            if !record.any_of.is_empty() {
+                let choices = record.any_of.iter();
+                let choices = choices.map(|name| json!({ "required": [name] }));
+                object["anyOf"] = choices.collect();
+            }
             object
         })
     }

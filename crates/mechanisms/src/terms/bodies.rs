@@ -1,7 +1,8 @@
 //! Bodies of a mechanism file.
 
-use super::Type::{Any, Kinds as OneKind, List, Number, Record as Of, Text};
-use super::parts::{DIRECTION, ELEMENTS};
+use super::Type::{Any, Kinds as OneKind, List, Map, Number, Record as Of, Text, Word};
+use super::joints::DIRECTIONS;
+use super::parts::{DIRECTION, ELEMENTS, STIFFNESSES, vector};
 use super::{Field, Kinds, Record, Type, kind, needed, of_value, optional};
 
 /// A section for all, or one for each segment.
@@ -32,6 +33,21 @@ pub(crate) const MEMBER: Record = Record::new(
         optional("material", Text, "a material's name"),
         Y_AXIS,
         DIVIDED,
+        optional(
+            "releases",
+            Map(&List(&Word(&DIRECTIONS))),
+            "directions that an end does not carry, by its point, along the member's own axes",
+        ),
+        optional(
+            "springs",
+            Map(&Of(&STIFFNESSES)),
+            "springs between an end and the frame, by its point, along the member's own axes",
+        ),
+        optional(
+            "offset",
+            Map(&vector("m")),
+            "from a point to the member's end, by the point: a rigid arm, global axes",
+        ),
     ],
 );
 

@@ -6,7 +6,7 @@ use super::Type::{
 use super::parts::{DIRECTION, STIFFNESSES};
 use super::{Field, Kinds, Record, Type, needed, of_value, optional};
 
-const DIRECTIONS: [&str; 6] = ["x", "y", "z", "u", "v", "w"];
+pub(super) const DIRECTIONS: [&str; 6] = ["x", "y", "z", "u", "v", "w"];
 
 const ROW: Type = Numbers(6, "N, m, rad");
 

@@ -1,16 +1,20 @@
 //! A mechanism file.
 
-use super::Type::{Any, Anything, Count, Kinds as OneKind, List, Map, Number, Record as Of, Text};
+use super::Type::{
+    Any, Anything, Count, Kinds as OneKind, List, Map, Number, Record as Of, Text, Tuple,
+};
 use super::acting::{LOAD, MASS};
 use super::bodies::BODY;
 use super::joints::JOINT;
 use super::parts::{DIRECTION, MATERIAL, NODE, PROFILE, vector};
 use super::{Field, Kinds, Record, Type, kind, needed, optional};
 
-pub(crate) const MECHANISM: Record = Record::new(
-    "mechanism",
-    "A mechanism: bodies that meet at joints",
-    &[
+pub(crate) const MECHANISM: Record = Record {
+    name: "mechanism",
+    about: "A mechanism: bodies that meet at joints",
+    one_of: &[],
+    any_of: &["output", "mechanisms"],
+    fields: &[
         needed("name", Text, "its name, for reports"),
         PARAMETERS,
         optional("materials", Map(&Of(&MATERIAL)), "materials by name"),
@@ -30,7 +34,11 @@ pub(crate) const MECHANISM: Record = Record::new(
         ),
         optional("gravity", vector("m/s²"), "acceleration of gravity"),
         optional("masses", List(&Of(&MASS)), "masses on points of bodies"),
-        needed("output", NODE, "body and point whose stiffness is reported"),
+        optional(
+            "output",
+            NODE,
+            "body and point whose stiffness is reported, unless a mounted mechanism has it",
+        ),
         optional(
             "groups",
             Map(&Of(&GROUP)),
@@ -42,12 +50,17 @@ pub(crate) const MECHANISM: Record = Record::new(
             "where copies of groups stand, by the group's name",
         ),
         optional(
+            "mechanisms",
+            Map(&Of(&MOUNT)),
+            "mechanisms of other files that are parts of it, by name",
+        ),
+        optional(
             "include",
             List(&Text),
             "files of the same folder with materials, sections and groups",
         ),
     ],
-);
+};
 
 /// Numbers with names.
 pub(crate) const PARAMETERS: Field = optional(
@@ -58,6 +71,36 @@ pub(crate) const PARAMETERS: Field = optional(
 const POINTS: Type = Map(&vector("m"));
 const BODIES: Type = Map(&OneKind(&BODY));
 const JOINTS: Type = Map(&Of(&JOINT));
+
+/// A mechanism of another file that is a part of this one.
+pub(crate) const MOUNT: Record = Record::new(
+    "mount",
+    "A mechanism of another file, a part of this one",
+    &[
+        needed("file", Text, "the file, relative to this one"),
+        optional(
+            "at",
+            Any(&[
+                vector("m"),
+                Tuple(&[
+                    Number("m"),
+                    Number("m"),
+                    Number("m"),
+                    Number("rad"),
+                    Number("rad"),
+                    Number("rad"),
+                ]),
+            ]),
+            "where its origin stands, and how it is turned (a rotation vector)",
+        ),
+        needed("on", NODE, "body and point to which its ground is welded"),
+        optional(
+            "output",
+            NODE,
+            "body and point of it that are the output of all",
+        ),
+    ],
+);
 
 /// A part of a mechanism that is written once and copied.
 pub(crate) const GROUP: Record = Record::new(

@@ -80,6 +80,8 @@ pub(crate) struct Record {
     pub(crate) fields: &'static [Field],
     /// Fields of which exactly one is given; none are named where there is no such choice.
     pub(crate) one_of: &'static [&'static str],
+    /// Fields of which at least one is given; none are named where there is no such need.
+    pub(crate) any_of: &'static [&'static str],
 }
 
 impl Record {
@@ -94,6 +96,7 @@ impl Record {
             about,
             fields,
             one_of: &[],
+            any_of: &[],
         }
     }
 

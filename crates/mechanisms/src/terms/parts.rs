@@ -38,6 +38,7 @@ pub(crate) const MATERIAL: Record = Record {
         optional("yield", Number("Pa"), "yield strength, for utilisations"),
     ],
     one_of: &["poisson", "shear"],
+    any_of: &[],
 };
 
 const SHEAR_Y: Field = optional(

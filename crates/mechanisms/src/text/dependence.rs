@@ -1,6 +1,7 @@
 //! What in a mechanism depends on its parameters, and how much.
 
 use super::expression::{Dual, Operand};
+use super::paths;
 use super::scope::{PARAMETERS, Scope, parameters};
 use super::tree::{Content, Node};
 
@@ -72,7 +73,7 @@ pub(crate) fn placing(root: &Node) -> Vec<(String, f64)> {
 
 fn each_number(node: &Node, path: &str, found: &mut Vec<(String, f64)>) {
     if let Content::Number(value) | Content::Measured(value, _) = node.content {
-        found.push((path.into(), value));
+        found.push((paths::as_mounted(path.into()), value));
         return;
     }
     for (name, part) in node.parts() {

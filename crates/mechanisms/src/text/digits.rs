@@ -41,6 +41,18 @@ impl Digits {
         }
     }
 
+    /// Of a number as it is written shortest; `None` of one that is not finite.
+    pub(crate) fn of_value(value: f64) -> Option<Self> {
+        let text = format!("{value:?}");
+        let (mantissa, ten, end) = units::number(&text)?;
+        (end == text.len()).then(|| Self::counted(mantissa, ten, 1.0, ["", ""]))
+    }
+
+    /// Takes it for one that was rounded to so many decimals.
+    pub(crate) fn round(&mut self, decimals: i32) {
+        (self.decimals, self.needed, self.significant) = (decimals, decimals, decimals);
+    }
+
     fn counted(mantissa: &str, ten: i32, unit: f64, around: [&str; 2]) -> Self {
         let behind = mantissa.split_once('.').map_or("", |(_, behind)| behind);
         let ten = ten + unit.log10().round() as i32;

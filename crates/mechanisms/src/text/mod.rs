@@ -3,6 +3,7 @@
 pub(crate) mod as_json;
 pub(crate) mod brackets;
 pub(crate) mod columns;
+mod copied;
 pub(crate) mod csv;
 pub mod dependence;
 pub(crate) mod digits;

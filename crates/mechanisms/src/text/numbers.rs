@@ -124,7 +124,10 @@ impl<'a> Fragment<'a> {
             {
                 let whole = number.fract() == 0.0 && (0.0..=LARGEST).contains(number);
                 let count = whole.then(|| T::try_from(*number as u64).ok()).flatten();
-                count.ok_or_else(|| self.expected(&format!("{expected} of {number:?}")))
+                count.ok_or_else(|| {
+                    let message = format!("expected {expected}, found {}", self.shown());
+                    self.error(message).unreadable()
+                })
             }
             _ => self.parse(expected),
         }

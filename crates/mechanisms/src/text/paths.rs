@@ -5,8 +5,9 @@
 //! diameter of `rod: (section: Circle(diameter: 0.014), …)`. A parameter may be named alone: `R` is
 //! `parameters.R`, unless the mechanism has a field of that name.
 
+use super::copied::Copied;
 use super::fragment::{Fragment, Parts};
-use super::scope::PARAMETERS;
+use super::scope::{MECHANISMS, PARAMETERS, TREE};
 use super::tree::{Node, Steps, starts_with};
 use crate::error::LoadError;
 use crate::text::names;
@@ -73,6 +74,23 @@ fn find_in(
     if let Some(steps) = parameters.named(path) {
         return Ok(steps);
     }
+    if let Some(inside) = mounted(root, &path[start..]) {
+        return walk(root, &parameters, (key, whole), &inside, 0);
+    }
+    let way = walk(root, &parameters, (key, whole), path, start);
+    way.map_err(|error| match of_copy(root, &path[start..]) {
+        Some(help) => error.with_help(help),
+        None => error,
+    })
+}
+
+fn walk(
+    root: &Node,
+    parameters: &Parameters<'_>,
+    (key, whole): (Fragment<'_>, &str),
+    path: &str,
+    start: usize,
+) -> Result<Steps, LoadError> {
     let (mut value, mut rest) = (root, &path[start..]);
     let mut steps = Steps::new();
     loop {
@@ -92,6 +110,54 @@ fn find_in(
         value = value.part(place).ok_or_else(|| step.without_parts())?;
         rest = &path[walked + length + 1..];
     }
+}
+
+/// The way to what is mounted, whose path is `joints.head.slide1` where it stands at
+/// `mechanisms.head.mechanism.joints.slide1`; `None` of any other path.
+fn mounted(root: &Node, path: &str) -> Option<String> {
+    let (section, rest) = path.split_once('.')?;
+    let mounts = root.get(MECHANISMS)?;
+    let own = |name: &&str| root.get(section).is_some_and(|map| map.get(name).is_some());
+    let name = mounts
+        .entry_names()
+        .find(|name| starts_with(rest, name) && rest.len() > name.len() && !own(name))?;
+    let tree = mounts.get(name)?.get(TREE)?;
+    let inside = format!("{section}.{}", &rest[name.len() + 1..]);
+    let inside = mounted(tree, &inside).unwrap_or(inside);
+    Some(format!("{MECHANISMS}.{name}.{TREE}.{inside}"))
+}
+
+/// The path of what stands at this one, where it is mounted.
+pub(crate) fn as_mounted(path: String) -> String {
+    let inside = |path: &str| {
+        let rest = path.strip_prefix(MECHANISMS)?.strip_prefix('.')?;
+        let (name, rest) = rest.split_once('.')?;
+        let inside = rest.strip_prefix(TREE)?.strip_prefix('.')?;
+        let inside = as_mounted(inside.to_owned());
+        let (section, rest) = inside.split_once('.')?;
+        Some(format!("{section}.{name}.{rest}"))
+    };
+    inside(&path).unwrap_or(path)
+}
+
+/// What to write in place of a path that begins with the name of a copy's part, such as `joints.slide1`;
+/// `None` of any other.
+fn of_copy(root: &Node, path: &str) -> Option<String> {
+    let (section, rest) = path.split_once('.')?;
+    let name = rest.split('.').next()?;
+    if (root.get(section)).is_some_and(|map| map.get(name).is_some()) {
+        return None;
+    }
+    let Copied {
+        group,
+        part,
+        ending,
+    } = Copied::find(root, section, name)?;
+    let value = format!("{section}.{part}{}", &rest[name.len()..]);
+    Some(format!(
+        "`{name}` is a copy: `groups.{group}.{value}` is the value of all copies; one that `overrides` gives to this \
+         copy alone is `copies.{group}.overrides.{ending}.{value}`"
+    ))
 }
 
 /// The parameters of a mechanism, which a path may name alone.

@@ -11,6 +11,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::copied::Copied;
 use super::dimension::Dimension;
 use super::expression::{self, CONSTANTS, Dual, Expression, Failure, Operand};
 use super::fragment::Fragment;
@@ -23,6 +24,12 @@ use settling::Settling;
 
 /// Name of the field that holds the parameters.
 pub(crate) const PARAMETERS: &str = "parameters";
+
+/// Name of the field that holds what is mounted, whose values have names of their own.
+pub(crate) const MECHANISMS: &str = "mechanisms";
+
+/// Name of the field that holds the tree of what is mounted, in its entry.
+pub(crate) const TREE: &str = "mechanism";
 
 /// Parameters and points that lean on each other, one behind the other, at the most.
 const LONGEST: usize = 100;
@@ -112,7 +119,7 @@ impl<'t> Scope<'t> {
         }
         for (name, part) in node.parts() {
             let path = match path {
-                "" if name == PARAMETERS => continue,
+                "" if [PARAMETERS, MECHANISMS].contains(&&*name) => continue,
                 "" => name,
                 path => format!("{path}.{name}"),
             };
@@ -277,6 +284,13 @@ impl<'t> Scope<'t> {
             return Ok(Operand::Number(Dual::constant(*value)));
         } else if let Some((&name, _)) = self.points().get_key_value(name) {
             coordinate.map_or(Key::Point(name), |k| Key::Coordinate(name, k))
+        } else if let Some(copied) = Copied::find(self.root, "points", name) {
+            let group = copied.group;
+            let error = place(node, at).error(format!(
+                "`{name}` is a point of a copy of group `{group}`: what groups lean on cannot lean on copies"
+            ));
+            let help = "let it lean on the group's own points, or on other parameters";
+            return Err(told(error.with_help(help)));
         } else {
             let error = place(node, at).error(format!("unknown name `{name}`"));
             return Err(told(error.with_help(self.help(name))));

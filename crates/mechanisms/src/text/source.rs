@@ -148,7 +148,23 @@ impl Source {
 
     /// Reads a file that is asked for.
     pub(crate) fn read(path: &Path, files: &dyn Files) -> Result<Arc<Self>, LoadError> {
-        Self::read_into(path, Family::of(path, files), true)
+        let family = Family::of(path, files);
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if ending.is_some_and(|ending| ["csv", "parquet"].contains(&ending)) {
+            let bytes = files::read_from(files, path);
+            bytes.map_err(|source| LoadError::Read {
+                path: path.into(),
+                source,
+            })?;
+            let place = Place {
+                source: Self::of(path, "", family, false),
+                span: 0..0,
+            };
+            return Err(place
+                .error("this is a table, where a mechanism or batch file is wanted")
+                .with_help("`plot` draws tables, `compare` compares two of them"));
+        }
+        Self::read_into(path, family, true)
     }
 
     /// Reads a file that this one names. Messages show its text where it lies in the folder of the

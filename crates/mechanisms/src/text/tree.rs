@@ -68,10 +68,14 @@ pub(crate) type Steps = Vec<usize>;
 const DEEPEST: usize = 256;
 
 /// Fields that hold names: their objects are told from fields and kinds by this alone in JSON.
-pub(crate) const MAPS: [&str; 14] = [
+pub(crate) const MAPS: [&str; 18] = [
     "parameters",
     "groups",
     "copies",
+    "mechanisms",
+    "releases",
+    "springs",
+    "offset",
     "overrides",
     "materials",
     "sections",
@@ -150,7 +154,7 @@ impl Node {
     }
 
     /// Names of the fields of a struct, or of the arguments of a kind.
-    pub(super) fn field_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn field_names(&self) -> impl Iterator<Item = &str> {
         self.fields().iter().map(|own| &*own.name)
     }
 
@@ -381,7 +385,7 @@ impl Node {
     }
 
     /// The parts of it, each with the step of a path that leads there.
-    pub(super) fn parts(&self) -> Vec<(String, &Self)> {
+    pub(crate) fn parts(&self) -> Vec<(String, &Self)> {
         match &self.content {
             Content::Tuple(items) | Content::List(items) => {
                 let items = items.iter().enumerate();

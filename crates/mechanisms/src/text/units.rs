@@ -121,6 +121,10 @@ pub(crate) fn read(text: &str, wanted: Option<Dimension>) -> Result<Quantity, Wr
         at += part.len();
         match separator {
             Some('/') => sign = -1,
+            Some(_) if unit.contains("**") => {
+                let help = "a power stands behind `^`, such as `mm^2`";
+                return Err(Wrong::Unit(start..start + unit.len(), help.into()));
+            }
             Some(_) if sign < 0 => {
                 let help = "write all that is divided by behind a `/` of its own: `N*m/rad/m`";
                 return Err(Wrong::Unit(start..start + unit.len(), help.into()));

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use hyperstat_elements::{Elasticity, Material, Section, SectionShape};
 use hyperstat_model::{Body, BodyKind, Model, SegmentId};
+use nalgebra::Vector3;
 
 use super::error::WriteError;
 use super::numbers::{fields, number, vector};
@@ -87,7 +88,7 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Shared) -> Result<Str
             .iter()
             .enumerate()
             .all(|(k, id)| model.segments()[id.0].ends == [body.nodes[k], body.nodes[k + 1]]);
-    if is_chain && members.windows(2).all(|pair| pair[0].rest == pair[1].rest) {
+    if is_chain && members.windows(2).all(|pair| pair[0].goes_with(&pair[1])) {
         let mut sections: Vec<_> = members.iter().map(|member| &*member.section).collect();
         // A taper named once would run along the whole beam.
         let is_one = body.segments.len() == 1
@@ -98,7 +99,7 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Shared) -> Result<Str
         } else {
             format!("[{}]", sections.join(", "))
         };
-        let rest = &members[0].rest;
+        let rest = members[0].rest();
         return Ok(format!(
             "Beam(through: [{names}], section: {section}, {rest}{temperature})"
         ));
@@ -108,8 +109,9 @@ pub(super) fn body(model: &Model, body: &Body, parts: &mut Shared) -> Result<Str
             let Member {
                 ends: [first, second],
                 section,
-                rest,
+                ..
             } = member;
+            let rest = member.rest();
             format!("(through: [{first:?}, {second:?}], section: {section}, {rest})")
         })
         .collect();
@@ -123,8 +125,36 @@ struct Member<'a> {
     ends: [&'a str; 2],
     /// Name of its section, quoted.
     section: String,
-    /// Its other fields.
-    rest: String,
+    /// Name of its material, quoted.
+    material: String,
+    y_axis: Option<Vector3<f64>>,
+    elements: usize,
+}
+
+/// Directions of one copy's members that differ by no more than this are one, turned.
+const SAME_DIRECTION: f64 = 1e-14;
+
+impl Member<'_> {
+    /// Whether both have the same other fields.
+    fn goes_with(&self, other: &Self) -> bool {
+        let same = match (self.y_axis, other.y_axis) {
+            (Some(own), Some(other)) => (own - other).amax() <= SAME_DIRECTION,
+            (own, other) => own == other,
+        };
+        same && self.material == other.material && self.elements == other.elements
+    }
+
+    /// Its fields beside ends and section.
+    fn rest(&self) -> String {
+        let mut rest = format!("material: {}", self.material);
+        if let Some(y_axis) = &self.y_axis {
+            let _ = write!(rest, ", y_axis: {}", vector(y_axis));
+        }
+        if self.elements != 1 {
+            let _ = write!(rest, ", elements: {}", self.elements);
+        }
+        rest
+    }
 }
 
 fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Shared) -> Member<'a> {
@@ -135,17 +165,12 @@ fn member<'a>(model: &'a Model, id: SegmentId, body: &str, parts: &mut Shared) -
         _ => (segment.section.clone(), None),
     };
     let material = parts.materials.name(&segment.material, body);
-    let mut rest = format!("material: {material:?}");
-    if let Some(y_axis) = model.geometry().y_axes[id.0] {
-        let _ = write!(rest, ", y_axis: {}", vector(&y_axis));
-    }
-    if segment.elements != 1 {
-        let _ = write!(rest, ", elements: {}", segment.elements);
-    }
     Member {
         ends: segment.ends.map(|node| &*model.nodes()[node.0].point),
         section: format!("{:?}", parts.sections.name(&profile, body)),
-        rest,
+        material: format!("{material:?}"),
+        y_axis: model.geometry().y_axes[id.0],
+        elements: segment.elements,
     }
 }
 

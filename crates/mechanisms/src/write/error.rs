@@ -44,4 +44,14 @@ pub enum WriteError {
         /// Its kind.
         kind: String,
     },
+    /// A load that turns with a body which is neither the one that it is on nor that of the output.
+    #[error(
+        "a load on body `{on}` turns with body `{body}`: a file names the body itself or that of the output"
+    )]
+    TurnsWith {
+        /// What it is on.
+        on: String,
+        /// What it turns with.
+        body: String,
+    },
 }

@@ -31,6 +31,8 @@ const SAME_PLACE: f64 = 1e-12;
 /// # Errors
 /// [`WriteError`]: what a mechanism file cannot say.
 pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
+    let undotted = undotted(model);
+    let model = undotted.as_ref().unwrap_or(model);
     let mut parts = Shared::default();
     let points = points(model)?;
     let written_bodies: Vec<_> = (model.bodies().iter())
@@ -53,6 +55,20 @@ pub fn write(model: &Model, registry: &Registry) -> Result<String, WriteError> {
     acting::acting(model, &mut text)?;
     let _ = writeln!(text, "    output: {},\n)", place(model, output));
     Ok(text)
+}
+
+/// The model with other signs in the place of the dots that mounting puts into names, which a file cannot have; `None`
+/// where there are none.
+fn undotted(model: &Model) -> Option<Model> {
+    let bodies = model.bodies().iter().map(|body| &body.name);
+    let joints = model.joints().iter().map(|joint| &joint.name);
+    let points = model.nodes().iter().map(|node| &node.point);
+    let mut names = bodies.chain(joints).chain(points);
+    if !names.any(|name| name.contains('.')) {
+        return None;
+    }
+    let mut signs = (1..).map(|count| "_".repeat(count));
+    signs.find_map(|sign| model.renamed(|name| name.replace('.', &sign)))
 }
 
 /// [`write()`], in JSON: the same names and the same numbers.

@@ -241,3 +241,39 @@ fn what_a_file_cannot_say_is_refused() {
     };
     assert_eq!(written(&model), expected);
 }
+
+/// Loads that turn with a body are written so, with the vectors as they were stated.
+#[test]
+fn loads_that_turn_come_back_turning() {
+    let text = r#"(
+        name: "turning",
+        materials: { "steel": (young: 2.1e11, poisson: 0.3) }, sections: { "rod": Circle(diameter: 0.02) },
+        points: { "A": (0.0, 0.0, 0.0), "B": (0.3, 0.1, 0.5), "P": (0.35, 0.2, 0.6) },
+        bodies: {
+            "arm": Beam(through: ["A", "B"], section: "rod", material: "steel"),
+            "tool": Rigid(points: ["B", "P"]),
+        },
+        joints: {
+            "A": (at: "A", between: ("ground", "arm"), kind: Revolute(axis: (0.0, 1.0, 0.0)), locked: true),
+            "B": (at: "B", between: ("arm", "tool"), kind: Universal(axes: ((1.0, 0.0, 0.0), (0.0, 1.0, 0.2))), locked: true),
+        },
+        loads: [
+            (on: ("arm", "B"), force: (10.0, 20.0, 0.3), frame: Body),
+            (on: ("arm", "B"), force: (7.0, 0.1, 0.0), frame: Output),
+            (on: ("arm", "A", "B"), from: (0.1, 0.2, 0.3), to: (3.0, 2.0, 1.0), frame: Body),
+            (on: ("tool", "P"), force: (1.0, 2.0, 3.0)),
+        ],
+        output: ("tool", "P"),
+    )"#;
+    let model = read(text);
+    let written = write(&model, &Registry::builtin()).unwrap();
+    for said in [
+        "force: (10.0, 20.0, 0.3), moment: (0.0, 0.0, 0.0), frame: Body",
+        "force: (7.0, 0.1, 0.0), moment: (0.0, 0.0, 0.0), frame: Output",
+        "to: (3.0, 2.0, 1.0), frame: Body",
+        "force: (1.0, 2.0, 3.0), moment: (0.0, 0.0, 0.0))",
+    ] {
+        assert!(written.contains(said), "{said} is not in {written}");
+    }
+    assert_eq!(read(&written).load_set(), model.load_set());
+}

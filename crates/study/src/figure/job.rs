@@ -32,15 +32,16 @@ use crate::table::TableReader;
 /// What is wrong with the first that is wrong.
 pub fn check(job: &Job, columns: &[String]) -> Result<(), StudyError> {
     for (place, figure) in job.figures.iter().enumerate() {
-        let refused = |source| StudyError::JobMap {
-            location: Box::new(job.figure_location(place)),
+        let at = |fields: &[&str], source: PlotError| StudyError::JobMap {
+            location: Box::new(job.figure_location(place, fields)),
             source: Box::new(source),
         };
+        let refused = |source: PlotError| at(source.fields(), source);
         if !matches!(figure, Figure::Map { .. }) {
             words(figure).1.axes().map_err(refused)?;
         }
         if let Some(pose) = pose(figure) {
-            place_of(job, pose).map_err(refused)?;
+            place_of(job, pose).map_err(|source| at(&["pose"], source))?;
         }
         match figure {
             Figure::Map {
@@ -209,7 +210,8 @@ pub fn draw(
             budget(job, &Asked { case, along }, number(job, pose)?)
         }
         Figure::Map { .. } => {
-            let drawn = table().and_then(|table| drawn_map(job, figure, &table));
+            let table = table().map(|table| table.varying(job.varied()));
+            let drawn = table.and_then(|table| drawn_map(job, figure, &table));
             drawn.map_err(|error| told(&error))
         }
     }?;

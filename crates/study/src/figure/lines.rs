@@ -11,7 +11,6 @@ use super::map::evenly;
 use super::quantity::Drawn;
 use super::rows::{Choice, chosen};
 use crate::plot_error::PlotError;
-use crate::schema::unit;
 use crate::table::{Column, TableReader};
 
 /// Lines that are asked for.
@@ -259,7 +258,7 @@ fn others(
     if lines.choice.design.is_none() {
         for name in table.varied().iter().filter(|name| **name != lines.over) {
             let words = table.words(table.find(name).unwrap_or(0))?;
-            let unit = unit(name);
+            let unit = table.unit(name);
             let told = |row: &usize| match words[*row].parse::<f64>() {
                 Ok(number) => Quantity::new("", unit).value(number),
                 Err(_) => words[*row].clone(),

@@ -8,6 +8,7 @@ use hyperstat_mechanisms::{Files, Input, Noted, Registry};
 use super::budget::budget;
 use super::deformed::{compare, deformed, mode};
 use super::drawing::Drawing;
+use super::job::check;
 use super::labels::Labels;
 use super::map::evenly;
 use super::notes;
@@ -15,6 +16,7 @@ use super::pose::{in_words, of_job};
 use crate::answer::Asked;
 use crate::error::StudyError;
 use crate::plot_error::PlotError;
+use crate::schema::{Columns, numeric};
 use crate::selection::{Selection, choose};
 use crate::study::Study;
 
@@ -35,6 +37,15 @@ pub struct Look {
 }
 
 impl Study {
+    /// That the figures of its job can be drawn, as far as that is known before the job is run.
+    ///
+    /// # Errors
+    /// What is wrong with the first that is wrong.
+    pub fn check_figures(&self) -> Result<(), StudyError> {
+        let job = self.whole_job();
+        job.map_or(Ok(()), |job| check(job, &numeric(&Columns::of(job))))
+    }
+
     /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in
     /// place of one by its number.
     ///

@@ -73,10 +73,17 @@ impl Drawn {
 
     /// The quantity `name` of a table.
     pub fn of_table(name: &str, table: &TableReader) -> Result<Self, PlotError> {
-        Self::named(name, table.names()).ok_or_else(|| PlotError::UnknownColumn {
+        let drawn = Self::named(name, table.names()).ok_or_else(|| PlotError::UnknownColumn {
             path: table.path().into(),
             name: name.into(),
             help: instead_of(name, table.names()),
+        })?;
+        Ok(match drawn.rule {
+            Rule::Same => Self {
+                quantity: Quantity::new(name, table.unit(name)),
+                ..drawn
+            },
+            _ => drawn,
         })
     }
 

@@ -1,16 +1,19 @@
 //! The tables of `hyperstat run`, read back: CSV or Parquet, only the columns that are asked for.
 
+use std::collections::HashMap;
 use std::io::{BufRead, BufReader, Read};
 #[cfg(feature = "parquet")]
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use hyperstat_mechanisms::Location;
 #[cfg(feature = "fs")]
 use hyperstat_mechanisms::files;
+use hyperstat_mechanisms::{Location, Varied};
 #[cfg(feature = "parquet")]
 use parquet::errors::ParquetError;
+#[cfg(feature = "parquet")]
+use parquet::file::metadata::FileMetaData;
 #[cfg(feature = "parquet")]
 use parquet::file::reader::{FileReader, SerializedFileReader};
 #[cfg(feature = "parquet")]
@@ -21,7 +24,7 @@ use parquet::schema::types::Type;
 use super::TableFormat;
 use super::cells;
 use crate::plot_error::PlotError;
-use crate::schema::{COORDINATES, DESIGN, POSE, STATUS, holds_words};
+use crate::schema::{COORDINATES, DESIGN, POSE, STATUS, holds_words, unit};
 
 /// A column of numbers; `None` where a cell is empty.
 pub type Column = Vec<Option<f64>>;
@@ -32,6 +35,8 @@ pub struct TableReader {
     path: PathBuf,
     /// Names of the columns.
     names: Vec<String>,
+    /// SI units of columns whose names do not tell them.
+    units: HashMap<String, String>,
     form: TableFormat,
     source: Content,
 }
@@ -71,18 +76,20 @@ impl TableReader {
             Some("parquet") => TableFormat::Parquet,
             _ => return Err(PlotError::Extension { path: path.into() }),
         };
-        let names = match form {
+        let (names, units) = match form {
             TableFormat::Csv => {
                 let mut reader = csv_reader(path, &source)?;
                 let header = reader.headers().map_err(|error| csv_error(path, error))?;
-                header.iter().map(|name| cells::text(name).into()).collect()
+                let names = header.iter().map(|name| cells::text(name).into());
+                (names.collect(), HashMap::new())
             }
             #[cfg(feature = "parquet")]
             TableFormat::Parquet => {
                 let reader = parquet_reader(path, &source)?;
-                let schema = reader.metadata().file_metadata().schema();
-                let columns = schema.get_fields().iter();
-                columns.map(|column| column.name().to_string()).collect()
+                let metadata = reader.metadata().file_metadata();
+                let columns = metadata.schema().get_fields().iter();
+                let names = columns.map(|column| column.name().to_string());
+                (names.collect(), units(metadata))
             }
         };
         // Columns that every table has.
@@ -90,6 +97,7 @@ impl TableReader {
         let table = Self {
             path: path.into(),
             names,
+            units,
             form,
             source,
         };
@@ -111,6 +119,21 @@ impl TableReader {
     pub fn job(&self) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
         stem.to_string_lossy().into_owned()
+    }
+
+    /// The same table; the units of what varies are these.
+    pub(crate) fn varying(mut self, varied: &[Varied]) -> Self {
+        let known = varied.iter();
+        let known = known.filter_map(|own| Some((own.path.clone(), own.unit.clone()?)));
+        self.units.extend(known);
+        self
+    }
+
+    /// The SI unit of a column; empty where it has none or is unknown.
+    pub(crate) fn unit(&self, name: &str) -> &str {
+        self.units
+            .get(name)
+            .map_or_else(|| unit(name), String::as_str)
     }
 
     /// Names of its columns.
@@ -391,6 +414,15 @@ fn csv_error(path: &Path, error: csv::Error) -> PlotError {
         path: path.into(),
         source: error.into(),
     }
+}
+
+/// The units that a table says its columns have.
+#[cfg(feature = "parquet")]
+fn units(metadata: &FileMetaData) -> HashMap<String, String> {
+    let mut notes = metadata.key_value_metadata().into_iter().flatten();
+    let units = notes.find(|note| note.key == "units");
+    let units = units.and_then(|note| serde_json::from_str(note.value.as_deref()?).ok());
+    units.unwrap_or_default()
 }
 
 #[cfg(feature = "parquet")]

@@ -268,3 +268,28 @@ fn what_varies_has_a_name_of_its_own() {
         }
     }
 }
+
+/// A parameter has the unit that its values are written with, in the table and in what is drawn of it.
+#[test]
+fn what_varies_has_its_unit() {
+    let text = begin("Delta").expect("a kind");
+    let text = text.replacen(
+        "force: (-20.0, 10.0, 100.0)",
+        "force: (0, 0, \"= -push * n\")",
+        1,
+    );
+    let text = text.replacen("base_radius: 0.25", "base_radius: \"= R\"", 1);
+    let vary = "name: \"delta\", parameters: { \"R\": \"250 mm\", \"push\": 50, \"n\": 2 },
+        vary: { \"R\": [0.25, 0.3], \"push\": [\"1 kN\"], \"n\": [1, 2] },";
+    let job = job(&text.replacen("name: \"delta\",", vary, 1));
+    let columns = Columns::of(&job);
+    let writer = TableWriter::new(Vec::new(), TableFormat::Parquet, &columns).expect("a table");
+    let bytes = writer.finish().expect("a table");
+    let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a file");
+    let metadata = reader.metadata().file_metadata();
+    let mut notes = metadata.key_value_metadata().expect("keys").iter();
+    let units = notes.find(|note| note.key == "units").expect("units");
+    let units: Value =
+        serde_json::from_str(units.value.as_deref().expect("a value")).expect("JSON");
+    assert_eq!([&units["R"], &units["push"], &units["n"]], ["m", "N", ""]);
+}

@@ -6,7 +6,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::joint;
 use super::placement::Placement;
 use super::renamed::Names;
+pub(super) use super::renamed::Naming;
 use crate::error::LoadError;
+use crate::file::releases::FASTENING;
 use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
 use crate::text::tree::{Named, Node};
@@ -38,14 +40,14 @@ const MOMENTS: [(&str, Dimension); 2] = [
 pub(super) const DIRECTION: (&str, Dimension) = ("a part of a direction", Dimension::NUMBER);
 
 impl<'g> Copy<'g> {
-    /// The copy whose names end with `ending`.
+    /// The copy with these names.
     pub(super) fn new(
         group: &'g Node,
         root: &'g Node,
         placement: &'g Placement,
-        ending: &'g str,
+        naming: Naming<'g>,
     ) -> Self {
-        let names = Names::of(group, ending);
+        let names = Names::of(group, naming);
         Self {
             group,
             root,
@@ -89,10 +91,10 @@ impl<'g> Copy<'g> {
                 made = made.with_field("members", list.map_items(member));
             }
             if let Some(axis) = body.get("y_axis") {
-                return Ok(made.with_field("y_axis", self.direction(axis)?));
+                return Ok(made.with_field("y_axis", self.directions(axis)?));
             }
             match (body.kind(), body.get("through")) {
-                (Some("Beam"), Some(list)) => Ok(self.with_default(made, list)),
+                (Some("Beam"), Some(list)) => Ok(self.with_default(made, list, body)),
                 (Some("Flexible"), _) if !self.placement.keeps_axes() => {
                     let at = body.get("stiffness").unwrap_or(body);
                     let error = "a copy of a flexible body cannot be turned: its stiffness is in global axes";
@@ -112,25 +114,44 @@ impl<'g> Copy<'g> {
                 return list;
             }
             let fields = member.fields_in_place(vec![("through", list)]);
-            return self.with_default(fields, member);
+            return self.with_default(fields, member, member);
         };
-        let made = member.with_field("through", self.names.points(list));
+        let made = self.fastened(member.with_field("through", self.names.points(list)));
         match member.get("y_axis") {
             // What cannot be read is told where it is read.
-            Some(axis) => made.with_field("y_axis", self.direction(axis).unwrap_or(axis.clone())),
+            Some(axis) => made.with_field("y_axis", self.directions(axis).unwrap_or(axis.clone())),
             None if given => made,
-            None => self.with_default(made, list),
+            None => self.with_default(made, list, member),
         }
+    }
+
+    /// A member whose ends are fastened at the copy's points; what cannot be read is told where it is read.
+    fn fastened(&self, mut made: Node) -> Node {
+        for field in FASTENING {
+            let Some(map) = made.get(field).cloned() else {
+                continue;
+            };
+            let entries = map.entries().iter().map(|own| {
+                let turned = (field == "offset")
+                    .then(|| self.direction(own.value()).ok())
+                    .flatten();
+                let value = turned.unwrap_or_else(|| own.value().clone());
+                own.with(&self.names.point_name(own.name()), value)
+            });
+            let entries = entries.collect();
+            made = made.with_field(field, map.map_in_place(entries));
+        }
+        made
     }
 
     /// A beam through the points of `list` whose y axes are those that it has without being told,
     /// as the copy turns them.
-    fn with_default(&self, made: Node, list: &Node) -> Node {
+    fn with_default(&self, made: Node, list: &Node, written: &Node) -> Node {
         if self.placement.keeps_axes() {
             return made;
         }
         let axis = |ends: &[Node]| {
-            let [from, to] = [self.position(&ends[0])?, self.position(&ends[1])?];
+            let [from, to] = [self.end(&ends[0], written)?, self.end(&ends[1], written)?];
             let frame = element_frame(&(to - from), None).ok()?;
             let y = frame.matrix().column(1).into_owned();
             Some(list.numbers_in_place(self.placement.direction(&y).as_slice()))
@@ -140,6 +161,20 @@ impl<'g> Copy<'g> {
             Some(axes) => made.with_field("y_axis", list.list_in_place(axes)),
             None => made,
         }
+    }
+
+    /// Where a member ends at a point; in the group, not in its copy.
+    fn end(&self, name: &Node, member: &Node) -> Option<Vector3<f64>> {
+        let offset = member
+            .get("offset")
+            .and_then(|map| map.get(name.as_text()?));
+        let offset = match offset {
+            Some(offset) => Fragment::of_node(offset)
+                .vector("", Dimension::LENGTH)
+                .ok()?,
+            None => Vector3::zeros(),
+        };
+        Some(self.position(name)? + offset)
     }
 
     /// Where a point lies of which the name is written; in the group, not in its copy.
@@ -229,6 +264,19 @@ impl<'g> Copy<'g> {
             return Ok(node.clone());
         }
         vector(node, DIRECTION, |v| self.placement.direction(v))
+    }
+
+    /// A direction, or a list of one for each segment, as the copy turns them.
+    fn directions(&self, node: &Node) -> Result<Node, LoadError> {
+        let is_list = node
+            .items()
+            .first()
+            .is_some_and(|own| !own.items().is_empty());
+        if !is_list {
+            return self.direction(node);
+        }
+        let turned = node.items().iter().map(|own| self.direction(own));
+        Ok(node.list_in_place(turned.collect::<Result<_, _>>()?))
     }
 
     /// An inertia, `(Jxx, Jyy, Jzz)` or six entries, as the copy turns it.

@@ -7,12 +7,13 @@
 
 mod copy;
 mod joint;
+pub(crate) mod mounts;
 mod placement;
 mod renamed;
 
 use std::collections::HashMap;
 
-use copy::Copy;
+use copy::{Copy, Naming};
 
 use crate::error::LoadError;
 use crate::file::through::check_name;
@@ -67,6 +68,33 @@ impl Shared {
 }
 
 impl Copies {
+    /// Adds those of a mechanism that is mounted under this name; its masses stand behind so many others.
+    fn mount(&mut self, other: &Self, name: &str, first: usize, masses: Option<&Node>) {
+        let own = |path: &str| match path.split_once('.') {
+            Some((section, rest)) => format!("{section}.{name}.{rest}"),
+            None => format!("{path}.{name}"),
+        };
+        let mounted = |shared: &Shared| Shared {
+            group: own(&shared.group),
+            overrides: own(&shared.overrides),
+            ..shared.clone()
+        };
+        for (joint, shared) in &other.joints {
+            self.joints
+                .insert(format!("{name}.{joint}"), mounted(shared));
+        }
+        for k in 0..masses.map_or(0, |masses| masses.items().len()) {
+            let alone = Shared {
+                group: format!("masses.{name}"),
+                part: k.to_string(),
+                overrides: String::new(),
+                own: Vec::new(),
+            };
+            let shared = other.masses.get(&k).map_or(alone, mounted);
+            self.masses.insert(first + k, shared);
+        }
+    }
+
     /// The path to the stiffness of a joint along a direction of this name.
     pub(crate) fn stiffness(&self, joint: &str, direction: &str) -> Option<String> {
         let value = format!("stiffness.{direction}");
@@ -103,6 +131,8 @@ fn unvalued(root: &Node) -> Result<Written, LoadError> {
         root: root.clone(),
         copies: Copies::default(),
     };
+    mounts::write_out(&mut written)?;
+    let root = &written.root.clone();
     if root.get("groups").is_some() || root.get("copies").is_some() {
         let value = |root: &Node, node: &Node| Ok(Scope::lazy(root)?.valued(node));
         of_copies(&valued(root, value)?, &mut written)?;
@@ -219,7 +249,11 @@ fn of_group(
     for (placement, name) in places.iter().zip(&names) {
         let own = overrides.iter().find(|own| own.name == *name);
         let (node, changed) = changed((node, &owner), own.zip(of_copy(name)))?;
-        let copy = Copy::new(&node, root, placement, name);
+        let naming = Naming {
+            before: "",
+            after: name,
+        };
+        let copy = Copy::new(&node, root, placement, naming);
         let shared = |part: String| Shared {
             group: format!("groups.{}", group.name),
             part,
@@ -382,6 +416,14 @@ impl Parts {
             self.entries.push(own);
         }
         Ok(())
+    }
+
+    /// Adds entries whose names are their own.
+    fn put(&mut self, entries: impl IntoIterator<Item = Named>) {
+        for own in entries {
+            self.by_name.insert(own.name().into(), self.entries.len());
+            self.entries.push(own);
+        }
     }
 
     fn into_node(self, place: &Node) -> Node {

@@ -26,6 +26,14 @@ impl Placement {
         shift: Vector3::new(0.0, 0.0, 0.0),
     };
 
+    /// A rotation about the origin, then a motion by `shift`.
+    pub(super) fn moved(rotation: Rotation3<f64>, shift: Vector3<f64>) -> Self {
+        Self {
+            linear: rotation.into_inner(),
+            shift,
+        }
+    }
+
     /// A rotation or a reflection about a point.
     fn about(point: &Point3<f64>, linear: Matrix3<f64>) -> Self {
         Self {

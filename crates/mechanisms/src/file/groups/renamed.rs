@@ -2,37 +2,59 @@
 
 use std::collections::HashSet;
 
+use crate::file::bodies::GROUND;
 use crate::text::tree::{Named, Node};
 
-/// The names of a group's points and bodies, and what is put behind them in a copy.
+/// What is put before and behind names.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Naming<'g> {
+    pub(super) before: &'g str,
+    pub(super) after: &'g str,
+}
+
+/// The names of a group's points and bodies, and how they are called in a copy. What has names before its own has a
+/// ground of its own.
 #[derive(Debug)]
 pub(super) struct Names<'g> {
     points: HashSet<&'g str>,
     bodies: HashSet<&'g str>,
-    ending: &'g str,
+    naming: Naming<'g>,
 }
 
 impl<'g> Names<'g> {
-    pub(super) fn of(group: &'g Node, ending: &'g str) -> Self {
-        let names = |part: &str| {
+    pub(super) fn of(group: &'g Node, naming: Naming<'g>) -> Self {
+        let names = |part: &str| -> HashSet<&'g str> {
             let entries = group.get(part).map_or(&[][..], Node::entries);
             entries.iter().map(Named::name).collect()
         };
+        let mut bodies: HashSet<_> = names("bodies");
+        if !naming.before.is_empty() {
+            bodies.insert(GROUND);
+        }
         Self {
             points: names("points"),
-            bodies: names("bodies"),
-            ending,
+            bodies,
+            naming,
         }
     }
 
     /// The name of something of the group in this copy.
     pub(super) fn own(&self, name: &str) -> String {
-        format!("{name}{}", self.ending)
+        let Naming { before, after } = self.naming;
+        format!("{before}{name}{after}")
     }
 
     /// A point's name where one stands; one that is not the group's stays.
     pub(super) fn point(&self, node: &Node) -> Node {
         self.named(node, &self.points)
+    }
+
+    /// A point's name; one that is not the group's stays.
+    pub(super) fn point_name(&self, name: &str) -> String {
+        match self.points.contains(name) {
+            true => self.own(name),
+            false => name.into(),
+        }
     }
 
     /// A body's name where one stands.

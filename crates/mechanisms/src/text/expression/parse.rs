@@ -68,6 +68,12 @@ fn mistake<T>(at: Range<usize>, message: impl Into<String>, help: &str) -> Resul
     })
 }
 
+/// What is wrong with a unit, and what would be right.
+const NO_UNITS: [&str; 2] = [
+    "units do not stand in expressions",
+    "write the number in SI, or give it with its unit to a parameter",
+];
+
 impl Parser<'_> {
     /// An expression of operators that bind as tightly as `least`, or more so.
     fn expression(&mut self, least: usize) -> Result<(), Mistake> {
@@ -243,6 +249,9 @@ impl Parser<'_> {
                 "this `(` is never closed",
                 "add the missing `)`",
             ),
+            Some(c) if c.is_alphabetic() && self.is_unit() => {
+                mistake(self.next(), NO_UNITS[0], NO_UNITS[1])
+            }
             Some(c) => mistake(
                 self.next(),
                 format!("unexpected `{c}`"),
@@ -292,11 +301,9 @@ impl Parser<'_> {
                 "unexpected `,`",
                 "commas separate the arguments of a function; write numbers with a decimal point",
             ),
-            Some(c) if c.is_alphabetic() && self.is_unit() => mistake(
-                self.next(),
-                "units do not stand in expressions",
-                "write the number in SI, or give it with its unit to a parameter",
-            ),
+            Some(c) if c.is_alphabetic() && self.is_unit() => {
+                mistake(self.next(), NO_UNITS[0], NO_UNITS[1])
+            }
             Some(c) => mistake(
                 self.next(),
                 format!("unexpected `{c}`"),

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use super::{Operand, PARAMETERS, Scope};
+use super::{MECHANISMS, Operand, PARAMETERS, Scope};
 use crate::error::LoadError;
 use crate::text::tree::{Content, Node, Steps};
 
@@ -55,17 +55,34 @@ impl<'t> Scope<'t> {
         (!self.settling.as_ref().is_some_and(lost)).then_some(tree)
     }
 
+    /// Whether something in a value leans on something open.
+    pub(crate) fn is_open(&self, node: &Node) -> bool {
+        match &node.content {
+            Content::Expression(expression) => self.leans(&self.evaluated(expression, node)),
+            Content::Failed(error) => self.leans(&Err(Arc::clone(error))),
+            _ => node.parts().into_iter().any(|(_, part)| self.is_open(part)),
+        }
+    }
+
+    fn leans(&self, found: &Result<Operand, Arc<LoadError>>) -> bool {
+        match (&self.settling, found) {
+            (Some(settling), Err(error)) => Arc::ptr_eq(error, &settling.open.0),
+            _ => false,
+        }
+    }
+
     /// Whether a field of the mechanism stays as it is written.
     pub(super) fn keeps(&self, field: &str) -> bool {
-        field == PARAMETERS || (self.settling.is_some() && ["groups", "copies"].contains(&field))
+        [PARAMETERS, MECHANISMS].contains(&field)
+            || (self.settling.is_some() && ["groups", "copies"].contains(&field))
     }
 
     /// Whether an expression that gives this stays as it is written.
     pub(super) fn stays(&self, found: &Result<Operand, Arc<LoadError>>) -> bool {
-        let (Some(settling), Err(error)) = (&self.settling, found) else {
+        let (Some(settling), Err(_)) = (&self.settling, found) else {
             return false;
         };
-        if !Arc::ptr_eq(error, &settling.open.0) {
+        if !self.leans(found) {
             settling.lost.set(true);
         }
         true

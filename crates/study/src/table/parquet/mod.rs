@@ -110,7 +110,11 @@ fn described(columns: &Columns<'_>, notes: &[(&str, &str)]) -> Vec<KeyValue> {
         // Texts always have a JSON.
         KeyValue::new(key.into(), serde_json::to_string(&object).ok())
     };
-    let units = of("units", &|name| schema::unit(name).into());
+    let units = of("units", &|name| {
+        let varied = columns.varied.iter().find(|own| own.path == name);
+        let known = varied.and_then(|own| own.unit.clone());
+        known.unwrap_or_else(|| schema::unit(name).into())
+    });
     let mut all = vec![units, of("meanings", &schema::words)];
     let version = ("hyperstat.version", env!("CARGO_PKG_VERSION"));
     let notes = [version].into_iter().chain(notes.iter().copied());
