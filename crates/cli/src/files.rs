@@ -44,8 +44,8 @@ pub(crate) fn completions(args: &Completions) -> String {
 
 /// The commands, with the words that may stand where others may, too.
 fn with_words(command: Command) -> Command {
-    let offer = |command: Command, argument: &str, words: Vec<String>| {
-        command.mut_arg(argument.to_owned(), |own| {
+    let offer = |command: Command, argument: &'static str, words: Vec<String>| {
+        command.mut_arg(argument, |own| {
             own.value_parser(PossibleValuesParser::new(words))
         })
     };
