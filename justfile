@@ -21,9 +21,10 @@ fmt:
 doc:
     RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps
 
-# The book as pages, in target/book (needs mdbook)
+# The book as pages, in target/book (needs mdbook), with the playground where `just web` has made it
 book:
     mdbook build docs
+    test ! -f web/dist/playground.html || cp web/dist/playground.html target/book/
 
 # Benches, each beside its baseline, and what they measured as tables
 bench:
@@ -39,6 +40,14 @@ python:
     python3 -m venv target/python
     CARGO_TARGET_DIR="$PWD/target" target/python/bin/pip -q install "./crates/python[test]"
     target/python/bin/python -m pytest crates/python/tests
+
+# The page of `hyperstat view` and the core that answers in it, in web/dist (needs Node; says what it misses)
+web:
+    bash crates/web/build
+
+# What browsers are shown, tested in one (needs `just web` and Chromium)
+web-test:
+    npm test --prefix web
 
 # The README's main command
 paper:

@@ -6,6 +6,7 @@ mod input;
 mod plot;
 mod report;
 mod run;
+mod view;
 
 use std::path::PathBuf;
 
@@ -24,6 +25,8 @@ use report::REPORT_HELP;
 pub(crate) use report::Report;
 use run::{MERGE_HELP, RUN_HELP};
 pub(crate) use run::{Merge, Run, Shard};
+use view::VIEW_HELP;
+pub(crate) use view::View;
 
 /// How stiff a parallel robot is: the 6×6 stiffness of a mechanism's output, and all
 /// displacements, wrenches and stresses, from a text file.
@@ -47,6 +50,7 @@ Examples:
   hyperstat compare a.ron b.ron              What differs, and what that changes
   hyperstat report portal.ron --out portal.html
                                              All of it on a page, for an appendix
+  hyperstat view portal.ron                  A page to look at, and to drag
   hyperstat export paper.ron --job delta > delta.ron
                                              A mechanism of a batch written out, to edit
   hyperstat new delta > robot.ron            A file to begin with
@@ -83,6 +87,9 @@ pub(crate) enum Command {
     /// Write a report of a mechanism or a batch as one HTML page: drawings, tables, figures, definitions
     #[command(after_help = REPORT_HELP)]
     Report(Box<Report>),
+    /// Write a page to look at: the mechanism in space, to drag and ask in any browser, offline
+    #[command(after_help = VIEW_HELP)]
+    View(View),
     /// Say what differs between two mechanisms, designs or tables, in what is written and what is found
     #[command(after_help = COMPARE_HELP)]
     Compare(Box<Compare>),

@@ -15,6 +15,7 @@ mod run;
 mod signals;
 mod terminal;
 mod text;
+mod view;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -85,6 +86,9 @@ fn run_commands(args: impl IntoIterator<Item = OsString>, registry: &Registry) -
             Some(page) => printed(&page),
             None => Ok(true),
         }),
+        Command::View(args) => {
+            view::run(args, registry).and_then(|text| tell(&text).map(|()| true))
+        }
         Command::Export(args) => export(args, registry),
         Command::New(args) => files::new(args).and_then(|text| printed(&text)),
         Command::Fmt(args) => fmt(args),

@@ -95,6 +95,11 @@ impl LoopClosure {
         self.prescribed(&[false; 6]).iter().filter(|p| **p).count()
     }
 
+    /// Coordinates of the output (x y z, rx ry rz) that are independent at home: as many as it has freedoms.
+    pub fn coordinates(&self) -> [bool; 6] {
+        self.prescribed(&[false; 6])
+    }
+
     /// The configuration at `target` that a straight way leads to from the configuration `from`:
     /// Newton's method in steps that are halved where it does not converge, or could change to
     /// another assembly mode.

@@ -54,5 +54,6 @@ pub use text::files;
 pub use text::files::Disk;
 pub use text::files::{Files, MemoryFiles};
 pub use text::names::nearest;
+pub use text::quantities::unit_of;
 pub use text::value::Value;
 pub use write::{WriteError, write, write_json};

@@ -12,6 +12,7 @@ mod pool;
 mod pose;
 mod run;
 mod sweep;
+mod view;
 mod watched;
 
 use hyperstat_study::{Measure, Registry, files};
@@ -57,6 +58,13 @@ mod _hyperstat {
     use super::schema;
     #[pymodule_export]
     use super::sweep::{Found, measure};
+    #[pymodule_export]
+    use super::view::view;
+
+    /// Whether pages have the core in them.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const live: bool = super::view::LIVE;
 
     /// Version of the package.
     #[pymodule_export]

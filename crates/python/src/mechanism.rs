@@ -26,7 +26,7 @@ pub(crate) struct Core {
     /// The file that it is from, in messages.
     path: PathBuf,
     /// Kinds of joints and mechanisms that it may be of.
-    registry: Registry,
+    pub(crate) registry: Registry,
     /// Whether it is a design of a job as it was read.
     design_of_job: bool,
     /// What was worked out of it.
@@ -468,7 +468,10 @@ impl Core {
     }
 
     /// Asks the study of it, which is made when it is first asked.
-    fn asked<T>(&self, ask: impl FnOnce(&mut Study) -> Result<T, Ended>) -> Result<T, Ended> {
+    pub(crate) fn asked<T>(
+        &self,
+        ask: impl FnOnce(&mut Study) -> Result<T, Ended>,
+    ) -> Result<T, Ended> {
         let mut study = match self.study.take() {
             Some(study) => study,
             None => unforked(|| match &self.subject {

@@ -23,7 +23,7 @@ def versions(lock: Path) -> dict[str, set[str]]:
 def test_versions_are_those_of_the_workspace() -> None:
     """Else what the workspace has built is built again: `cp Cargo.lock crates/python`, `cargo update -w`."""
     workspace = versions(ROOT / "Cargo.lock")
-    for lock in ("crates/python/Cargo.lock", "benches/python/core/Cargo.lock"):
+    for lock in ("crates/python/Cargo.lock", "crates/web/Cargo.lock", "benches/python/core/Cargo.lock"):
         own = versions(ROOT / lock)
         shared = own.keys() & workspace.keys()
         assert len(shared) > 50

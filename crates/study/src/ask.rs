@@ -6,7 +6,8 @@ use hyperstat_mechanisms::Along;
 use hyperstat_reference::ReferenceSolution;
 
 use crate::answer::{
-    Asked, BudgetReport, CheckReport, FrequencyReport, ModesReport, SolveReport, Why,
+    Asked, BudgetReport, CheckReport, FrequencyReport, MeasuresReport, ModesReport, SolveReport,
+    Why,
 };
 use crate::error::StudyError;
 use crate::study::Study;
@@ -150,8 +151,13 @@ impl Study {
         }
         let options = self.modal_options(None, None);
         let options = options.unwrap_or_else(|| ModalOptions::lowest(USUAL));
-        let possible = has_mass(self.model()) && self.prepared.modal(&options).is_ok();
-        possible.then_some(options)
+        self.modal_plan(&options).is_some().then_some(options)
+    }
+
+    /// The plan of natural frequencies over its poses; `None` where not all that moves has mass.
+    pub(crate) fn modal_plan(&self, options: &ModalOptions) -> Option<ModalPlan> {
+        let heavy = has_mass(self.model());
+        heavy.then(|| self.prepared.modal(options).ok()).flatten()
     }
 
     /// Natural frequencies \[Hz\] and modes.
@@ -192,6 +198,19 @@ impl Study {
         asked: &Asked,
     ) -> Result<Option<BudgetReport>, StudyError> {
         crate::answer::budget(&self.here(), solution, asked).map_err(|error| self.unsolvable(error))
+    }
+
+    /// The budget with the measures of the stiffness; neither where the output moves freely.
+    ///
+    /// # Errors
+    /// As [`Study::why`].
+    pub(crate) fn budget_and_measures(
+        &self,
+        solution: &Solution,
+        asked: &Asked,
+    ) -> Result<(Option<BudgetReport>, Option<MeasuresReport>), StudyError> {
+        let found = crate::answer::budget_and_measures(&self.here(), solution, asked);
+        found.map_err(|error| self.unsolvable(error))
     }
 
     /// Compares a solution with the independent solver's.

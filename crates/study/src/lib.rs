@@ -32,8 +32,10 @@ pub mod plain;
 mod plot_error;
 #[cfg(feature = "figures")]
 mod ran;
+pub mod scene;
 mod schema;
 mod selection;
+pub mod session;
 mod source;
 mod steps;
 mod study;
@@ -41,6 +43,8 @@ pub mod sweep;
 pub mod table;
 mod title;
 mod verification;
+#[cfg(feature = "view")]
+mod view;
 mod vtu;
 
 pub use answer::{
@@ -83,3 +87,5 @@ pub use ran::Ran;
 pub use selection::Selection;
 pub use study::Study;
 pub use verification::{StateDifferences, Verification};
+#[cfg(feature = "view")]
+pub use view::View;

@@ -1,5 +1,7 @@
 //! One mechanism in one configuration, from a mechanism file or from a pose of a batch's job.
 
+mod poses;
+
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -250,31 +252,6 @@ impl Study {
             Origin::Mechanism(_) => None,
             Origin::Job { job, pose, .. } => Some((job, *pose)),
         }
-    }
-
-    /// The same design at another pose of its job; `None` where that is out of reach, or it is of no job.
-    #[cfg(feature = "figures")]
-    pub(crate) fn at_pose(&self, pose: usize) -> Option<Self> {
-        let Origin::Job {
-            job,
-            design,
-            number,
-            ..
-        } = &self.origin
-        else {
-            return None;
-        };
-        Some(Self {
-            prepared: Prepared::new(design_model(design, pose).ok()?),
-            name: self.name.clone(),
-            files: self.files.clone(),
-            origin: Origin::Job {
-                job: job.clone(),
-                design: design.clone(),
-                pose,
-                number: *number,
-            },
-        })
     }
 
     /// Number of the design that it is, of a job that varies.

@@ -34,5 +34,6 @@ mod strains;
 mod support;
 mod tables;
 mod tutorials;
+mod view;
 mod vtu;
 mod why;

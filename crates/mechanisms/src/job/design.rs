@@ -4,7 +4,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use hyperstat_closure::Target;
-use hyperstat_model::{Geometry, LANES, Model};
+use hyperstat_joints::Dof;
+use hyperstat_model::{Geometry, JointId, LANES, Model};
 
 use super::mover::Placing;
 use super::poses::Poses;
@@ -106,6 +107,18 @@ impl Design {
         placing: &mut Placing,
     ) -> Result<[f64; 6], PoseError> {
         self.subject.bring(target, geometry, placing)
+    }
+
+    /// Which coordinates of the output (x y z, rx ry rz) it is brought to its poses by: those that a prebuilt
+    /// mechanism takes; of one of a file independent ones, none where it cannot be moved.
+    pub fn coordinates(&self) -> [bool; 6] {
+        self.subject.independent()
+    }
+
+    /// The drives that it is brought to its poses by, by joints and directions; none of a prebuilt mechanism,
+    /// and of one that cannot be moved.
+    pub fn drives(&self) -> Vec<(JointId, Dof)> {
+        self.subject.driven()
     }
 
     /// The mechanism, where it comes from a file; its loads are the job's.

@@ -130,6 +130,11 @@ impl Mover {
         }
     }
 
+    /// Its loop closure, where it can be moved.
+    pub(crate) fn closure(&self) -> Option<&LoopClosure> {
+        self.closure.as_ref().ok()
+    }
+
     /// Brings geometries of the model to these poses; returns the output's whole poses.
     pub(crate) fn place_lanes(
         &self,

@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use hyperstat_closure::Target;
-use hyperstat_model::{Geometry, LANES, Model, NodeId};
+use hyperstat_closure::{LoopClosure, Target};
+use hyperstat_joints::Dof;
+use hyperstat_model::{Geometry, JointId, LANES, Model, NodeId};
 
 use super::mover::{Mover, Placed, Placing};
 use super::poses::Poses;
@@ -162,6 +163,36 @@ impl Subject {
             (Self::Prebuilt { mechanism, .. }, Target::Drives(_)) => Err(PoseError::Drives {
                 kind: mechanism.kind().into(),
             }),
+        }
+    }
+}
+
+impl Subject {
+    /// Coordinates of the output that poses are given by.
+    pub(crate) fn independent(&self) -> [bool; 6] {
+        match self {
+            Self::File { mechanism, mover } => {
+                let closure = moved(mechanism, mover).closure();
+                closure.map_or([false; 6], LoopClosure::coordinates)
+            }
+            Self::Prebuilt { mechanism, .. } => {
+                let mut taken = [false; 6];
+                for coordinate in mechanism.coordinates() {
+                    taken[coordinate.index()] = true;
+                }
+                taken
+            }
+        }
+    }
+
+    /// Drives that poses are given by.
+    pub(crate) fn driven(&self) -> Vec<(JointId, Dof)> {
+        match self {
+            Self::File { mechanism, mover } => {
+                let closure = moved(mechanism, mover).closure();
+                closure.map_or_else(Vec::new, |closure| closure.drives().collect())
+            }
+            Self::Prebuilt { .. } => Vec::new(),
         }
     }
 }

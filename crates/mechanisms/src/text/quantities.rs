@@ -6,6 +6,8 @@
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
+use hyperstat_joints::Dof;
+
 use super::dimension::Dimension;
 use crate::terms::acting::{LOAD, MASS};
 use crate::terms::bodies::BODY;
@@ -35,6 +37,35 @@ static FIELDS: LazyLock<HashMap<&str, Dimension>> = LazyLock::new(|| {
 /// What a number of a field measures; `None` of a name of which that is not known, or not one thing.
 pub(crate) fn of(field: &str) -> Option<Dimension> {
     FIELDS.get(field).copied()
+}
+
+/// Maps of a file in which names stand that are no fields.
+const NAMED: [&str; 6] = [
+    "points",
+    "materials",
+    "sections",
+    "bodies",
+    "joints",
+    "cases",
+];
+
+/// The SI unit of the value at a path, such as `sections.rod.diameter` or `joints.A.stiffness.u`; empty of
+/// a pure number, and where it is not known.
+pub fn unit_of(path: &str) -> String {
+    let steps: Vec<&str> = path.split('.').collect();
+    let mut found = None;
+    for (k, step) in steps.iter().enumerate() {
+        let is_name = k > 0 && NAMED.contains(&steps[k - 1]);
+        if is_name || *step == "parameters" {
+            continue;
+        }
+        let by_direction = || {
+            let direction: Dof = step.parse().ok()?;
+            (k > 0 && steps[k - 1].ends_with("stiffness")).then(|| stiffness()[direction.index()])
+        };
+        found = by_direction().or_else(|| of(step)).or(found);
+    }
+    found.map_or_else(String::new, Dimension::unit)
 }
 
 /// Stiffnesses along x y z and about u v w.

@@ -38,6 +38,7 @@ from ._joints import JointKind
 from ._mechanism import Mechanism, load, measures, schema
 from ._solution import CaseResult, JointResult, Solution
 from ._table import CaseTable, Table
+from ._view import View, view
 from .parts import *  # noqa: F403
 
 # A process that is forked while other threads compute finds nothing half made.
@@ -68,6 +69,7 @@ __all__ = [
     "Solution",
     "Table",
     "UnsolvableError",
+    "View",
     "__version__",
     "choose_poses",
     "dask",
@@ -77,5 +79,6 @@ __all__ = [
     "measures",
     "parts",
     "schema",
+    "view",
     *parts.__all__,
 ]

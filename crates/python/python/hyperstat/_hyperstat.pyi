@@ -23,6 +23,7 @@ __all__ = [
     "begin_run",
     "column",
     "lasts",
+    "live",
     "load",
     "measure",
     "measures",
@@ -32,9 +33,11 @@ __all__ = [
     "prebuilt",
     "run_share",
     "schema",
+    "view",
 ]
 
 __version__: str
+live: bool
 
 @final
 class Core:
@@ -173,3 +176,4 @@ def lasts(
     one_by_one: bool,
 ) -> float: ...
 def schema() -> str: ...
+def view(core: Core, title: str) -> str: ...

@@ -33,7 +33,7 @@ pub use why::{
     Asked, BudgetReport, MeasuresReport, PartReport, PrincipalReport, ScrewReport, Sum,
     VirtualWork, Why,
 };
-pub(crate) use why::{budget, shares};
+pub(crate) use why::{budget, budget_and_measures, shares};
 
 /// A 6×6 matrix by rows.
 pub type Rows = [[f64; 6]; 6];

@@ -157,6 +157,19 @@ pub fn budget(
     inquiry.map(answer).transpose()
 }
 
+/// The same with the measures of the stiffness.
+pub fn budget_and_measures(
+    here: &Configuration<'_>,
+    solution: &Solution,
+    asked: &Asked,
+) -> Result<(Option<BudgetReport>, Option<MeasuresReport>), SolveError> {
+    let Some(inquiry) = Inquiry::new(here.model(), solution, asked) else {
+        return Ok((None, None));
+    };
+    let measures = inquiry.measures.as_ref().map(MeasuresReport::new);
+    Ok((Some(inquiry.budget(&here.influence()?)), measures))
+}
+
 /// The budget of a solution, of the model that the influence is of, in the way that its output moves, or the
 /// softest one; `None` where it moves freely.
 pub(crate) fn shares(

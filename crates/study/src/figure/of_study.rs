@@ -72,37 +72,18 @@ impl Study {
         Self::of(loaded, path, &selection)
     }
 
-    /// [`Study::open`] at the first pose of the job that can be taken.
+    /// [`Study::of_first`] of the file at this path.
     ///
     /// # Errors
-    /// As there; of a job of which no pose can be taken, why the first cannot.
+    /// As there.
     pub fn open_first(
         path: &Path,
         selection: &Selection,
         files: &dyn Files,
         registry: &Registry,
     ) -> Result<Self, StudyError> {
-        let first = Self::open(path, selection, files, registry);
-        if !matches!(first, Err(StudyError::Pose { .. })) || selection.pose.is_some() {
-            return first;
-        }
         let loaded = hyperstat_mechanisms::load(path, files, registry)?;
-        let Input::Batch(batch) = loaded else {
-            return first;
-        };
-        let job = choose(batch.jobs, path, selection)?;
-        let design = job.design(selection.design.unwrap_or(0))?;
-        let taken = |pose: &usize| {
-            let mut geometry = design.model().ok()?.geometry().clone();
-            design.place(*pose, &mut geometry).ok()
-        };
-        let pose = (1..job.len()).find(|pose| taken(pose).is_some());
-        let Some(pose) = pose else { return first };
-        let selection = Selection {
-            pose: Some(pose),
-            ..selection.clone()
-        };
-        Self::open(path, &selection, files, registry)
+        Self::of_first(loaded, path, selection)
     }
 
     /// The mechanism undeformed and deformed, under its loads or those of a case; with the points of
