@@ -48,6 +48,7 @@ RECORDS = {
     "modes": "Modes",
     "group": "Group",
     "copies": "Copies",
+    "mount": "Mount",
 }
 KINDS = ["section", "profile", "joint_kind", "body", "placing"]
 PREBUILT = "job_mechanism"

@@ -6,14 +6,11 @@ use super::through::{Tables, check_name, pairs, through};
 use super::value_names::Given;
 use crate::error::LoadError;
 use crate::file::{beams, flexible};
-use crate::terms::bodies::BODY;
+use crate::terms::bodies::{BODY, GROUND};
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::{Entry, Fragment};
 use crate::text::names;
-
-/// The name of the fixed body.
-pub(crate) const GROUND: &str = "ground";
 
 /// Adds the body of `entry` to the model, and to `given` what its segments are given by.
 pub(crate) fn read(

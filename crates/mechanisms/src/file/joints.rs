@@ -6,11 +6,11 @@ use hyperstat_joints::{Dof, DofSet, Joint, frame_from_axes, frame_from_axis};
 use hyperstat_model::{Connection, JointId, JointStiffness, Model, ModelError, NodeId};
 use nalgebra::{Matrix6, Rotation3, Vector6};
 
-use super::bodies::GROUND;
 use super::registry::{Orientation, ParsedJoint, Registry};
 use super::through::check_name;
 use crate::error::LoadError;
 use crate::file::nodes;
+use crate::terms::bodies::GROUND;
 use crate::terms::joints::JOINT;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;

@@ -14,6 +14,6 @@ pub(crate) mod materials;
 pub(crate) mod mechanism;
 pub(crate) mod nodes;
 pub(crate) mod registry;
-pub(crate) mod releases;
+mod releases;
 pub(crate) mod through;
 pub(crate) mod value_names;

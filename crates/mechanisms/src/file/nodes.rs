@@ -2,8 +2,8 @@
 
 use hyperstat_model::{BodyId, Model, NodeId};
 
-use super::bodies::GROUND;
 use crate::error::LoadError;
+use crate::terms::bodies::GROUND;
 use crate::text::fragment::Fragment;
 use crate::text::names;
 

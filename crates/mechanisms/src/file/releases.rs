@@ -15,13 +15,11 @@ use super::joints;
 use super::through::Through;
 use super::value_names::Given;
 use crate::error::LoadError;
+use crate::terms::bodies::FASTENING;
 use crate::text::dimension::Dimension;
 use crate::text::fields::Fields;
 use crate::text::fragment::Fragment;
 use crate::text::names;
-
-/// The fields of a member that say how its ends are fastened.
-pub(crate) const FASTENING: [&str; 3] = ["releases", "springs", "offset"];
 
 /// How an end of a member is fastened.
 #[derive(Debug, Clone, Default)]

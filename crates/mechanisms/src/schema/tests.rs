@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::*;
 use crate::terms::acting::{ALONG, LOAD};
-use crate::terms::bodies::BODY;
+use crate::terms::bodies::{BODY, MEMBER};
 use crate::terms::figures::FIGURE;
 use crate::terms::job::{JOB, MODES, POSES};
 use crate::terms::joints::JOINT;
@@ -174,7 +174,14 @@ fn fields_that_hold_names_are_known_to_the_reader() {
         Some(Arguments::Fields(fields)) => *fields,
         _ => &[],
     };
-    let maps = [MECHANISM.fields, JOB.fields, COPIED.fields, of_map].concat();
+    let maps = [
+        MECHANISM.fields,
+        JOB.fields,
+        COPIED.fields,
+        MEMBER.fields,
+        of_map,
+    ]
+    .concat();
     let maps = maps.iter().filter(|field| matches!(field.of, Type::Map(_)));
     assert_eq!(set(maps.map(|field| field.name)), set(MAPS));
     assert_eq!(POSES.fields("Grid").unwrap(), csv::COLUMNS);

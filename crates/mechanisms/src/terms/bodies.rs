@@ -5,6 +5,11 @@ use super::joints::DIRECTIONS;
 use super::parts::{DIRECTION, ELEMENTS, STIFFNESSES, vector};
 use super::{Field, Kinds, Record, Type, kind, needed, of_value, optional};
 
+/// The name of the fixed body.
+pub(crate) const GROUND: &str = "ground";
+/// The fields of a member that say how its ends are fastened.
+pub(crate) const FASTENING: [&str; 3] = ["releases", "springs", "offset"];
+
 /// A section for all, or one for each segment.
 const SECTIONS: Type = Any(&[Text, List(&Text)]);
 

@@ -8,8 +8,8 @@ use nalgebra::{Rotation3, Vector6};
 
 use super::error::WriteError;
 use super::numbers::{fields, number, vector};
-use crate::file::bodies::GROUND;
 use crate::file::registry::{Argument, Registry};
+use crate::terms::bodies::GROUND;
 
 /// Writes a joint.
 ///

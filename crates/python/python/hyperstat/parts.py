@@ -40,6 +40,7 @@ __all__ = [
     "Mirrored",
     "Misfit",
     "Modes",
+    "Mount",
     "Moved",
     "Orthoglide",
     "Planar",
@@ -990,8 +991,14 @@ class Member(Part):
         elements of every segment
     material : optional
         a material's name
+    offset : optional
+        from a point to the member's end, by the point: a rigid arm, global axes [m]
+    releases : optional
+        directions that an end does not carry, by its point, along the member's own axes
     section : optional
         a section's name, or a list of one for each segment
+    springs : optional
+        springs between an end and the frame, by its point, along the member's own axes
     y_axis : optional
         direction of local y, made normal to each segment, or a list of one for each
     """
@@ -1002,14 +1009,20 @@ class Member(Part):
         through: Sequence[str],
         elements: Optional[Count] = None,
         material: Optional[Union[str, Material]] = None,
+        offset: Optional[Mapping[str, Numbers]] = None,
+        releases: Optional[Mapping[str, Sequence[Literal["x", "y", "z", "u", "v", "w"]]]] = None,
         section: Optional[Union[str, Circle, General, Rectangle, Tapered, Tube, Sequence[Union[str, Circle, General, Rectangle, Tapered, Tube]]]] = None,
+        springs: Optional[Mapping[str, Stiffness]] = None,
         y_axis: Optional[Union[Numbers, Sequence[Numbers]]] = None,
     ) -> None:
         self._set(
             through=through,
             elements=elements,
             material=material,
+            offset=offset,
+            releases=releases,
             section=section,
+            springs=springs,
             y_axis=y_axis,
         )
 
@@ -1104,6 +1117,37 @@ class Copies(Part):
             places=places,
             names=names,
             overrides=overrides,
+        )
+
+
+class Mount(Part):
+    """A mechanism of another file, a part of this one.
+
+    Parameters
+    ----------
+    file
+        the file, relative to this one
+    on
+        body and point to which its ground is welded
+    at : optional
+        where its origin stands, and how it is turned (a rotation vector)
+    output : optional
+        body and point of it that are the output of all
+    """
+
+    def __init__(
+        self,
+        *,
+        file: str,
+        on: tuple[str, str],
+        at: Optional[Numbers] = None,
+        output: Optional[tuple[str, str]] = None,
+    ) -> None:
+        self._set(
+            file=file,
+            on=on,
+            at=at,
+            output=output,
         )
 
 

@@ -8,7 +8,7 @@ use super::placement::Placement;
 use super::renamed::Names;
 pub(super) use super::renamed::Naming;
 use crate::error::LoadError;
-use crate::file::releases::FASTENING;
+use crate::terms::bodies::FASTENING;
 use crate::text::dimension::Dimension;
 use crate::text::fragment::Fragment;
 use crate::text::tree::{Named, Node};

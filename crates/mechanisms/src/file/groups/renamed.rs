@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use crate::file::bodies::GROUND;
+use crate::terms::bodies::GROUND;
 use crate::text::tree::{Named, Node};
 
 /// What is put before and behind names.
