@@ -87,7 +87,11 @@ impl CliError {
     /// The exit status: 2 for input that cannot be used, 3 for an output that cannot be written.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
-            Self::Interrupted { .. } => INTERRUPTED,
+            Self::Interrupted { .. }
+            | Self::Parts {
+                source: PartsError::Stopped,
+                ..
+            } => INTERRUPTED,
             Self::Output(error) if error.is_of_disk() => 3,
             Self::Print(_) => 3,
             _ => 2,

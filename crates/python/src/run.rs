@@ -125,7 +125,8 @@ pub(crate) fn merge_run(py: Python<'_>, out: PathBuf, run: String) -> PyResult<V
         let batch = origin.batch(&Registry::builtin())?;
         let sweeps = sweeps_of(&batch, origin.options().way())?;
         let threads = Threads::new(0)?;
-        let work = Work::of_parts(&shelf, &origin, &threads);
+        let stop = || watch.at(0, 0).is_err();
+        let work = Work::of_parts(&shelf, &origin, &threads, &stop);
         let (all, missing) = work.gather(&sweeps, false).map_err(parts(&out))?;
         if !missing.is_empty() {
             let rows = missing.rows();
@@ -139,7 +140,10 @@ pub(crate) fn merge_run(py: Python<'_>, out: PathBuf, run: String) -> PyResult<V
         for (sweep, found) in sweeps.iter().zip(all) {
             watch.at(0, 0)?;
             let (job, rows) = (sweep.job(), sweep.len());
-            let done = work.merge(sweep, found, false).map_err(parts(&out))?;
+            let done = match work.merge(sweep, found, false) {
+                Err(PartsError::Stopped) => return Err(Ended::Stopped),
+                done => done.map_err(parts(&out))?,
+            };
             let outcome = results.finish(job, done.ran, &threads)?;
             let left_out = outcome.left_out.into_iter();
             let left_out = left_out.map(|(figure, why)| format!("no {figure}: {why}"));

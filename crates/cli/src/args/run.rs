@@ -35,7 +35,7 @@ asked it needs --yes.
 
 A run that is interrupted, by Ctrl-C, a signal, a power cut or a full disk, goes on where it was when the
 same command is given again, and ends with the same bytes: what is done is kept every minute (--secure)
-in DIR/parts. Where all is done already nothing is computed. After a change of what is read, or of an
+in DIR/parts. Where all is done already it says so, and nothing is computed. After a change of what is read, or of an
 option that changes a byte, it says so and stops: --fresh begins anew.
 With --shard 2/10 it is the third of ten parts of every job's rows, which `hyperstat merge DIR` joins.
 

@@ -7,6 +7,7 @@ use hyperstat_study::sweep::Threads;
 use super::note;
 use crate::args;
 use crate::error::CliError;
+use crate::signals::Signals;
 use crate::text::Said;
 
 /// Joins the parts of a run. `tell` gets the summary of every job, or what is missing.
@@ -32,7 +33,9 @@ pub(crate) fn merge(
     let results = Results::new(&args.out, options);
     results.check(&batch)?;
     let threads = Threads::new(args.threads)?;
-    let work = Work::of_parts(&shelf, &origin, &threads);
+    let signals = Signals::heard();
+    let stop = || signals.came();
+    let work = Work::of_parts(&shelf, &origin, &threads, &stop);
     let (all, missing) = work.gather(&sweeps, args.dataset).map_err(&failed)?;
     for (name, why) in all.iter().flat_map(|found| found.broken()) {
         note(&format!("{}: {why}", args.out.join(name).display()));

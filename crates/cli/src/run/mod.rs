@@ -8,7 +8,8 @@ use std::fs;
 use hyperstat_mechanisms::{Disk, Registry};
 use hyperstat_study::disk::OutputError;
 use hyperstat_study::parts::{
-    Done, Folder, Found, Origin, Outcome, Part, Reading, Results, Share, Work, sweeps_of,
+    Done, Folder, Found, Origin, Outcome, Part, PartsError, Reading, Results, Share, Work,
+    sweeps_of,
 };
 use hyperstat_study::sweep::{Sweep, Threads};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -178,8 +179,10 @@ fn run_job(
     let taken = found.taken();
     bar.inc(taken as u64);
     let advance = &mut |rows: usize| bar.inc(rows as u64);
-    let done = work.run(sweep, found, advance);
-    let done = done.map_err(CliError::parts(results.out()))?;
+    let done = match work.run(sweep, found, advance) {
+        Err(PartsError::Stopped) => return Ok(None),
+        done => done.map_err(CliError::parts(results.out()))?,
+    };
     if done.is_stopped() {
         return Ok(None);
     }

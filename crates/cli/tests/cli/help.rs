@@ -119,7 +119,7 @@ fn the_files_in_the_help_work() {
         .hyperstat(&["run", "batch.ron", "--out", "out"])
         .ends_with(0);
     assert_eq!(
-        bench.names("out"),
+        bench.results("out"),
         ["bar-deformed.png", "bar-deformed.svg", "bar.csv"]
     );
 }

@@ -169,5 +169,5 @@ fn run_writes_columns_of_frequencies() {
     bench
         .hyperstat(&["run", "d.ron", "--out", "out", "--format", "parquet"])
         .ends_with(1);
-    assert_eq!(bench.names("out"), ["d.csv", "d.parquet"]);
+    assert_eq!(bench.results("out"), ["d.csv", "d.parquet"]);
 }

@@ -73,7 +73,7 @@ fn a_closed_standard_output_ends_no_batch() {
         let run = ["run", batch, "--out", "out"];
         let outcome = bench.hyperstat_into(&run, writer).ends_with(status);
         assert_eq!(outcome.err(), "");
-        assert_eq!(bench.names("out"), ["a.csv", "b.csv"]);
+        assert_eq!(bench.results("out"), ["a.csv", "b.csv"]);
     }
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);

@@ -215,7 +215,8 @@ fn a_finished_run_says_so() {
     bench.file("map.ron", &delta_batch("map", MAP, ""));
     let run =
         |more: &[&str]| bench.hyperstat(&[&["run", "map.ron", "--out", "out"], more].concat());
-    let first = run(&["--secure", "0"]).ends_with(1);
+    let first = run(&[]).ends_with(1);
+    assert_eq!(first.err(), "");
     let again = run(&[]).ends_with(1);
     again.says(&["note: all rows of `map` were computed before", "--fresh"]);
     assert_eq!(again.out(), first.out());
@@ -227,14 +228,65 @@ fn a_finished_run_says_so() {
     other.says(&[
         "the table of another run of `map`, which is replaced: it was without `--summary`",
     ]);
-    assert_eq!(bench.names("out"), ["map-summary.json", "map.csv"]);
-    let fresh = run(&["--fresh", "--secure", "0"]).ends_with(1);
+    assert_eq!(bench.results("out"), ["map-summary.json", "map.csv"]);
+    let fresh = run(&["--fresh"]).ends_with(1);
     assert!(!fresh.err().contains("before"), "{}", fresh.err());
+    // What is not as it was left is computed again.
+    let table = bench.read("out/map.csv");
+    bench.file("out/map.csv", &table.replacen('1', "2", 1));
+    run(&[])
+        .ends_with(1)
+        .says(&["out/map.csv: it is not what was written", "computed again"]);
+    assert_eq!(bench.read("out/map.csv"), table);
+    run(&[]).ends_with(1).says(&["were computed before"]);
     // A shard is done where it is done.
     run(&["--shard", "1/4"]).ends_with(1);
     run(&["--shard", "1/4"])
         .ends_with(1)
         .says(&["all rows of `map` were computed before"]);
+}
+
+/// What is noted of a finished run is of the table that is there, and nothing else stays.
+#[test]
+fn notes_of_tables_that_were_replaced_go() {
+    let bench = Bench::new("parts-notes");
+    let run = |batch: &str| {
+        bench
+            .hyperstat(&["run", batch, "--out", "out"])
+            .ends_with(1)
+    };
+    let origins = || {
+        let mut names = bench.names("out/parts");
+        names.retain(|name| name.ends_with(".json"));
+        names.len()
+    };
+    let (long, short) = (
+        MAP,
+        "Grid(x: (-0.45, 0.45, 21), y: (-0.4, 0.4, 11), z: (0.45, 0.55, 2))",
+    );
+    for poses in [long, short, long] {
+        bench.file("map.ron", &delta_batch("map", poses, ""));
+        run("map.ron");
+        let again = run("map.ron");
+        again.says(&["all rows of `map` were computed before"]);
+        assert!(!again.err().contains("replaced"), "{}", again.err());
+        assert_eq!((bench.names("out/parts/map").len(), origins()), (1, 1));
+    }
+    // Batches beside one another, each with a table of its own.
+    bench.file("other.ron", &delta_batch("other", short, ""));
+    run("other.ron");
+    for (batch, told) in [("map.ron", "`map`"), ("other.ron", "`other`")] {
+        run(batch).says(&[&format!("all rows of {told} were computed before")]);
+    }
+    assert_eq!(origins(), 2);
+    // Shards of a third one come together beside them.
+    bench.file("map.ron", &delta_batch("third", short, ""));
+    for shard in ["0/2", "1/2"] {
+        let arguments = ["run", "map.ron", "--out", "out", "--shard", shard];
+        bench.hyperstat(&arguments).ends_with(1);
+    }
+    bench.hyperstat(&["merge", "out"]).ends_with(1);
+    assert_eq!(bench.results("out"), ["map.csv", "other.csv", "third.csv"]);
 }
 
 #[test]

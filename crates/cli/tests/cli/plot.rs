@@ -82,7 +82,7 @@ fn the_range_that_is_told_is_that_of_the_table() {
 fn parquet_and_a_jobs_figures_give_the_same_picture() {
     let figures = r#"figures: [Map(value: "deflection", plane: z(0.45)), Map(value: "k11")],"#;
     let bench = with_table("plot-same", figures);
-    let names = bench.names("out");
+    let names = bench.results("out");
     let expected = [
         "map-map-1.png",
         "map-map-1.svg",
@@ -237,7 +237,7 @@ fn what_is_asked_for_and_not_there_is_told() {
         .hyperstat(&["plot", "map.ron", "--map", "k11"])
         .ends_with(2)
         .says(&["map.ron is no table", "hyperstat run"]);
-    assert_eq!(bench.names("out"), ["map.csv"]);
+    assert_eq!(bench.results("out"), ["map.csv"]);
 }
 
 #[test]

@@ -33,7 +33,7 @@ fn a_grid_is_written_in_order_with_x_fastest() {
         "{}",
         outcome.out()
     );
-    assert_eq!(bench.names("out"), ["grid.csv"]);
+    assert_eq!(bench.results("out"), ["grid.csv"]);
 
     let csv = bench.read("out/grid.csv");
     assert_eq!(csv.lines().next(), Some(HEADER));
@@ -188,7 +188,7 @@ fn no_pose_in_reach_is_still_a_file() {
         "{}",
         outcome.out()
     );
-    assert_eq!(bench.names("out"), ["delta.csv"]);
+    assert_eq!(bench.results("out"), ["delta.csv"]);
     assert_eq!(rows(&bench.read("out/delta.csv")).len(), 2);
 }
 
@@ -227,7 +227,7 @@ fn figures_are_written_and_compared_with_the_reference_solver() {
     let outcome = bench.hyperstat(&["run", "delta.ron", "--out", "out"]);
     let outcome = outcome.ends_with(0);
     assert_eq!(
-        bench.names("out"),
+        bench.results("out"),
         [
             "delta-deformed-1.png",
             "delta-deformed-1.svg",
@@ -306,7 +306,7 @@ fn a_file_that_cannot_be_written_ends_with_3_and_leaves_nothing_behind() {
     fs::create_dir_all(bench.path("out/bar.csv")).unwrap();
     let outcome = bench.hyperstat(&["run", "batch.ron", "--out", "out"]);
     outcome.ends_with(3).says(&["cannot write", "bar.csv"]);
-    assert_eq!(bench.names("out"), ["bar.csv"]);
+    assert_eq!(bench.results("out"), ["bar.csv"]);
 }
 
 #[test]
@@ -323,7 +323,7 @@ fn an_older_result_stays_until_the_new_one_is_complete() {
         .hyperstat(&["run", "batch.ron", "--out", "out"])
         .ends_with(0);
     assert!(bench.read("out/bar.csv").starts_with(HEADER));
-    assert_eq!(bench.names("out"), ["bar.csv"]);
+    assert_eq!(bench.results("out"), ["bar.csv"]);
 }
 
 #[test]
@@ -342,7 +342,7 @@ fn a_disk_that_is_full_on_the_way_ends_with_3_and_leaves_the_older_result() {
             return;
         };
         outcome.ends_with(3).says(&["cannot write", &name]);
-        assert_eq!(bench.names("out"), [name.as_str()]);
+        assert_eq!(bench.results("out"), [name.as_str()]);
         assert_eq!(bench.read(&format!("out/{name}")), "old");
     }
 }

@@ -356,5 +356,5 @@ fn a_jobs_mode_needs_mass_before_the_first_job_runs() {
     ] {
         assert!(outcome.out().contains(told), "{}", outcome.out());
     }
-    assert_eq!(bench.names("out"), ["bar.csv"]);
+    assert_eq!(bench.results("out"), ["bar.csv"]);
 }

@@ -45,6 +45,13 @@ impl Bench {
         names
     }
 
+    /// Names of the results in a folder of the folder, in order: all but what runs note of themselves.
+    pub fn results(&self, folder: &str) -> Vec<String> {
+        let mut names = self.names(folder);
+        names.retain(|name| name != "parts");
+        names
+    }
+
     /// Runs the binary in the folder.
     pub fn hyperstat(&self, arguments: &[&str]) -> Outcome {
         self.hyperstat_into(arguments, Stdio::piped())

@@ -34,7 +34,7 @@ fn the_number_of_threads_changes_no_byte() {
             let outcome = bench.hyperstat(&arguments).ends_with(1);
             assert!(outcome.out().contains("unreachable"), "{}", outcome.out());
             let name = format!("mixed.{format}");
-            assert_eq!(bench.names(&out), [name.as_str()]);
+            assert_eq!(bench.results(&out), [name.as_str()]);
             let content = fs::read(bench.path(&out).join(name)).unwrap();
             if threads == "1" {
                 expected = content;
@@ -82,7 +82,7 @@ fn parquet_holds_the_doubles_of_the_csv() {
         let arguments = ["run", "mixed.ron", "--out", "out", "--format", format];
         bench.hyperstat(&arguments).ends_with(1);
     }
-    assert_eq!(bench.names("out"), ["mixed.csv", "mixed.parquet"]);
+    assert_eq!(bench.results("out"), ["mixed.csv", "mixed.parquet"]);
     let nulls = same_cells(&bench, "out/mixed", ROWS);
     let csv = bench.read("out/mixed.csv");
     let unreachable = csv.matches("unreachable").count();

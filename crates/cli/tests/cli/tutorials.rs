@@ -136,7 +136,7 @@ fn my_first_mechanism() {
 fn a_stiffness_map_of_a_delta() {
     let (bench, shown) = follow("tutorials/stiffness-map");
     assert_eq!(shown, 2);
-    let names = bench.names("out");
+    let names = bench.results("out");
     for name in ["delta-map.csv", "delta-map-map.svg", "delta-map-map.png"] {
         assert!(names.iter().any(|n| n == name), "{name} in {names:?}");
     }

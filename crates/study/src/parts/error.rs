@@ -61,6 +61,9 @@ pub enum PartsError {
     /// No parts at all.
     #[error("there are no parts of a run")]
     Nothing,
+    /// Parts that were to be joined when somebody ended it.
+    #[error("interrupted before all parts were joined")]
+    Stopped,
     /// Rows that stand in two files of a dataset.
     #[error("{name} has rows that other parts have, too, or none that can be trusted")]
     Twice {
@@ -98,6 +101,7 @@ impl PartsError {
             Self::Nothing => {
                 Some("`hyperstat run BATCH --out DIR --shard 0/4` writes the first of four".into())
             }
+            Self::Stopped => Some("give the same command again: the parts are there".into()),
             Self::Twice { .. } => Some("remove it, or merge without `--dataset`".into()),
             _ => None,
         }

@@ -11,8 +11,8 @@ use super::shelf::{self, Shelf};
 use crate::sweep::Way;
 use crate::table::TableFormat;
 
-/// The version of hyperstat.
-const VERSION: &str = env!("CARGO_PKG_VERSION");
+/// The version of hyperstat, of a build from a clone with the state of its sources.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), env!("HYPERSTAT_STATE"));
 
 /// What names of files begin and end with, around some digits of the hash.
 const BEGIN: &str = "_run-";
@@ -137,7 +137,7 @@ impl Origin {
     }
 
     /// Name of the file of that of a hash.
-    fn name_of(hash: &str) -> String {
+    pub(super) fn name_of(hash: &str) -> String {
         format!("parts/{BEGIN}{}{END}", &hash[..hash.len().min(DIGITS)])
     }
 

@@ -47,7 +47,7 @@ pub struct Work<'w> {
     pub threads: &'w Threads,
     /// What is done for so long is kept as a piece.
     pub secured_every: Duration,
-    /// Says when to stop: what is done then is kept, too.
+    /// Says when to stop: what is done then is kept, too, and nothing is joined any more.
     pub stop: &'w (dyn Fn() -> bool + Sync),
 }
 
@@ -60,15 +60,20 @@ impl std::fmt::Debug for Work<'_> {
 }
 
 impl<'w> Work<'w> {
-    /// That of joining what parts have: nothing is computed.
-    pub fn of_parts(shelf: &'w dyn Shelf, origin: &'w Origin, threads: &'w Threads) -> Self {
+    /// That of joining what parts have, until `stop` says so: nothing is computed.
+    pub fn of_parts(
+        shelf: &'w dyn Shelf,
+        origin: &'w Origin,
+        threads: &'w Threads,
+        stop: &'w (dyn Fn() -> bool + Sync),
+    ) -> Self {
         Self {
             shelf,
             origin,
             part: Part::Whole,
             threads,
             secured_every: Duration::MAX,
-            stop: &|| false,
+            stop,
         }
     }
 
@@ -185,7 +190,12 @@ impl Work<'_> {
     /// # Errors
     /// They cannot be removed.
     pub fn clear(&self, sweep: &Sweep<'_>) -> Result<(), PartsError> {
-        pieces::clear(self.shelf, &sweep.job().name, &self.part.rows(sweep.len()))
+        let rows = match self.part {
+            // Of another run, which had more rows, too.
+            Part::Whole => 0..usize::MAX,
+            _ => self.part.rows(sweep.len()),
+        };
+        pieces::clear(self.shelf, &sweep.job().name, &rows)
     }
 
     /// Looks up what is there of a job's rows. With `fresh`, parts of other runs elsewhere in it do not matter.
@@ -275,7 +285,7 @@ impl Work<'_> {
             rows,
         };
         if !done.is_stopped() {
-            self.complete(sweep, &parts, &done.rows, done.computed > 0)?;
+            self.complete(sweep, &parts, &done.rows)?;
         }
         Ok(done)
     }

@@ -158,15 +158,10 @@ impl Work<'_> {
         };
         let cannot_write = PartsError::write(&told);
         let file = table.finish().map_err(&cannot_write)?;
-        let is_table = result.is_some() && self.part == Part::Whole;
-        if !is_table {
-            self.write_origin()?;
-        }
+        self.write_origin()?;
         let table = file.keep(&name).map_err(&cannot_write)?;
         let manifest = self.manifest(sweep, rows, table, ran, result.is_none());
-        if !is_table {
-            manifest.write(self.shelf).map_err(&cannot_write)?;
-        }
+        manifest.write(self.shelf).map_err(&cannot_write)?;
         Ok(manifest)
     }
 

@@ -1,5 +1,6 @@
 //! Parts that are all there, joined to one table.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::super::error::PartsError;
@@ -12,47 +13,32 @@ use crate::ran::Ran;
 use crate::sweep::Sweep;
 
 impl Work<'_> {
-    /// Joins parts of all rows that are asked for to their table, where they are not that yet, and removes the
-    /// pieces. `computed` says whether any of them is new.
+    /// Joins parts of all rows that are asked for to their table, where they are not that yet, says of it how they
+    /// came out, and removes the pieces.
     pub(super) fn complete(
         &self,
         sweep: &Sweep<'_>,
         parts: &[Manifest],
         rows: &Range<usize>,
-        computed: bool,
     ) -> Result<(), PartsError> {
         let name = self.table_name(sweep);
-        let is_whole = self.part == Part::Whole;
-        let has_pieces = parts.iter().any(|part| part.piece);
-        // Of a table that was written at once nothing else is said.
-        let mut recorded = !is_whole;
+        // Somebody may have lost it.
+        let record = |table| {
+            self.write_origin()?;
+            let all = self.joined(sweep, parts, rows, table);
+            all.write(self.shelf).map_err(PartsError::write(&name))
+        };
         match parts {
             // No rows are asked for.
             [] => return Ok(()),
-            [all] if all.table.name == name => {
-                recorded |= !computed;
-                if recorded {
-                    // Somebody may have lost it.
-                    self.write_origin()?;
-                }
-                if all.piece {
-                    // What was a piece of something else is what is asked for here.
-                    let again = self.joined(sweep, parts, rows, all.table.clone());
-                    again.write(self.shelf).map_err(PartsError::write(&name))?;
-                }
-            }
-            _ => {
-                let table = self.join(sweep, parts, rows)?;
-                // That a run took long enough to have pieces is kept: it is not repeated in vain.
-                if !is_whole || has_pieces {
-                    self.write_origin()?;
-                    let joined = self.joined(sweep, parts, rows, table);
-                    joined.write(self.shelf).map_err(PartsError::write(&name))?;
-                    recorded = true;
-                }
-            }
+            [all] if all.table.name == name => match all.piece {
+                // What was a piece of something else is what is asked for here.
+                true => record(all.table.clone())?,
+                false => self.write_origin()?,
+            },
+            _ => record(self.join(sweep, parts, rows)?)?,
         }
-        self.tidy(sweep, rows, recorded)
+        self.tidy(sweep, rows)
     }
 
     /// Writes what was read for parts, where it is not yet.
@@ -73,6 +59,9 @@ impl Work<'_> {
         let table = self.begin_table(sweep, rows.start);
         let mut table = table.map_err(&cannot_write)?;
         for part in parts {
+            if (self.stop)() {
+                return Err(PartsError::Stopped);
+            }
             let content = self.shelf.open(&part.table.name);
             let content = content.map_err(PartsError::read(&part.table.name))?;
             table.join(&content).map_err(&cannot_write)?;
@@ -96,14 +85,9 @@ impl Work<'_> {
         self.manifest(sweep, rows.clone(), table, ran, false)
     }
 
-    /// Removes pieces whose rows are joined, and files that nobody can use; what is said of the job's whole
-    /// table where it is not `recorded`.
-    fn tidy(
-        &self,
-        sweep: &Sweep<'_>,
-        rows: &Range<usize>,
-        recorded: bool,
-    ) -> Result<(), PartsError> {
+    /// Removes pieces whose rows are joined, files that nobody can use, and what is said of a table that the one of
+    /// all rows has replaced.
+    fn tidy(&self, sweep: &Sweep<'_>, rows: &Range<usize>) -> Result<(), PartsError> {
         let folder = folder(&sweep.job().name);
         let name = self.table_name(sweep);
         let mut names = self
@@ -111,33 +95,36 @@ impl Work<'_> {
             .names(&folder)
             .map_err(PartsError::read(&folder))?;
         names.sort_unstable();
-        let within =
-            |name: &str| rows_of(name).filter(|own| rows.start <= own.start && own.end <= rows.end);
+        let is_whole = self.part == Part::Whole;
+        let within = |own: &Range<usize>| rows.start <= own.start && own.end <= rows.end;
         let (manifests, tables): (Vec<_>, Vec<_>) =
             names.iter().partition(|name| name.starts_with('_'));
         // Manifests first: a table without one is none.
         let mut kept = Vec::new();
         for manifest in manifests {
-            let Some(own) = within(manifest) else {
+            let Some(own) = rows_of(manifest).filter(|own| is_whole || within(own)) else {
                 continue;
             };
             let manifest = format!("{folder}/{manifest}");
-            let stays = Manifest::read(self.shelf, &manifest).is_ok_and(|read| {
-                let is_own = read.run == self.origin.hash() && !read.piece;
-                let stays = match read.is_result() {
-                    true => recorded,
-                    false => is_own,
-                };
-                kept.extend((stays && !read.is_result()).then(|| stem(&own)));
-                stays
-            });
+            let read = Manifest::read(self.shelf, &manifest);
+            let stays = match &read {
+                Ok(read) if read.is_result() => !is_whole || read.run == self.origin.hash(),
+                // Rows that this run has not are not its own to remove.
+                _ if !within(&own) => true,
+                Ok(read) => read.run == self.origin.hash() && !read.piece,
+                Err(_) => false,
+            };
             if !stays {
                 remove(self.shelf, &manifest)?;
+            } else if !read.is_ok_and(|read| read.is_result()) {
+                kept.push(stem(&own));
             }
         }
         for table in tables {
             let full = format!("{folder}/{table}");
-            let Some(own) = within(table) else { continue };
+            let Some(own) = rows_of(table).filter(within) else {
+                continue;
+            };
             if full != name && !kept.contains(&stem(&own)) {
                 remove(self.shelf, &full)?;
             }
@@ -146,15 +133,37 @@ impl Work<'_> {
         self.forget()
     }
 
-    /// Removes what was read for parts, where there are none any more.
+    /// Removes what was read for runs of which nothing is left.
     fn forget(&self) -> Result<(), PartsError> {
-        let names = self
-            .shelf
-            .names("parts")
-            .map_err(PartsError::read("parts"))?;
-        if names.iter().all(|name| Origin::is_name(name)) {
-            for name in names {
-                remove(self.shelf, &format!("parts/{name}"))?;
+        let read = PartsError::read("parts");
+        let names = self.shelf.names("parts").map_err(read)?;
+        let (origins, jobs): (Vec<_>, Vec<_>) =
+            names.iter().partition(|name| Origin::is_name(name));
+        let mut used = HashSet::new();
+        if !jobs.is_empty() {
+            if Origin::is_alone(self.shelf, self.origin.hash())? {
+                return Ok(());
+            }
+            used.insert(self.origin.name());
+        }
+        for job in jobs {
+            let folder = folder(job);
+            let names = self.shelf.names(&folder);
+            for name in names.map_err(PartsError::read(&folder))? {
+                if !name.starts_with('_') || rows_of(&name).is_none() {
+                    continue;
+                }
+                match Manifest::read(self.shelf, &format!("{folder}/{name}")) {
+                    Ok(manifest) => used.insert(Origin::name_of(&manifest.run)),
+                    // It may be of any of them.
+                    Err(_) => return Ok(()),
+                };
+            }
+        }
+        for origin in origins {
+            let name = format!("parts/{origin}");
+            if !used.contains(&name) {
+                remove(self.shelf, &name)?;
             }
         }
         self.shelf.remove_folder("parts");
