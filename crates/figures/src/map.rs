@@ -26,7 +26,7 @@ pub struct MapFigure {
     pub title: String,
     /// What is drawn, in words.
     pub subtitle: String,
-    /// What is along the axes, to the right and up.
+    /// What is along the axes, to the right and up, of planes that have none of their own.
     pub axes: [Quantity; 2],
     /// What the colours mean.
     pub quantity: Quantity,
@@ -35,7 +35,7 @@ pub struct MapFigure {
     pub limits: Option<[f64; 2]>,
     /// How the colours go from one end to the other.
     pub scale: ColorScale,
-    /// The planes, one or more, all drawn to the same scale and in the same colours.
+    /// The planes, one or more, all in the same colours, and to the same scale where they have the same axes.
     pub panels: Vec<MapPanel>,
     /// How many of them are beside each other; `None`: as many as there is room for.
     pub columns: Option<usize>,
@@ -64,6 +64,9 @@ pub enum ColorScale {
 pub struct MapPanel {
     /// Which plane, as in `z = 0.5 m`; may be empty.
     pub name: String,
+    /// What is along its axes, where that is not the same on all planes; planes of the same axes have the same
+    /// ranges.
+    pub axes: Option<[Quantity; 2]>,
     /// What is known on it.
     pub samples: Samples,
 }
@@ -112,7 +115,7 @@ impl MapFigure {
         Ok(words.svg(layout.height, |canvas| {
             for (panel, place) in self.panels.iter().zip(&layout.panels) {
                 let marks = self.marked(panel);
-                panel::draw(canvas, panel, place, &layout, (&colors, &marks));
+                panel::draw(canvas, panel, place, (&colors, &marks));
             }
             colors.draw_bar(canvas, layout.bar, layout.name_room);
         }))
@@ -132,6 +135,11 @@ impl MapFigure {
     #[must_use]
     pub fn caption(&self) -> String {
         self.captions().join(" ")
+    }
+
+    /// What is along the axes of a plane.
+    fn axes_of<'f>(&'f self, panel: &'f MapPanel) -> &'f [Quantity; 2] {
+        panel.axes.as_ref().unwrap_or(&self.axes)
     }
 
     /// The lines of the caption.

@@ -224,6 +224,12 @@ pub enum PlotError {
         /// The coordinate.
         axis: String,
     },
+    /// A coordinate that is held at two values.
+    #[error("{axis} is held twice")]
+    HeldTwice {
+        /// The coordinate.
+        axis: String,
+    },
     /// Several poses at one place of the plane.
     #[error("the table has several poses at {} = {}, {} = {}", .axes[0], .at[0], .axes[1], .at[1])]
     Several {
@@ -300,8 +306,11 @@ impl PlotError {
     /// The fields of a job's figure that may be to blame, as far as the kind of error tells them.
     pub(crate) fn fields(&self) -> &'static [&'static str] {
         match self {
-            Self::NoPlane { .. } | Self::Follows { .. } | Self::AlongNormal { .. } => &["plane"],
-            Self::NoCoordinate { .. } => &["axes", "plane"],
+            Self::NoPlane { .. }
+            | Self::Follows { .. }
+            | Self::AlongNormal { .. }
+            | Self::HeldTwice { .. } => &["plane", "planes"],
+            Self::NoCoordinate { .. } => &["axes", "plane", "planes"],
             Self::NoLabel { .. } => &["labels"],
             Self::LimitsMeasure { .. } => &["limits"],
             Self::NoDesign { .. } => &["beside"],
@@ -379,6 +388,9 @@ impl PlotError {
             }
             Self::AllHeld => Some("leave out some of the planes".into()),
             Self::NoPlane { axis, known, .. } => Some(planes(axis, known)),
+            Self::HeldTwice { .. } => Some(
+                "hold it once: on all planes, or on each of some side by side, as in `--planes x=0,z=0.5`".into(),
+            ),
             Self::AlongNormal { .. } => Some("choose other axes, or another plane".into()),
             Self::Several { differ, .. } => Some(match &**differ {
                 [] => "the same pose is there more than once: draw lines over `pose`".into(),

@@ -231,6 +231,7 @@ fn tables_and_figures_need_no_disk() {
     assert_eq!(csv.read(&[k33]).unwrap(), parquet.read(&[k33]).unwrap());
     let map = Map {
         value: "k33".into(),
+        plane: Vec::new(),
         planes: Vec::new(),
         axes: None,
         asked: None,

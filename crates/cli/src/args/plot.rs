@@ -23,6 +23,9 @@ pub(crate) struct Plot {
     /// Without it, all planes
     #[arg(long, value_name = "AXIS=VALUE", value_parser = plane, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]
     pub(crate) plane: Vec<(String, f64)>,
+    /// Map: planes of different axes side by side, such as x=0,y=0,z=0.5, in one set of colours
+    #[arg(long, value_name = "AXIS=VALUE,…", value_delimiter = ',', value_parser = plane, requires = "map", conflicts_with_all = ["axes", "lines", "trajectory", "deformed", "mode", "budget"])]
+    pub(crate) planes: Vec<(String, f64)>,
     /// Map: the coordinates to the right and up, such as x,z (or drives, A1.v,A2.v) [default: two of
     /// those that the poses were asked for by]
     #[arg(long, value_name = "X,Y", value_parser = axes, requires = "map", conflicts_with_all = ["lines", "trajectory", "deformed", "mode", "budget"])]

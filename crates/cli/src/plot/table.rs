@@ -41,7 +41,8 @@ pub(super) fn figure(args: &args::Plot) -> Result<Plotted, CliError> {
     let drawing = if let Some(value) = &args.kind.map {
         let map = Map {
             value: value.clone(),
-            planes: args.plane.clone(),
+            plane: args.plane.clone(),
+            planes: args.planes.clone(),
             axes: args.axes.clone(),
             asked: None,
             limits: args.limits,

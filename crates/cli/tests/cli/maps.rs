@@ -464,7 +464,7 @@ fn a_figure_that_cannot_be_drawn_does_not_end_the_run() {
     let outcome = outcome.ends_with(0);
     let line = "  no m-map-1: a logarithmic scale needs values above zero, and would begin at -";
     assert!(outcome.out().contains(line), "{}", outcome.out());
-    let names = bench.names("out");
+    let names = bench.results("out");
     assert_eq!(
         names,
         ["later.csv", "m-map-2.png", "m-map-2.svg", "m.csv"],
@@ -489,5 +489,75 @@ fn a_figure_that_cannot_be_drawn_does_not_end_the_run() {
             "{}",
             outcome.err()
         );
+    }
+}
+
+/// Planes of three axes side by side, in a job and of its table.
+#[test]
+fn planes_of_three_axes_are_side_by_side() {
+    let bench = Bench::new("maps-three");
+    let grid = "Grid(x: (-0.1, 0.1, 5), y: (-0.1, 0.1, 5), z: (0.45, 0.55, 3))";
+    let figure =
+        r#"figures: [Map(value: "k33", planes: [x(0.0), y(0.05), z(0.5)], mark: ["least"])],"#;
+    bench.file("m.ron", &delta_batch("m", grid, figure));
+    let ran = bench
+        .hyperstat(&["run", "m.ron", "--out", "out"])
+        .ends_with(0);
+    assert!(ran.out().contains("out/m-map.svg"), "{}", ran.out());
+    let three = [
+        "plot",
+        "out/m.csv",
+        "--map",
+        "k33",
+        "--planes",
+        "x=0,y=0.05,z=0.5",
+    ];
+    let marked = [&three[..], &["--mark", "least", "--out", "own"]].concat();
+    bench.hyperstat(&marked).ends_with(0);
+    assert_eq!(bench.read("own.svg"), bench.read("out/m-map.svg"));
+    let svg = bench.read("own.svg");
+    for name in ["x = 0 m", "y = 0.05 m", "z = 0.5 m"] {
+        assert!(svg.contains(&format!(">{name}<")), "{name}");
+    }
+    for name in ["x (m)", "y (m)", "z (m)"] {
+        assert_eq!(svg.matches(&format!(">{name}<")).count(), 2, "{name}");
+    }
+    // Two tables beside each other, plane by plane.
+    let beside = [&three[..], &["--beside", "out/m.csv", "--out", "two"]].concat();
+    bench.hyperstat(&beside).ends_with(0);
+    assert_eq!(bench.read("two.svg").matches(", z = 0.5 m<").count(), 2);
+    for (options, told) in [
+        (&["--planes", "x=0,q=1"][..], "q"),
+        (&["--planes", "z=0.7"], "0.7"),
+        (&["--planes", "x=0", "--axes", "y,z"], "cannot be used with"),
+        (
+            &["--planes", "x=0,z=0.5", "--plane", "z=0.5"],
+            "z is held twice",
+        ),
+    ] {
+        let arguments = [&["plot", "out/m.csv", "--map", "k33"], options].concat();
+        bench.hyperstat(&arguments).ends_with(2).says(&[told]);
+    }
+    for (figure, told) in [
+        (r#"Map(value: "k33", planes: [])"#, "give planes such as"),
+        (
+            r#"Map(value: "k33", planes: [x(0.0)], axes: (y, z))"#,
+            "leave one of them out",
+        ),
+        (
+            r#"Map(value: "k33", planes: [x(0.0), z(0.5)], plane: z(0.5))"#,
+            "z is held twice",
+        ),
+        (r#"Map(value: "k33", planes: [x(0.0), z(0.7)])"#, "0.7"),
+    ] {
+        bench.file(
+            "bad.ron",
+            &delta_batch("m", grid, &format!("figures: [{figure}],")),
+        );
+        let told = [told, "bad.ron:"];
+        bench
+            .hyperstat(&["check", "bad.ron"])
+            .ends_with(2)
+            .says(&told);
     }
 }

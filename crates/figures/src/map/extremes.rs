@@ -77,7 +77,7 @@ impl MapFigure {
                 let [a, b] = [a, b].map(|value| of.sign() * value);
                 a.total_cmp(&b)
             })?;
-            let axes = self.axes.iter().zip(at);
+            let axes = self.axes_of(panel).iter().zip(at);
             let mut places: Vec<_> = axes
                 .map(|(axis, at)| format!("{} = {}", axis.name, axis.value(at)))
                 .collect();

@@ -5,7 +5,7 @@ use crate::canvas::WIDTH;
 use crate::geometry::Area;
 use crate::page::{CAPTION_LINE, MARGIN};
 use crate::plane_axes::PlaneAxes;
-use crate::quantity::Scaled;
+use crate::quantity::{Quantity, Scaled};
 
 /// Left edge of the panels, and right edge of the room for them \[pixels\].
 const LEFT: f64 = 84.0;
@@ -24,6 +24,10 @@ const BELOW: f64 = 92.0;
 /// Largest height of a panel over the room's width.
 const TALLEST: f64 = 0.86;
 
+/// The same where every panel has the labels of its own axes.
+const BESIDE_LABELS: f64 = 88.0;
+const ABOVE_LABELS: f64 = 92.0;
+
 /// Places of everything on a map's page.
 #[derive(Debug)]
 pub(super) struct Layout {
@@ -33,8 +37,6 @@ pub(super) struct Layout {
     pub(super) bar: Area,
     /// How far left of the bar the name above it starts \[pixels\].
     pub(super) name_room: f64,
-    /// The units along the axes.
-    pub(super) scaled: [Scaled; 2],
 }
 
 /// Cell of a panel.
@@ -43,60 +45,103 @@ pub(super) struct Cell {
     pub(super) axes: PlaneAxes,
     /// Whether it shows the labels of its lower and its left axis.
     pub(super) labels: [bool; 2],
+    /// The units along the axes.
+    pub(super) scaled: [Scaled; 2],
+}
+
+/// What the axes of a panel reach over.
+struct Frame {
+    ranges: [[f64; 2]; 2],
+    scaled: [Scaled; 2],
+    /// Its height over its width.
+    ratio: f64,
+}
+
+impl Frame {
+    /// That of panels of the same axes.
+    fn of(axes: &[Quantity; 2], panels: &[&MapPanel]) -> Self {
+        let ranges = ranges(panels);
+        let sides = ranges.map(|[least, most]| most - least);
+        // The same scale along both axes where they have the same unit, unless one is far longer.
+        let ratio = sides[1] / sides[0];
+        let to_scale = axes[0].unit == axes[1].unit && (0.1..10.0).contains(&ratio);
+        Self {
+            ranges,
+            scaled: std::array::from_fn(|axis| {
+                let [least, most] = ranges[axis];
+                axes[axis].scaled(least.abs().max(most.abs()))
+            }),
+            ratio: if to_scale { ratio } else { 0.75 },
+        }
+    }
 }
 
 impl Layout {
     /// The places of a map with so many lines of caption.
     pub(super) fn new(map: &MapFigure, captions: usize) -> Self {
-        let (axes, panels) = (&map.axes, &map.panels);
-        let ranges = ranges(panels);
-        let scaled: [Scaled; 2] = std::array::from_fn(|axis| {
-            let [least, most] = ranges[axis];
-            axes[axis].scaled(least.abs().max(most.abs()))
-        });
-        let sides = ranges.map(|[least, most]| most - least);
+        let panels = &map.panels;
+        let frame = |panel: &MapPanel| {
+            let axes = map.axes_of(panel);
+            let same = panels.iter().filter(|other| map.axes_of(other) == axes);
+            Frame::of(axes, &same.collect::<Vec<_>>())
+        };
+        let frames: Vec<Frame> = panels.iter().map(frame).collect();
+        let alike = panels.iter().all(|panel| panel.axes.is_none());
+        let (beside, above) = match alike {
+            true => (BESIDE, ABOVE),
+            false => (BESIDE_LABELS, ABOVE_LABELS),
+        };
         let columns = map.columns.unwrap_or(match panels.len() {
             0 | 1 => 1,
             2..=4 => 2,
             _ => 3,
         });
         let columns = columns.clamp(1, panels.len().max(1));
-        let room = (RIGHT - LEFT - BESIDE * (columns - 1) as f64) / columns as f64;
-        // The same scale along both axes where they have the same unit, unless one is far longer.
-        let ratio = sides[1] / sides[0];
-        let to_scale = axes[0].unit == axes[1].unit && (0.1..10.0).contains(&ratio);
-        let ratio = if to_scale { ratio } else { 0.75 };
+        let room = (RIGHT - LEFT - beside * (columns - 1) as f64) / columns as f64;
         let tallest = TALLEST * (RIGHT - LEFT) / (columns as f64).sqrt();
-        let width = room.min(tallest / ratio);
-        let height = width * ratio;
-        let rows = panels.len().div_ceil(columns);
-        let places = (0..panels.len()).map(|k| {
-            let (row, column) = (k / columns, k % columns);
-            let left = LEFT + column as f64 * (width + BESIDE);
-            let top = TOP + row as f64 * (height + ABOVE);
-            Cell {
-                axes: PlaneAxes {
-                    area: Area {
-                        left,
-                        top,
-                        right: left + width,
-                        bottom: top + height,
+        let width = |frame: &Frame| room.min(tallest / frame.ratio);
+        let width = frames.iter().map(width).fold(room, f64::min);
+        let mut top = TOP;
+        let mut cells = Vec::with_capacity(frames.len());
+        for row in frames.chunks(columns) {
+            let mut tall = 0.0_f64;
+            for (column, frame) in row.iter().enumerate() {
+                let left = LEFT + column as f64 * (width + beside);
+                let height = width * frame.ratio;
+                tall = tall.max(height);
+                let along = |axis: usize| {
+                    let factor = frame.scaled[axis].factor;
+                    frame.ranges[axis].map(|end| end * factor)
+                };
+                cells.push(Cell {
+                    axes: PlaneAxes {
+                        area: Area {
+                            left,
+                            top,
+                            right: left + width,
+                            bottom: top + height,
+                        },
+                        x: along(0),
+                        y: along(1),
                     },
-                    x: ranges[0].map(|end| end * scaled[0].factor),
-                    y: ranges[1].map(|end| end * scaled[1].factor),
-                },
-                labels: [k + columns >= panels.len(), column == 0],
+                    labels: [
+                        !alike || cells.len() + columns >= panels.len(),
+                        !alike || column == 0,
+                    ],
+                    scaled: frame.scaled.clone(),
+                });
             }
-        });
+            top += tall + above;
+        }
         let used = columns.min(panels.len()) as f64;
-        let right = LEFT + used * width + (used - 1.0) * BESIDE;
-        let bottom = TOP + rows as f64 * (height + ABOVE) - ABOVE;
+        let right = LEFT + used * width + (used - 1.0) * beside;
+        let bottom = top - above;
         let more = CAPTION_LINE * captions.saturating_sub(1) as f64;
         let page = (bottom + BELOW).max(330.0) + more;
         let bar_left = right + 30.0;
         Self {
             height: page.ceil() as u32,
-            panels: places.collect(),
+            panels: cells,
             bar: Area {
                 left: bar_left,
                 top: TOP,
@@ -104,13 +149,12 @@ impl Layout {
                 bottom: bottom.clamp(TOP + 140.0, TOP + 480.0),
             },
             name_room: (bar_left + 190.0 - (f64::from(WIDTH) - MARGIN)).clamp(0.0, 60.0),
-            scaled,
         }
     }
 }
 
 /// What the axes reach over, along x and along y.
-fn ranges(panels: &[MapPanel]) -> [[f64; 2]; 2] {
+fn ranges(panels: &[&MapPanel]) -> [[f64; 2]; 2] {
     let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
     let mut scattered = false;
     let mut widen = |axis: usize, value: f64| {

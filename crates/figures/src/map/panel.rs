@@ -2,7 +2,7 @@
 
 use super::colors::Colors;
 use super::extremes::Marked;
-use super::layout::{Cell, Layout};
+use super::layout::Cell;
 use super::{Extreme, MapPanel, Samples};
 use crate::canvas::{Canvas, text_width};
 use crate::contours::Field;
@@ -30,11 +30,10 @@ pub(super) fn draw(
     canvas: &mut Canvas,
     panel: &MapPanel,
     place: &Cell,
-    layout: &Layout,
     (colors, marks): (&Colors, &[Marked]),
 ) {
     let axes = &place.axes;
-    let factors = layout.scaled.each_ref().map(|scaled| scaled.factor);
+    let factors = place.scaled.each_ref().map(|scaled| scaled.factor);
     let marks = marks.iter().map(|mark| {
         let [x, y] = mark.at;
         let at = axes.at([x * factors[0], y * factors[1]]);
@@ -71,7 +70,7 @@ pub(super) fn draw(
         page::extreme_mark(canvas, at, mark.of == Extreme::Most);
     }
     let names = [0, 1].map(|axis| {
-        let label = &*layout.scaled[axis].label;
+        let label = &*place.scaled[axis].label;
         place.labels[axis].then_some(label)
     });
     axes.draw(canvas, names);

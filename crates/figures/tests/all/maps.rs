@@ -1,7 +1,7 @@
 //! Maps: contours and colours where the field says, marks of what is missing, the same bytes
 //! again, and data that cannot be drawn.
 
-use hyperstat_figures::{ColorScale, FigureError, MapFigure, MapPanel, Quantity, Samples};
+use hyperstat_figures::{ColorScale, Extreme, FigureError, MapFigure, MapPanel, Quantity, Samples};
 use resvg::usvg::roxmltree::{self, Document};
 
 use crate::drawn::{points, texts};
@@ -20,6 +20,7 @@ pub fn panel(n: u32, field: impl Fn(f64, f64) -> Option<f64>) -> MapPanel {
         .map(|y| ticks.iter().map(move |x| field(*x, *y)));
     MapPanel {
         name: String::new(),
+        axes: None,
         samples: Samples::Grid {
             values: rows.flatten().collect(),
             x: ticks.clone(),
@@ -57,6 +58,21 @@ pub fn frame(document: &Document<'_>) -> [[f64; 2]; 2] {
         .find(|line| line.len() == 5 && line[0] == line[4])
         .unwrap();
     [frame[3], frame[1]]
+}
+
+/// The frames of all panels: closed lines around rectangles.
+fn frames(document: &Document<'_>) -> Vec<[[f64; 2]; 2]> {
+    let lines = document
+        .descendants()
+        .filter(|n| n.has_tag_name("polyline"));
+    let closed = lines
+        .map(points)
+        .filter(|line| line.len() == 5 && line[0] == line[4]);
+    let straight = |a: [f64; 2], b: [f64; 2]| a[0] == b[0] || a[1] == b[1];
+    closed
+        .filter(|line| line.windows(2).all(|pair| straight(pair[0], pair[1])))
+        .map(|line| [line[3], line[1]])
+        .collect()
 }
 
 #[test]
@@ -382,7 +398,13 @@ fn scattered_points_are_dots() {
         .collect();
     let samples = Samples::Points { at, values };
     let name = String::new();
-    let svg = figure(vec![MapPanel { name, samples }]).svg().unwrap();
+    let svg = figure(vec![MapPanel {
+        name,
+        axes: None,
+        samples,
+    }])
+    .svg()
+    .unwrap();
     let document = Document::parse(&svg).unwrap();
     let dots = document.descendants().filter(|n| n.has_tag_name("circle"));
     assert_eq!(dots.count(), 9);
@@ -443,4 +465,45 @@ fn what_cannot_be_drawn_is_an_error() {
     }
     let error = figure(vec![back]).svg().unwrap_err();
     assert!(matches!(error, FigureError::NoGrid { .. }), "{error}");
+}
+
+/// Planes of other axes have names and ranges of their own, each to scale.
+#[test]
+fn planes_of_other_axes_are_drawn_along_them() {
+    let plane = |name: &str, axes: [&str; 2], up: f64| {
+        let mut panel = panel(5, cone);
+        if let Samples::Grid { y, .. } = &mut panel.samples {
+            y.iter_mut().for_each(|y| *y *= up);
+        }
+        panel.name = name.into();
+        panel.axes = Some(axes.map(|name| Quantity::new(name, "m")));
+        panel
+    };
+    let mut map = figure(vec![
+        plane("x = 0 m", ["y", "z"], 0.5),
+        plane("y = 0 m", ["x", "z"], 0.5),
+        plane("z = 0.5 m", ["x", "y"], 1.0),
+    ]);
+    map.marks = vec![Extreme::Most];
+    assert!(
+        map.caption()
+            .contains("Largest, ▲: 2 MN/m at y = 0 m, z = 0 m, x = 0 m."),
+        "{}",
+        map.caption()
+    );
+    let svg = map.svg().unwrap();
+    let document = Document::parse(&svg).unwrap();
+    let texts = texts(&document);
+    for (name, count) in [("x (m)", 2), ("y (m)", 2), ("z (m)", 2), ("k33 (MN/m)", 1)] {
+        let found = texts.iter().filter(|(text, _)| text == name).count();
+        assert_eq!(found, count, "{name}");
+    }
+    let sides: Vec<[f64; 2]> = frames(&document)
+        .into_iter()
+        .map(|[a, b]| [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()])
+        .collect();
+    // Two rows: one beside another, the third below.
+    for (side, ratio) in sides.iter().zip([0.5, 0.5, 1.0]) {
+        assert!((side[1] - ratio * side[0]).abs() < 0.05, "{sides:?}");
+    }
 }

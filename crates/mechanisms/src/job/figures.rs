@@ -61,8 +61,10 @@ pub enum Figure {
     Map {
         /// Name of the quantity: a column of the job's table, or what is found from columns.
         value: String,
-        /// Coordinates that are held, each with its value: of `x y z rx ry rz`, or drives such as
+        /// Coordinates that are held on all planes, each with its value: of `x y z rx ry rz`, or drives such as
         /// `A1.v`.
+        plane: Vec<(String, f64)>,
+        /// Planes side by side, on each of which one of these is held besides, along axes of its own.
         planes: Vec<(String, f64)>,
         /// The coordinates to the right and up; `None`: two of those that the poses give.
         axes: Option<[String; 2]>,
@@ -227,7 +229,8 @@ fn figure(whole: Fragment<'_>, known: &Known<'_>) -> Result<(Figure, Places), Lo
             let limits = fields.get("limits").map(limits).transpose()?;
             Figure::Map {
                 value: fields.required("value")?.string()?,
-                planes: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
+                plane: fields.get("plane").map_or(Ok(Vec::new()), planes)?,
+                planes: own_planes(&fields)?,
                 axes: fields.get("axes").map(axes).transpose()?,
                 limits: limits.map(|(limits, _)| limits),
                 measured: limits.and_then(|(_, measured)| measured),
@@ -360,6 +363,25 @@ fn along(fragment: Fragment<'_>) -> Result<Along, LoadError> {
     })
 }
 
+/// Reads planes side by side, which have axes of their own.
+fn own_planes(fields: &Fields<'_>) -> Result<Vec<(String, f64)>, LoadError> {
+    let Some(given) = fields.get("planes") else {
+        return Ok(Vec::new());
+    };
+    if let Some(axes) = fields.get("axes") {
+        let error = axes.error("`axes` and `planes` are given, which have axes of their own");
+        return Err(error.with_help("leave one of them out"));
+    }
+    let read = given.list(PLANES)?.into_iter().map(plane);
+    let read = read.collect::<Result<Vec<_>, _>>()?;
+    match read.is_empty() {
+        true => Err(given.error("there is no plane in it").with_help(
+            "give planes such as `[x(0.0), y(0.0), z(0.5)]`, or leave `planes` out for all that there are",
+        )),
+        false => Ok(read),
+    }
+}
+
 /// Reads a plane such as `z(0.5)`, or a list of them.
 fn planes(fragment: Fragment<'_>) -> Result<Vec<(String, f64)>, LoadError> {
     // A drive of JSON is a list, too.
@@ -373,6 +395,8 @@ fn planes(fragment: Fragment<'_>) -> Result<Vec<(String, f64)>, LoadError> {
         false => plane(fragment).map(|plane| vec![plane]),
     }
 }
+
+const PLANES: &str = "planes, such as `[x(0.0), y(0.0), z(0.5)]`";
 
 const PLANE: &str = "a plane, such as `z(0.5)`, or of a drive `(\"A1.v\", 0.5)`";
 

@@ -113,6 +113,11 @@ pub(crate) const FIGURE: Kinds = Kinds {
                     "coordinates that are held",
                 ),
                 optional(
+                    "planes",
+                    List(&PLANE),
+                    "planes of different axes side by side; each holds one coordinate",
+                ),
+                optional(
                     "axes",
                     Tuple(&[Text, Text]),
                     "the coordinates to the right and up",

@@ -368,6 +368,7 @@ fn drawn_map(job: &Job, figure: &Figure, table: &TableReader) -> Result<Drawing,
 fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
     let Figure::Map {
         value,
+        plane,
         planes,
         axes,
         limits,
@@ -381,6 +382,7 @@ fn map(job: &Job, figure: &Figure, commanded: &[Commanded]) -> Option<Map> {
     let names = commanded.iter().map(|coordinate| coordinate.name.clone());
     Some(Map {
         value: value.clone(),
+        plane: plane.clone(),
         planes: planes.clone(),
         axes: axes.clone(),
         asked: Some(names.collect()),

@@ -20,7 +20,10 @@ const MOST_PLANES: usize = 9;
 pub struct Map {
     /// The quantity.
     pub value: String,
-    /// Coordinates that are held, and at what.
+    /// Coordinates that are held on all planes, and at what.
+    pub plane: Vec<(String, f64)>,
+    /// Planes side by side, on each of which one of these is held besides, along axes of its own; without any,
+    /// all planes that there are along the same axes.
     pub planes: Vec<(String, f64)>,
     /// Coordinates along the axes; two of those that were asked for, by default.
     pub axes: Option<[String; 2]>,
@@ -58,8 +61,8 @@ pub(super) struct Part {
     /// The coordinates that are held, and at what, in words.
     pub(super) held: Vec<String>,
     pub(super) axes: [Quantity; 2],
-    /// The coordinates along the axes.
-    pub(super) along: [String; 2],
+    /// The coordinates along the axes, where they are the same on all planes.
+    pub(super) along: Option<[String; 2]>,
     pub(super) quantity: Quantity,
     pub(super) panels: Vec<MapPanel>,
 }
@@ -77,6 +80,32 @@ pub fn figure(table: &TableReader, map: &Map) -> Result<MapFigure, PlotError> {
 impl Part {
     /// What a map shows of a table.
     pub(super) fn read(table: &TableReader, map: &Map) -> Result<Self, PlotError> {
+        let mut all: Option<Self> = None;
+        for plane in &map.planes {
+            let part = Self::along_axes(table, map, Some(plane))?;
+            let Some(all) = &mut all else {
+                all = Some(part);
+                continue;
+            };
+            all.panels.extend(part.panels);
+            all.along = None;
+            let new = part.over.into_iter();
+            let new: Vec<_> = new.filter(|words| !all.over.contains(words)).collect();
+            all.over.extend(new);
+        }
+        match all {
+            Some(all) => Ok(all),
+            None => Self::along_axes(table, map, None),
+        }
+    }
+
+    /// What it shows along the same axes everywhere, of the planes with one coordinate that is held besides where
+    /// there is one.
+    fn along_axes(
+        table: &TableReader,
+        map: &Map,
+        own: Option<&(String, f64)>,
+    ) -> Result<Self, PlotError> {
         let drawn = Drawn::of_table(&map.value, table)?;
         let rows = map.choice.rows(table)?;
         let mut poses = Poses {
@@ -88,7 +117,8 @@ impl Part {
         poses.coordinates.label(&map.labels);
         let drawn = drawn.labelled(&map.labels);
         let coordinates = &poses.coordinates;
-        let held = map.held(coordinates)?;
+        let held = map.held(coordinates, own)?;
+        let own = own.and_then(|(axis, _)| coordinates.find(axis).ok());
         let free: Vec<usize> = (coordinates.asked.iter().copied())
             .filter(|k| held[*k].is_none())
             .collect();
@@ -103,6 +133,11 @@ impl Part {
                 shown.map(|level| Some((k, level))).collect()
             }
         };
+        let axis = |k: usize| {
+            let coordinate = coordinates.get(k);
+            Quantity::new(&*coordinate.label, coordinate.unit)
+        };
+        let own_place = own.and_then(|k| Some(coordinates.place(k, held[k]?)));
         let mut panels = Vec::new();
         let mut lost = 0;
         for plane in &planes {
@@ -115,7 +150,12 @@ impl Part {
             rows.retain(|row| axes.iter().all(|k| poses.level(*k, *row).is_some()));
             lost += all - rows.len();
             panels.push(MapPanel {
-                name: plane.map_or_else(String::new, |(k, level)| coordinates.place(k, level)),
+                name: {
+                    let across = plane.map(|(k, level)| coordinates.place(k, level));
+                    let names = own_place.iter().cloned().chain(across);
+                    names.collect::<Vec<_>>().join(", ")
+                },
+                axes: own.map(|_| axes.map(axis)),
                 samples: poses.samples(&rows, axes, others.get(1..).unwrap_or_default())?,
             });
         }
@@ -125,7 +165,8 @@ impl Part {
             });
         }
         let mut over: Vec<String> = map.choice.in_words(table).into_iter().collect();
-        let held: Vec<String> = poses.held_in_words(&held, axes).into_iter().collect();
+        let mut held = poses.held_in_words(&held, axes);
+        held.retain(|words| own_place.as_ref() != Some(words));
         over.extend(held.iter().cloned());
         if let Some(k) = across {
             let (all, shown) = (coordinates.count(k), planes.len());
@@ -140,10 +181,6 @@ impl Part {
             1 => over.push("1 pose has no place here".into()),
             lost => over.push(format!("{lost} poses have no place here")),
         }
-        let axis = |k: usize| {
-            let coordinate = coordinates.get(k);
-            Quantity::new(&*coordinate.label, coordinate.unit)
-        };
         Ok(Self {
             words: match drawn.words == drawn.quantity.name {
                 true => drawn.words.clone(),
@@ -152,7 +189,7 @@ impl Part {
             over,
             held,
             axes: axes.map(axis),
-            along: axes.map(|k| coordinates.get(k).name.clone()),
+            along: Some(axes.map(|k| coordinates.get(k).name.clone())),
             quantity: drawn.quantity,
             panels,
         })
@@ -191,14 +228,21 @@ impl Map {
             let drives = names().filter(|name| !COORDINATES.contains(name));
             COORDINATES.into_iter().chain(drives)
         };
-        let planes = self.planes.iter().map(|(axis, _)| axis);
+        let planes = self.plane.iter().chain(&self.planes).map(|(axis, _)| axis);
         for name in planes.chain(self.axes.iter().flatten()) {
             if !all().any(|known| known == name) {
                 return Err(unknown(name, all()));
             }
         }
         self.labels.check(all().chain([&*self.value]))?;
-        for (axis, value) in &self.planes {
+        let twice = |(k, (axis, _)): &(usize, &(String, f64))| {
+            let mut before = self.plane[..*k].iter().chain(&self.planes);
+            before.any(|(other, _)| other == axis)
+        };
+        if let Some((_, (axis, _))) = self.plane.iter().enumerate().find(twice) {
+            return Err(PlotError::HeldTwice { axis: axis.clone() });
+        }
+        for (axis, value) in self.plane.iter().chain(&self.planes) {
             let given = commanded.iter().find(|coordinate| coordinate.name == *axis);
             let Some(given) = given else {
                 return Err(PlotError::Follows {
@@ -219,10 +263,14 @@ impl Map {
         Ok(())
     }
 
-    /// The levels of the coordinates that are held.
-    fn held(&self, coordinates: &Coordinates) -> Result<Held, PlotError> {
+    /// The levels of the coordinates that are held, one of them besides those of all planes.
+    fn held(
+        &self,
+        coordinates: &Coordinates,
+        own: Option<&(String, f64)>,
+    ) -> Result<Held, PlotError> {
         let mut held = vec![None; coordinates.len()];
-        for (axis, value) in &self.planes {
+        for (axis, value) in self.plane.iter().chain(own) {
             let k = coordinates.find(axis)?;
             let follows = coordinates.grid && !coordinates.asked.contains(&k);
             if follows && coordinates.count(k) > 1 {
@@ -230,6 +278,9 @@ impl Map {
                     axis: axis.clone(),
                     asked: coordinates.asked_names(),
                 });
+            }
+            if held[k].is_some() {
+                return Err(PlotError::HeldTwice { axis: axis.clone() });
             }
             held[k] = Some(coordinates.levels(k).asked(axis, *value)?);
         }

@@ -70,6 +70,7 @@ pub fn ratio(tables: [NamedTable<'_>; 2], map: &Map) -> Result<MapFigure, PlotEr
     for (a, b) in first.panels.iter().zip(&second.panels) {
         panels.push(MapPanel {
             name: a.name.clone(),
+            axes: a.axes.clone(),
             samples: divided(&a.samples, &b.samples, &|| other_poses(tables, &a.name))?,
         });
     }
@@ -120,7 +121,7 @@ fn parts(tables: [NamedTable<'_>; 2], map: &Map) -> Result<[Part; 2], PlotError>
     };
     let first = read(tables[0], map)?;
     let map = Map {
-        axes: Some(first.along.clone()),
+        axes: first.along.clone().or_else(|| map.axes.clone()),
         ..map.clone()
     };
     let second = read(tables[1], &map)?;
