@@ -160,7 +160,7 @@ fn check(args: &args::Check, registry: &Registry) -> Result<bool, CliError> {
     let (mut report, error) = match opened {
         Ok(study) => {
             let (report, error) = study.check();
-            let error = error.or_else(|| study.check_figures().err());
+            let error = error.or_else(|| study.check_job().err());
             (report, error)
         }
         // There is nothing to tell in words that the error does not.

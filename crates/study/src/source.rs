@@ -26,10 +26,11 @@ impl Written<'_> {
                 let body = bodies.first().and_then(|name| model.body(name));
                 body.map_or_else(|| self.output(), |body| self.body(body))
             }
-            SolveError::NoDensity { body } => {
-                let body = model.body(body);
-                body.map_or_else(|| self.output(), |body| self.body(body))
-            }
+            SolveError::NoDensity { body } => match (self.job(), model.body(body)) {
+                (Some(job), _) => job.masses_location(),
+                (None, Some(body)) => self.body(body),
+                (None, None) => self.output(),
+            },
             SolveError::Misfit { joints } => self.joint(model, joints.first()),
             SolveError::PreloadOnFreeMotion { joint, .. } => self.joint(model, Some(joint)),
             SolveError::LoadOnFreeMotion {
@@ -69,6 +70,16 @@ impl Written<'_> {
 
     fn load(&self, load: usize) -> Location {
         self.at(|mechanism| mechanism.locate_load(load))
+    }
+
+    /// The job, where the model is written in it alone.
+    fn job(&self) -> Option<&Job> {
+        match self {
+            Self::Mechanism(_) => None,
+            #[cfg(feature = "figures")]
+            Self::Job(job) => job.mechanism().is_none().then_some(job),
+            Self::Design(job, design) => design.mechanism().is_none().then_some(job),
+        }
     }
 
     fn at(&self, locate: impl Fn(&Mechanism) -> Location) -> Location {

@@ -50,6 +50,8 @@ pub struct Job {
     pub(super) columns: Vec<Column>,
     /// Where each of them stands.
     pub(super) column_places: Vec<Place>,
+    /// Where its `modes` stand.
+    pub(super) modes_place: Option<Place>,
     /// Where each figure stands.
     pub(super) figure_places: Vec<figures::Places>,
     /// What is written of it, by field.
@@ -160,6 +162,7 @@ impl Job {
             None => Vec::new(),
         };
         let (figures, figure_places) = figures.into_iter().unzip();
+        let modes_place = fields.get("modes").map(|modes| modes.place());
         let modes = fields.get("modes").map(modes::read).transpose()?;
         let has_modes = modes.is_some();
         let mut first_design = 0;
@@ -187,6 +190,7 @@ impl Job {
             figures,
             figure_places,
             modes,
+            modes_place,
             written: nodes,
             recipe,
             poses,
@@ -348,6 +352,22 @@ impl Job {
     pub fn column_location(&self, number: usize) -> Location {
         let place = self.column_places.get(number);
         place.unwrap_or(&self.place).location()
+    }
+
+    /// Place in the batch file of what asks for masses: of its `modes`, else of the first column or figure that
+    /// does; the job's where nothing does.
+    pub fn masses_location(&self) -> Location {
+        let needs = |column: &Column| matches!(column, Column::Mass | Column::Frequencies(_));
+        let column = self.columns.iter().position(needs);
+        let column = column.and_then(|number| self.column_places.get(number));
+        if let Some(place) = self.modes_place.as_ref().or(column) {
+            return place.location();
+        }
+        let is_mode = |figure: &Figure| matches!(figure, Figure::Mode { .. });
+        match self.figures.iter().position(is_mode) {
+            Some(number) => self.figure_location(number, &[]),
+            None => self.location(),
+        }
     }
 
     /// The coordinates that its poses give, each with a value for every pose, in any order: of the

@@ -212,7 +212,8 @@ impl<'a> Fragment<'a> {
         // What is right instead shows what is wrong.
         let right = match self.text {
             "null" if self.is_json() => Some(NULL.into()),
-            text => slips::in_value(text, &expected).filter(|_| self.source.is_shown()),
+            text => slips::in_value(text, &expected, self.source.text())
+                .filter(|_| self.source.is_shown()),
         };
         match right {
             Some(help) => error.with_help(help),

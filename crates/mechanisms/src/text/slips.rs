@@ -7,6 +7,7 @@ use std::ops::{Range, RangeInclusive};
 
 pub(crate) use separators::decimal_commas;
 
+use super::expression::Expression;
 use super::units;
 
 /// What was probably meant.
@@ -96,7 +97,10 @@ pub(crate) fn in_grammar(text: &str, noticed: usize) -> Option<Slip> {
         '=' => found(
             at,
             "`=` gives nothing a value".into(),
-            "write `field: value`".into(),
+            match expression_behind(text, noticed) {
+                Some(expression) => format!("expressions stand in quotes: write \"{expression}\""),
+                None => "write `field: value`".into(),
+            },
         ),
         ';' => found(
             at,
@@ -163,8 +167,27 @@ fn number(text: &str, noticed: usize) -> Option<Slip> {
     })
 }
 
-/// What is wrong with a value of another kind than wanted, and what would be right.
-pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
+/// The expression that begins with the `=` here, where it stands in the place of a value.
+fn expression_behind(text: &str, at: usize) -> Option<&str> {
+    let before = text[..at].trim_end();
+    let end = text[at..]
+        .find([',', ')', ']', '}', '\n'])
+        .map(|k| at + k)?;
+    let expression = text[at..end].trim_end();
+    (before.ends_with(['(', '[', ',', ':']) && expression.len() > 1).then_some(expression)
+}
+
+/// The expression that a value is without its quotes or its `=`, of names that are all `known` and at least one.
+fn expression_of(text: &str, known: impl Fn(&str) -> bool) -> Option<String> {
+    let quoted = format!("\"= {text}\"");
+    let expression = Expression::read(&quoted);
+    let mut names = expression.names().peekable();
+    names.peek()?;
+    names.all(known).then_some(quoted)
+}
+
+/// What is wrong with a value of another kind than wanted in a file of this text, and what would be right.
+pub(crate) fn in_value(text: &str, expected: &str, file: &str) -> Option<String> {
     let wants_text = expected.contains("quotes");
     let wants_number = expected.contains("number");
     let inner = |quote: char| text.strip_prefix(quote)?.strip_suffix(quote);
@@ -174,13 +197,33 @@ pub(crate) fn in_value(text: &str, expected: &str) -> Option<String> {
     if wants_text && !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() || c == '_') {
         return Some(format!("{QUOTES}: write \"{text}\""));
     }
+    // What stands in quotes before a colon is a name: of a parameter or of a point.
+    let named = |name: &str| {
+        let quoted = format!("\"{name}\"");
+        let mut found = file.match_indices(&quoted);
+        found.any(|(at, _)| file[at + quoted.len()..].trim_start().starts_with(':'))
+    };
+    if wants_number && let Some(right) = expression_of(inner('"').unwrap_or(text), named) {
+        return Some(match inner('"') {
+            Some(_) => format!("expressions begin with `=`: write {right}"),
+            None => format!("expressions stand in quotes, behind `=`: write {right}"),
+        });
+    }
     if wants_number && let Some(inner) = inner('"') {
         return match inner.parse::<f64>() {
             Ok(_) => Some(format!("numbers stand without quotes: write {inner}")),
             Err(_) => {
                 let pointed = inner.replacen(',', ".", 1);
+                let whole = inner.replacen(',', "", 1);
+                let thousands = inner.split_once(',').is_some_and(|(_, rest)| {
+                    let digits = rest.chars().take_while(char::is_ascii_digit).count();
+                    digits == 3 && units::read(&whole, None).is_ok()
+                });
                 let commas = inner.contains(',') && units::read(&pointed, None).is_ok();
                 match commas {
+                    true if thousands => Some(format!(
+                        "write \"{whole}\" without a separator, or \"{pointed}\" with a decimal point"
+                    )),
                     true => Some(format!("write \"{pointed}\", with a decimal point")),
                     false => of_number(inner).map(|(_, help)| help),
                 }

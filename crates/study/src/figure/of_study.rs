@@ -19,6 +19,7 @@ use crate::plot_error::PlotError;
 use crate::schema::{Columns, numeric};
 use crate::selection::{Selection, choose};
 use crate::study::Study;
+use crate::sweep::{Sweep, Way};
 
 /// Most poses that a moving figure runs through.
 const MOST_POSES: usize = 40;
@@ -37,13 +38,16 @@ pub struct Look {
 }
 
 impl Study {
-    /// That the figures of its job can be drawn, as far as that is known before the job is run.
+    /// That its job can be swept and its figures drawn, as far as that is known before the job is run.
     ///
     /// # Errors
     /// What is wrong with the first that is wrong.
-    pub fn check_figures(&self) -> Result<(), StudyError> {
-        let job = self.whole_job();
-        job.map_or(Ok(()), |job| check(job, &numeric(&Columns::of(job))))
+    pub fn check_job(&self) -> Result<(), StudyError> {
+        let Some(job) = self.whole_job() else {
+            return Ok(());
+        };
+        check(job, &numeric(&Columns::of(job)))?;
+        Sweep::new(job, Way::Lanes).map(drop)
     }
 
     /// [`Study::open`] at the pose that has these coordinates, of those that the job's poses give, in

@@ -210,7 +210,10 @@ impl Parser<'_> {
     fn call(&mut self, start: usize, name: &str) -> Result<(), Mistake> {
         let named = start..start + name.len();
         let Some(rule) = functions::find(name) else {
-            let help = names::help(name, "functions", functions::names());
+            let help = match name {
+                "log" => "the natural logarithm is `ln`, that to the base 10 `log10`".into(),
+                _ => names::help(name, "functions", functions::names()),
+            };
             return mistake(named, format!("unknown function `{name}`"), &help);
         };
         let open = self.at;
