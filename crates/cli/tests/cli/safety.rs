@@ -482,7 +482,7 @@ fn what_a_dead_run_left_is_removed() {
     bench
         .hyperstat(&["run", "batch.ron", "--out", "out"])
         .ends_with(0);
-    assert_eq!(bench.names("out"), [".other.csv.1.part", "bar.csv"]);
+    assert_eq!(bench.results("out"), [".other.csv.1.part", "bar.csv"]);
 }
 
 #[test]

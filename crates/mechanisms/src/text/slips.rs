@@ -215,9 +215,9 @@ pub(crate) fn in_value(text: &str, expected: &str, file: &str) -> Option<String>
             Err(_) => {
                 let pointed = inner.replacen(',', ".", 1);
                 let whole = inner.replacen(',', "", 1);
-                let thousands = inner.split_once(',').is_some_and(|(_, rest)| {
+                let thousands = inner.split_once(',').is_some_and(|(first, rest)| {
                     let digits = rest.chars().take_while(char::is_ascii_digit).count();
-                    digits == 3 && units::read(&whole, None).is_ok()
+                    !first.starts_with('0') && digits == 3 && units::read(&whole, None).is_ok()
                 });
                 let commas = inner.contains(',') && units::read(&pointed, None).is_ok();
                 match commas {
