@@ -9,6 +9,7 @@ use super::refused::{Refusal, Refused};
 use super::request::PoseAsked;
 use crate::answer::ModesReport;
 use crate::entries::Entries;
+use crate::schema::STATUS;
 
 impl Subject {
     /// All that is drawn.
@@ -27,7 +28,7 @@ impl Subject {
                 _ => "failed",
             });
             let mut value = json!(scene);
-            value["status"] = json!(status);
+            value[STATUS] = json!(status);
             value["problem"] = json!(problem);
             Ok((value, numbers))
         })
